@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace incise::inline v0 {
+
+/// A point or a vector in space; unit: the mesh's length unit.
+using Vec3 = Eigen::Vector3d;
+
+}  // namespace incise::inline v0
