@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "incise/core/grow_array.h"
+#include "incise/core/id.h"
+
+namespace incise::inline v0 {
+
+/// A growing array that only its own id type indexes.
+template <class IdType, class T>
+class IdArray : public GrowArray<T> {
+ public:
+  T& operator[](IdType id) { return GrowArray<T>::operator[](id.value); }
+  const T& operator[](IdType id) const { return GrowArray<T>::operator[](id.value); }
+};
+
+}  // namespace incise::inline v0

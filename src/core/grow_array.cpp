@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/core/grow_array.h"
+
+#if defined(__linux__) && !defined(__EMSCRIPTEN__)
+#include <sys/mman.h>
+#endif
+
+namespace incise::inline v0::detail {
+
+#if defined(__linux__) && !defined(__EMSCRIPTEN__)
+
+void* reserve_address_space(std::size_t bytes) noexcept {
+  void* start = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  return start == MAP_FAILED ? nullptr : start;
+}
+
+void release_address_space(void* start, std::size_t bytes) noexcept { ::munmap(start, bytes); }
+
+#else
+
+void* reserve_address_space(std::size_t /*bytes*/) noexcept { return nullptr; }
+
+void release_address_space(void* /*start*/, std::size_t /*bytes*/) noexcept {}
+
+#endif
+
+}  // namespace incise::inline v0::detail
