@@ -16,7 +16,7 @@ void* reserve_address_space(std::size_t bytes) noexcept;
 void release_address_space(void* start, std::size_t bytes) noexcept;
 }  // namespace detail
 
-/// A growing array of plain values that does not copy itself while it grows.
+/// A growing array of plain values (ids, numbers, small vectors: anything that may be moved as bytes) that does not copy itself while it grows.
 ///
 /// It reserves address space for `kReservedCount` elements once; pages are backed when first touched, so an array
 /// of ten million tets grows during a stroke without a stall. Where address space cannot be reserved
@@ -24,7 +24,7 @@ void release_address_space(void* start, std::size_t bytes) noexcept;
 /// Not thread-safe for writers.
 template <class T>
 class GrowArray {
-  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(std::is_trivially_destructible_v<T>, "elements are moved as bytes");
 
  public:
   static constexpr std::size_t kReservedCount = std::size_t{1} << 28U;
@@ -136,6 +136,82 @@ class GrowArray {
 
   T* data_ = nullptr;
   std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+  bool is_mapped_ = false;
+};
+
+/// Numbers by slot that all start at zero and cost memory only where they were written.
+///
+/// For marks that live for one transaction or one search on a mesh of any size: construction is O(1) where address
+/// space can be reserved, O(slots) elsewhere.
+template <class T>
+class ZeroedArray {
+ public:
+  ZeroedArray() = default;
+  explicit ZeroedArray(std::size_t count) { ensure(count); }
+  ZeroedArray(const ZeroedArray&) = delete;
+  ZeroedArray& operator=(const ZeroedArray&) = delete;
+  ZeroedArray(ZeroedArray&& other) noexcept { swap(other); }
+  ZeroedArray& operator=(ZeroedArray&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~ZeroedArray() { release(); }
+
+  /// Makes elements [0, count) addressable.
+  void ensure(std::size_t count) {
+    if (count > capacity_) {
+      grow(count);
+    }
+  }
+  T& operator[](std::size_t i) {
+    assert(i < capacity_);
+    return data_[i];
+  }
+  const T& operator[](std::size_t i) const {
+    assert(i < capacity_);
+    return data_[i];
+  }
+  [[nodiscard]] std::size_t capacity() const { return capacity_; }
+
+ private:
+  void grow(std::size_t count) {
+    constexpr std::size_t kReserved = std::size_t{1} << 28U;
+    if (data_ == nullptr && count <= kReserved) {
+      if (void* start = detail::reserve_address_space(kReserved * sizeof(T))) {
+        data_ = static_cast<T*>(start);
+        capacity_ = kReserved;
+        is_mapped_ = true;
+        return;
+      }
+    }
+    const std::size_t capacity = count + count / 2 + 16;
+    T* larger = static_cast<T*>(::operator new(capacity * sizeof(T)));
+    std::memset(static_cast<void*>(larger), 0, capacity * sizeof(T));
+    if (capacity_ > 0) {
+      std::memcpy(static_cast<void*>(larger), data_, capacity_ * sizeof(T));
+    }
+    release();
+    data_ = larger;
+    capacity_ = capacity;
+  }
+  void release() noexcept {
+    if (is_mapped_) {
+      detail::release_address_space(data_, capacity_ * sizeof(T));
+    } else {
+      ::operator delete(static_cast<void*>(data_));
+    }
+    data_ = nullptr;
+    capacity_ = 0;
+    is_mapped_ = false;
+  }
+  void swap(ZeroedArray& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(is_mapped_, other.is_mapped_);
+  }
+
+  T* data_ = nullptr;
   std::size_t capacity_ = 0;
   bool is_mapped_ = false;
 };

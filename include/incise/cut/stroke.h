@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "incise/core/result.h"
+#include "incise/geom/box.h"
+#include "incise/geom/vec.h"
+
+namespace incise::inline v0 {
+
+/// A blade's motion through the rest shape: its cutting edge as a polyline at increasing times.
+///
+/// Between two times the blade sweeps the strip of quads between the two polylines, each split along the diagonal from
+/// the earlier first point to the later second. Each pair of times is one step. Where the first and last point of
+/// every polyline are bitwise equal the edge is closed (coring). A single time sweeps nothing.
+struct Stroke {
+  std::string name;
+  std::vector<double> times;             ///< s, strictly increasing, `n_times`
+  std::vector<std::vector<Vec3>> edges;  ///< `n_times × n_points`, n_points ≥ 2 and the same at all times
+};
+
+/// Whether a stroke keeps the promises above and is finite; the error names the time and point.
+Status check(const Stroke& stroke);
+
+/// A stroke that cuts through everything in `bounds` along the plane n·x = d, in one step.
+///
+/// `normal` of any non-zero finite length. The sweep is exactly planar: one triangle (the second of its quad is empty).
+/// Errors: kBadArgument for a zero or non-finite plane.
+Result<Stroke> plane_stroke(const Box& bounds, const Vec3& normal, double offset);
+
+}  // namespace incise::inline v0

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "incise/mesh/tet_mesh.h"
+
+namespace incise::inline v0 {
+
+// The journal is the mesh's second interface: solvers, renderers and recorders follow it instead of the mesh.
+// Within one step a follower applies the records in the order of the members of `Step`:
+//   born, copied, moved, consumed, produced, rewired, opened, died.
+
+struct BornVertex {
+  VertexId id;
+  std::array<VertexId, 4> parents;  ///< unused entries are invalid
+  std::array<double, 4> weights;    ///< sum to 1 over the valid parents; refer to positions before `moved`
+  Vec3 rest, current;               ///< at birth, bit for bit
+};
+
+struct CopiedVertex {
+  VertexId id, source;  ///< the copy starts with the source's positions after this step's `moved`
+};
+
+struct MovedVertex {
+  VertexId id;
+  Vec3 old_rest, rest, old_current, current;
+};
+
+struct ConsumedTet {
+  TetId id;
+  TetVertices vertices;
+};
+
+struct ProducedTet {
+  TetId id;
+  TetId parent;  ///< the consumed tet that it lies in
+  TetVertices vertices;
+  std::int32_t region;
+};
+
+/// A tet that lives on with other vertices: copies took the place of their sources.
+struct RewiredTet {
+  TetId id;
+  TetVertices old_vertices, vertices;
+};
+
+/// A face that the step turned into two boundary sides.
+struct OpenedFace {
+  Side a, b;
+  std::uint32_t tag;  ///< stroke number, as in `Link::tag`
+};
+
+/// A tet slot as it was.
+struct TetImage {
+  TetId id;
+  TetVertices vertices;
+  TetLinks links;
+  std::int32_t region;
+};
+
+/// A vertex slot as it was.
+struct VertexImage {
+  VertexId id;
+  Vec3 rest, current;
+  TetId tet;
+  VertexId origin;
+  std::uint8_t shape;
+};
+
+/// All slots that a step touched, as they stand on one side of it, with the free lists above their common part.
+struct StepImage {
+  std::vector<TetImage> tets;
+  std::vector<VertexImage> vertices;
+  std::vector<std::uint32_t> free_tets, free_vertices;
+  std::uint32_t tet_slots = 0, vertex_slots = 0;
+};
+
+/// One committed step: the net effect of a transaction, with what is needed to invert it.
+struct Step {
+  std::vector<BornVertex> born;
+  std::vector<CopiedVertex> copied;
+  std::vector<MovedVertex> moved;
+  std::vector<ConsumedTet> consumed;
+  std::vector<ProducedTet> produced;
+  std::vector<RewiredTet> rewired;
+  std::vector<OpenedFace> opened;
+  std::vector<VertexId> died;
+
+  StepImage before, after;  ///< `after` is filled by the first undo
+  std::size_t free_tets_common = 0, free_vertices_common = 0;
+  std::vector<TetId> new_tets;         ///< slots taken by the step
+  std::vector<VertexId> new_vertices;  ///< slots taken by the step
+
+  [[nodiscard]] bool is_empty() const { return before.tets.empty() && before.vertices.empty() && new_tets.empty(); }
+};
+
+/// The committed steps of one mesh, in order, with a position that undo and redo move.
+///
+/// Followers pull: they remember how many steps they applied and catch up between commits.
+class Journal {
+ public:
+  /// Appends a step; steps that were undone are dropped.
+  void append(Step step);
+  /// Steps applied so far.
+  [[nodiscard]] std::size_t position() const { return position_; }
+  [[nodiscard]] std::size_t size() const { return steps_.size(); }
+  [[nodiscard]] const Step& step(std::size_t index) const { return steps_[index]; }
+  /// Takes the last applied step back: the mesh, its slots and its free lists are bit for bit as before it.
+  /// Returns false where there is none. Cost: O(step).
+  bool undo(TetMesh& mesh);
+  /// Applies the next undone step again. Returns false where there is none. Cost: O(step).
+  bool redo(TetMesh& mesh);
+  void clear();
+
+ private:
+  static void restore(TetMesh& mesh, const Step& step, const StepImage& image);
+  static void count_change(bool was_live, bool is_live, std::size_t& live, std::uint32_t& generation);
+
+  std::vector<Step> steps_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace incise::inline v0

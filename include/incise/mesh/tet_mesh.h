@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "incise/core/id_array.h"
+#include "incise/core/result.h"
+#include "incise/geom/vec.h"
+#include "incise/mesh/tet_soup.h"
+#include "incise/mesh/tet_tables.h"
+
+namespace incise::inline v0 {
+
+/// One side of one tet: the face opposite a corner, as that tet sees it.
+struct Side {
+  std::uint32_t value = kInvalidIndex;  ///< tet slot · 4 + side
+
+  constexpr Side() = default;
+  constexpr Side(TetId tet, unsigned side) : value(tet.value * 4 + side) {}
+  [[nodiscard]] constexpr TetId tet() const { return TetId(value >> 2U); }
+  [[nodiscard]] constexpr unsigned side() const { return value & 3U; }
+  friend constexpr bool operator==(Side a, Side b) { return a.value == b.value; }
+  friend constexpr bool operator!=(Side a, Side b) { return a.value != b.value; }
+  friend constexpr bool operator<(Side a, Side b) { return a.value < b.value; }
+};
+
+/// What lies behind a side of a tet: the matching side of its neighbour, or the boundary with a tag.
+struct Link {
+  static constexpr std::uint32_t kBoundaryBit = 0x80000000U;
+  std::uint32_t value = kBoundaryBit;
+
+  constexpr Link() = default;
+  /// The other tet's view of the shared face.
+  constexpr explicit Link(Side other) : value(other.value) {}
+  /// A boundary: tag 0 is skin, tag k > 0 is the cut wall of stroke k.
+  static constexpr Link boundary(std::uint32_t tag) {
+    Link link;
+    link.value = kBoundaryBit | tag;
+    return link;
+  }
+  [[nodiscard]] constexpr bool is_boundary() const { return (value & kBoundaryBit) != 0; }
+  [[nodiscard]] constexpr std::uint32_t tag() const { return value & ~kBoundaryBit; }
+  [[nodiscard]] constexpr Side side() const {
+    Side other;
+    other.value = value;
+    return other;
+  }
+  friend constexpr bool operator==(Link a, Link b) { return a.value == b.value; }
+  friend constexpr bool operator!=(Link a, Link b) { return a.value != b.value; }
+};
+
+using TetVertices = std::array<VertexId, 4>;
+using TetLinks = std::array<Link, 4>;
+
+/// What a vertex is part of: one bit mask that snapping, collapse, flips and smoothing read alike.
+/// No bit: an interior vertex.
+namespace shape {
+inline constexpr std::uint8_t kSkin = 1;     ///< on the body's original surface
+inline constexpr std::uint8_t kWall = 2;     ///< on a cut wall; with kSkin: on the contour of a cut
+inline constexpr std::uint8_t kFront = 4;    ///< where a cut ends inside the body
+inline constexpr std::uint8_t kPinched = 8;  ///< its tets were not face-connected at load: a defect of the input
+inline constexpr std::uint8_t kDead = 128;   ///< the slot is free
+}  // namespace shape
+
+class Transaction;
+
+/// A tetrahedral mesh as a structure of arrays with tet-to-tet adjacency.
+///
+/// Slots: every tet and vertex lives in a numbered slot until it dies; freed slots are reused, last freed first, but
+/// never inside the transaction that freed them. A generation per slot tells reuse apart and only grows.
+/// Faces and edges are not stored: a face is a `Side`, an edge a pair of vertices.
+/// Edits go through `Transaction`; const reads are safe from any thread between commits.
+/// Memory: about 52 bytes per tet, vertices included, on meshes with 5 to 6 tets per vertex.
+class TetMesh {
+ public:
+  /// The largest number of tet slots that a `Link` can address.
+  static constexpr std::uint32_t kMaxTets = 1U << 28U;
+
+  TetMesh() = default;
+
+  /// Builds the mesh and its adjacency from a soup.
+  ///
+  /// Every tet must be positive or flat and appear once (`normalise` sees to that); indices must be in range
+  /// and points finite. A face with more than two tets gets no neighbours: each of its sides is boundary.
+  /// Points without tets are kept as vertices. Slot numbers equal positions in the soup.
+  /// Errors: kBadArgument names the first offending tet or point; kOutOfMemory above 2^28 tets.
+  /// Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet.
+  static Result<TetMesh> build(TetSoup soup);
+
+  [[nodiscard]] std::size_t tet_count() const { return live_tets_; }
+  [[nodiscard]] std::size_t vertex_count() const { return live_vertices_; }
+  /// One past the largest slot in use; loop over slots and skip those that are not live.
+  [[nodiscard]] std::uint32_t tet_slots() const { return static_cast<std::uint32_t>(tet_vertices_.size()); }
+  [[nodiscard]] std::uint32_t vertex_slots() const { return static_cast<std::uint32_t>(vertex_tet_.size()); }
+
+  [[nodiscard]] bool is_live(TetId tet) const {
+    return tet.value < tet_slots() && tet_vertices_[tet][0].is_valid();
+  }
+  [[nodiscard]] bool is_live(VertexId vertex) const {
+    return vertex.value < vertex_slots() && (vertex_shape_[vertex] & shape::kDead) == 0;
+  }
+  [[nodiscard]] std::uint32_t generation(TetId tet) const { return tet_generation_[tet]; }
+  [[nodiscard]] std::uint32_t generation(VertexId vertex) const { return vertex_generation_[vertex]; }
+
+  [[nodiscard]] const TetVertices& vertices(TetId tet) const { return tet_vertices_[tet]; }
+  [[nodiscard]] const TetLinks& links(TetId tet) const { return tet_links_[tet]; }
+  [[nodiscard]] Link link(Side side) const { return tet_links_[side.tet()][side.side()]; }
+  [[nodiscard]] std::int32_t region(TetId tet) const { return tet_region_[tet]; }
+  /// The three vertices of a side, counter-clockwise seen from outside.
+  [[nodiscard]] std::array<VertexId, 3> vertices(Side side) const {
+    const TetVertices& corners = tet_vertices_[side.tet()];
+    const auto& order = kSideCorners[side.side()];
+    return {corners[order[0]], corners[order[1]], corners[order[2]]};
+  }
+  /// The corner of `tet` that holds `vertex`; 4 where none does.
+  [[nodiscard]] unsigned corner_of(TetId tet, VertexId vertex) const {
+    const TetVertices& corners = tet_vertices_[tet];
+    unsigned corner = 0;
+    while (corner < 4 && corners[corner] != vertex) {
+      ++corner;
+    }
+    return corner;
+  }
+
+  /// One tet that contains the vertex; invalid for a vertex without tets.
+  [[nodiscard]] TetId tet_of(VertexId vertex) const { return vertex_tet_[vertex]; }
+  /// The bits of `shape`.
+  [[nodiscard]] std::uint8_t shape_of(VertexId vertex) const { return vertex_shape_[vertex]; }
+  /// The input vertex that this one is, or was duplicated from; invalid where a cut made it.
+  [[nodiscard]] VertexId origin(VertexId vertex) const { return vertex_origin_[vertex]; }
+  [[nodiscard]] const Vec3& rest(VertexId vertex) const { return rest_[vertex]; }
+  [[nodiscard]] const Vec3& current(VertexId vertex) const { return current_[vertex]; }
+  /// Six times the signed rest volume; positive for a sound tet.
+  [[nodiscard]] double rest_volume6(TetId tet) const;
+  /// The signed rest volume, in cubed length units.
+  [[nodiscard]] double rest_volume(TetId tet) const { return rest_volume6(tet) / 6.0; }
+
+  /// The tets with exact-sign rest volume ≤ 0 that the input brought along, ascending. They never grow in number.
+  [[nodiscard]] const std::vector<TetId>& flat_at_load() const { return flat_at_load_; }
+
+  /// Calls `visit(TetId)` for every live tet, ascending.
+  template <class Visit>
+  void for_each_tet(Visit&& visit) const {
+    for (std::uint32_t slot = 0; slot < tet_slots(); ++slot) {
+      if (tet_vertices_[TetId(slot)][0].is_valid()) {
+        visit(TetId(slot));
+      }
+    }
+  }
+  /// Calls `visit(VertexId)` for every live vertex, ascending.
+  template <class Visit>
+  void for_each_vertex(Visit&& visit) const {
+    for (std::uint32_t slot = 0; slot < vertex_slots(); ++slot) {
+      if ((vertex_shape_[VertexId(slot)] & shape::kDead) == 0) {
+        visit(VertexId(slot));
+      }
+    }
+  }
+
+  /// The hash of connectivity, rest positions, regions, tags and free lists; generations stay out of it,
+  /// so that undo restores it. Equal on every compiler and target. Cost: O(slots), about 20 ns per tet.
+  [[nodiscard]] std::uint64_t hash() const;
+
+  /// Bytes held by the arrays, as used (not as reserved).
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  friend class Transaction;
+  friend class Journal;
+
+  Status take_points(const TetSoup& soup);
+  Status take_tets(const TetSoup& soup);
+  void link_faces();
+  void mark_shapes();
+
+  IdArray<TetId, TetVertices> tet_vertices_;
+  IdArray<TetId, TetLinks> tet_links_;
+  IdArray<TetId, std::int32_t> tet_region_;
+  IdArray<TetId, std::uint32_t> tet_generation_;
+  IdArray<VertexId, Vec3> rest_;
+  IdArray<VertexId, Vec3> current_;
+  IdArray<VertexId, TetId> vertex_tet_;
+  IdArray<VertexId, VertexId> vertex_origin_;
+  IdArray<VertexId, std::uint32_t> vertex_generation_;
+  IdArray<VertexId, std::uint8_t> vertex_shape_;
+  GrowArray<std::uint32_t> free_tets_;
+  GrowArray<std::uint32_t> free_vertices_;
+  std::vector<TetId> flat_at_load_;
+  std::size_t live_tets_ = 0;
+  std::size_t live_vertices_ = 0;
+};
+
+}  // namespace incise::inline v0

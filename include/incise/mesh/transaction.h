@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "incise/mesh/journal.h"
+
+namespace incise::inline v0 {
+
+/// One batch of edits of one mesh: everything or nothing.
+///
+/// The members are the primitive edits that the verbs of `mesh/verbs.h` and the cutting kernel are made of. They keep
+/// no invariant by themselves; whoever uses them promises a valid mesh at `commit`. Before the first change of a slot
+/// its image is kept, so that `rollback` (or destruction without commit) restores the mesh bit for bit.
+/// Slots freed here are not reused before the commit. One transaction at a time per mesh.
+class Transaction {
+ public:
+  explicit Transaction(TetMesh& mesh);
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  ~Transaction();
+
+  [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
+
+  /// A new vertex at the given rest and current position; `parents` (1 to 4) and `weights` say where it came from.
+  VertexId add_vertex(std::span<const VertexId> parents, std::span<const double> weights, const Vec3& rest,
+                      const Vec3& current);
+  /// A new vertex on the edge (a, b) at (1-t)·a + t·b, at rest and currently. `t` in (0, 1).
+  VertexId add_vertex_on_edge(VertexId a, VertexId b, double t);
+  /// A twin of `source` at the same place.
+  VertexId copy_vertex(VertexId source);
+  /// A new tet; its links are boundary with tag 0 until set. `parent` is the tet that it takes material from.
+  TetId add_tet(const TetVertices& vertices, TetId parent);
+  void remove_tet(TetId tet);
+  void remove_vertex(VertexId vertex);
+
+  /// One direction only; see `join`.
+  void set_link(Side side, Link link);
+  /// Makes two sides neighbours.
+  void join(Side a, Side b);
+  /// Turns a face into two boundary sides with the tag of a stroke.
+  void open(Side a, Side b, std::uint32_t tag);
+  void set_corner(TetId tet, unsigned corner, VertexId vertex);
+  void set_tet_of(VertexId vertex, TetId tet);
+  void set_shape(VertexId vertex, std::uint8_t bits);
+  void move(VertexId vertex, const Vec3& rest, const Vec3& current);
+
+  /// Slots taken so far.
+  [[nodiscard]] const std::vector<TetId>& new_tets() const { return step_.new_tets; }
+  [[nodiscard]] const std::vector<VertexId>& new_vertices() const { return step_.new_vertices; }
+  /// The tet, dead or alive, that a new tet takes its material from, down to a tet that lived before the transaction.
+  [[nodiscard]] TetId root_parent(TetId tet) const;
+
+  /// Makes the edits permanent and returns them. Cost: O(edits).
+  Step commit();
+  /// Restores the mesh as it was at construction.
+  void rollback();
+
+ private:
+  void touch(TetId tet);
+  void touch(VertexId vertex);
+  void record_tets();
+  void record_vertices();
+  void record_opened();
+  void release_slots();
+  std::uint32_t take_tet_slot();
+  std::uint32_t take_vertex_slot();
+
+  TetMesh& mesh_;
+  Step step_;
+  ZeroedArray<std::uint32_t> tet_mark_;     // 0 untouched, 1 touched, 2 + index where the transaction took the slot
+  ZeroedArray<std::uint32_t> vertex_mark_;  // likewise
+  std::vector<TetId> parents_;                    // of new_tets
+  std::vector<TetId> removed_tets_;
+  std::vector<VertexId> removed_vertices_;
+  std::vector<OpenedFace> opened_;
+  bool is_open_ = true;
+};
+
+}  // namespace incise::inline v0

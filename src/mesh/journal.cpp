@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/mesh/journal.h"
+
+#include <utility>
+
+namespace incise::inline v0 {
+
+void Journal::append(Step step) {
+  steps_.resize(position_);
+  steps_.push_back(std::move(step));
+  ++position_;
+}
+
+void Journal::clear() {
+  steps_.clear();
+  position_ = 0;
+}
+
+namespace {
+
+constexpr TetVertices kNoVertices{};
+
+/// What stands above the first `common` entries of a free list.
+std::vector<std::uint32_t> tail(const GrowArray<std::uint32_t>& list, std::size_t common) {
+  return {list.begin() + common, list.end()};
+}
+
+StepImage image_of(const TetMesh& mesh, const Step& step, const GrowArray<std::uint32_t>& free_tets,
+                   const GrowArray<std::uint32_t>& free_vertices) {
+  StepImage image;
+  const auto keep_tet = [&](TetId id) {
+    image.tets.push_back({id, mesh.vertices(id), mesh.links(id), mesh.region(id)});
+  };
+  const auto keep_vertex = [&](VertexId id) {
+    image.vertices.push_back({id, mesh.rest(id), mesh.current(id), mesh.tet_of(id), mesh.origin(id), mesh.shape_of(id)});
+  };
+  for (const TetImage& old : step.before.tets) keep_tet(old.id);
+  for (const TetId id : step.new_tets) keep_tet(id);
+  for (const VertexImage& old : step.before.vertices) keep_vertex(old.id);
+  for (const VertexId id : step.new_vertices) keep_vertex(id);
+  image.free_tets = tail(free_tets, step.free_tets_common);
+  image.free_vertices = tail(free_vertices, step.free_vertices_common);
+  image.tet_slots = mesh.tet_slots();
+  image.vertex_slots = mesh.vertex_slots();
+  return image;
+}
+
+void restore_free_list(GrowArray<std::uint32_t>& list, std::size_t common, const std::vector<std::uint32_t>& above) {
+  list.resize(common);
+  for (const std::uint32_t slot : above) {
+    list.push_back(slot);
+  }
+}
+
+}  // namespace
+
+bool Journal::undo(TetMesh& mesh) {
+  if (position_ == 0) {
+    return false;
+  }
+  Step& step = steps_[--position_];
+  step.after = image_of(mesh, step, mesh.free_tets_, mesh.free_vertices_);
+  for (const TetId id : step.new_tets) {
+    if (mesh.is_live(id)) {
+      mesh.tet_vertices_[id] = kNoVertices;
+      ++mesh.tet_generation_[id];
+      --mesh.live_tets_;
+    }
+  }
+  for (const VertexId id : step.new_vertices) {
+    if (mesh.is_live(id)) {
+      mesh.vertex_shape_[id] = shape::kDead;
+      ++mesh.vertex_generation_[id];
+      --mesh.live_vertices_;
+    }
+  }
+  restore(mesh, step, step.before);
+  return true;
+}
+
+bool Journal::redo(TetMesh& mesh) {
+  if (position_ == steps_.size()) {
+    return false;
+  }
+  Step& step = steps_[position_++];
+  restore(mesh, step, step.after);
+  return true;
+}
+
+void Journal::restore(TetMesh& mesh, const Step& step, const StepImage& image) {
+  mesh.tet_vertices_.resize(image.tet_slots);
+  mesh.tet_links_.resize(image.tet_slots);
+  mesh.tet_region_.resize(image.tet_slots);
+  mesh.rest_.resize(image.vertex_slots);
+  mesh.current_.resize(image.vertex_slots);
+  mesh.vertex_tet_.resize(image.vertex_slots);
+  mesh.vertex_origin_.resize(image.vertex_slots);
+  mesh.vertex_shape_.resize(image.vertex_slots, shape::kDead);
+  for (const TetImage& old : image.tets) {
+    const bool was_live = mesh.is_live(old.id);
+    mesh.tet_vertices_[old.id] = old.vertices;
+    mesh.tet_links_[old.id] = old.links;
+    mesh.tet_region_[old.id] = old.region;
+    count_change(was_live, mesh.is_live(old.id), mesh.live_tets_, mesh.tet_generation_[old.id]);
+  }
+  for (const VertexImage& old : image.vertices) {
+    const bool was_live = mesh.is_live(old.id);
+    mesh.rest_[old.id] = old.rest;
+    mesh.current_[old.id] = old.current;
+    mesh.vertex_tet_[old.id] = old.tet;
+    mesh.vertex_origin_[old.id] = old.origin;
+    mesh.vertex_shape_[old.id] = old.shape;
+    count_change(was_live, mesh.is_live(old.id), mesh.live_vertices_, mesh.vertex_generation_[old.id]);
+  }
+  restore_free_list(mesh.free_tets_, step.free_tets_common, image.free_tets);
+  restore_free_list(mesh.free_vertices_, step.free_vertices_common, image.free_vertices);
+}
+
+void Journal::count_change(bool was_live, bool is_live, std::size_t& live, std::uint32_t& generation) {
+  if (was_live && !is_live) {
+    --live;
+    ++generation;
+  } else if (!was_live && is_live) {
+    ++live;
+  }
+}
+
+}  // namespace incise::inline v0

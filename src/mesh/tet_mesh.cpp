@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/mesh/tet_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "incise/core/hash.h"
+#include "incise/mesh/star.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Vertex slots of one face in ascending order.
+struct FaceKey {
+  std::uint32_t low, middle, high;
+};
+
+FaceKey key_of(const std::array<VertexId, 3>& face) {
+  std::uint32_t a = face[0].value, b = face[1].value, c = face[2].value;
+  if (a > b) std::swap(a, b);
+  if (b > c) std::swap(b, c);
+  if (a > b) std::swap(a, b);
+  return {a, b, c};
+}
+
+Error bad_tet(std::size_t tet, const std::string& what) {
+  return {ErrorCode::kBadArgument, "tet " + std::to_string(tet) + " " + what, {tet}};
+}
+
+}  // namespace
+
+double TetMesh::rest_volume6(TetId tet) const {
+  const TetVertices& v = tet_vertices_[tet];
+  const Vec3& a = rest_[v[0]];
+  return (rest_[v[1]] - a).cross(rest_[v[2]] - a).dot(rest_[v[3]] - a);
+}
+
+Result<TetMesh> TetMesh::build(TetSoup soup) {
+  TetMesh mesh;
+  if (Status status = mesh.take_points(soup); !status) {
+    return status.error();
+  }
+  std::vector<Vec3>().swap(soup.points);
+  if (Status status = mesh.take_tets(soup); !status) {
+    return status.error();
+  }
+  soup = {};
+  mesh.link_faces();
+  mesh.mark_shapes();
+  return mesh;
+}
+
+Status TetMesh::take_points(const TetSoup& soup) {
+  const std::size_t count = soup.points.size();
+  if (count >= kMaxTets) {
+    return Error{ErrorCode::kOutOfMemory, "more than 2^28 points", {}};
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3& p = soup.points[i];
+    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
+      return Error{ErrorCode::kBadArgument, "point " + std::to_string(i) + " is not finite", {i}};
+    }
+    rest_.push_back(p);
+    vertex_origin_.push_back(VertexId(static_cast<std::uint32_t>(i)));
+  }
+  current_ = rest_;
+  vertex_tet_.resize(count);
+  vertex_generation_.resize(count, 0);
+  vertex_shape_.resize(count, 0);
+  live_vertices_ = count;
+  return {};
+}
+
+Status TetMesh::take_tets(const TetSoup& soup) {
+  const std::size_t count = soup.tets.size();
+  if (count >= kMaxTets) {
+    return Error{ErrorCode::kOutOfMemory, "more than 2^28 tets", {}};
+  }
+  if (!soup.regions.empty() && soup.regions.size() != count) {
+    return Error{ErrorCode::kBadArgument, "the number of regions differs from the number of tets", {}};
+  }
+  for (std::size_t t = 0; t < count; ++t) {
+    const TetId id(static_cast<std::uint32_t>(t));
+    TetVertices corners;
+    for (unsigned c = 0; c < 4; ++c) {
+      const std::uint32_t point = soup.tets[t][c];
+      if (point >= vertex_slots()) {
+        return bad_tet(t, "refers to point " + std::to_string(point) + ", which does not exist");
+      }
+      corners[c] = VertexId(point);
+      vertex_tet_[corners[c]] = id;
+    }
+    if (corners[0] == corners[1] || corners[0] == corners[2] || corners[0] == corners[3] || corners[1] == corners[2] ||
+        corners[1] == corners[3] || corners[2] == corners[3]) {
+      return bad_tet(t, "names a point twice");
+    }
+    tet_vertices_.push_back(corners);
+    tet_region_.push_back(soup.regions.empty() ? 0 : soup.regions[t]);
+  }
+  tet_links_.resize(count);
+  tet_generation_.resize(count, 0);
+  live_tets_ = count;
+  for_each_tet([&](TetId id) {
+    if (!(rest_volume6(id) > 0)) {
+      flat_at_load_.push_back(id);
+    }
+  });
+  return {};
+}
+
+/// Pairs the faces by bucket of their lowest vertex: one pass to count, one to fill, one to match.
+void TetMesh::link_faces() {
+  std::vector<std::uint32_t> start(vertex_slots() + std::size_t{1}, 0);
+  for_each_tet([&](TetId id) {
+    for (unsigned s = 0; s < 4; ++s) {
+      ++start[key_of(vertices(Side(id, s))).low + std::size_t{1}];
+    }
+  });
+  for (std::size_t v = 1; v < start.size(); ++v) {
+    start[v] += start[v - 1];
+  }
+  std::vector<Side> bucket(start.back());
+  for_each_tet([&](TetId id) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Side side(id, s);
+      bucket[start[key_of(vertices(side)).low]++] = side;
+    }
+  });
+  struct Entry {
+    std::uint64_t key;
+    Side side;
+    bool operator<(const Entry& other) const { return key != other.key ? key < other.key : side < other.side; }
+  };
+  std::vector<Entry> faces;
+  for (std::size_t begin = 0, v = 0; v < vertex_slots(); begin = start[v++]) {
+    faces.clear();
+    for (std::size_t i = begin; i < start[v]; ++i) {
+      const FaceKey key = key_of(vertices(bucket[i]));
+      faces.push_back({(std::uint64_t{key.middle} << 32U) | key.high, bucket[i]});
+    }
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 0; i < faces.size();) {
+      std::size_t next = i + 1;
+      while (next < faces.size() && faces[next].key == faces[i].key) {
+        ++next;
+      }
+      if (next - i == 2) {  // more than two tets on a face: a defect of the input; all its sides stay boundary
+        const Side a = faces[i].side, b = faces[i + 1].side;
+        tet_links_[a.tet()][a.side()] = Link(b);
+        tet_links_[b.tet()][b.side()] = Link(a);
+      }
+      i = next;
+    }
+  }
+}
+
+void TetMesh::mark_shapes() {
+  std::vector<std::uint32_t> incident(vertex_slots(), 0);
+  std::vector<bool> is_skin(vertex_slots(), false);
+  for_each_tet([&](TetId id) {
+    for (unsigned s = 0; s < 4; ++s) {
+      ++incident[tet_vertices_[id][s].value];
+      if (tet_links_[id][s].is_boundary()) {
+        for (const VertexId v : vertices(Side(id, s))) {
+          is_skin[v.value] = true;
+        }
+      }
+    }
+  });
+  StarWalker walker;
+  for (std::uint32_t slot = 0; slot < vertex_slots(); ++slot) {
+    const VertexId v(slot);
+    if (!is_skin[slot]) {
+      continue;  // a vertex without boundary sides has a closed star
+    }
+    vertex_shape_[v] = shape::kSkin;
+    if (walker.star(*this, v).size() != incident[slot]) {
+      vertex_shape_[v] |= shape::kPinched;
+    }
+  }
+}
+
+std::uint64_t TetMesh::hash() const {
+  StateHash hash;
+  const auto pair = [](std::uint32_t a, std::uint32_t b) { return (std::uint64_t{a} << 32U) | b; };
+  hash.add(pair(tet_slots(), vertex_slots()));
+  for_each_tet([&](TetId id) {
+    const TetVertices& v = tet_vertices_[id];
+    const TetLinks& n = tet_links_[id];
+    hash.add(pair(id.value, static_cast<std::uint32_t>(tet_region_[id])));
+    hash.add(pair(v[0].value, v[1].value));
+    hash.add(pair(v[2].value, v[3].value));
+    hash.add(pair(n[0].value, n[1].value));
+    hash.add(pair(n[2].value, n[3].value));
+  });
+  for_each_vertex([&](VertexId id) {
+    hash.add(pair(id.value, vertex_tet_[id].value));
+    hash.add(pair(vertex_origin_[id].value, vertex_shape_[id]));
+    for (int axis = 0; axis < 3; ++axis) {
+      hash.add(rest_[id][axis]);
+    }
+  });
+  for (const std::uint32_t slot : free_tets_) hash.add(std::uint64_t{slot});
+  for (const std::uint32_t slot : free_vertices_) hash.add(std::uint64_t{slot});
+  return hash.value();
+}
+
+std::size_t TetMesh::memory_bytes() const {
+  const std::size_t per_tet = sizeof(TetVertices) + sizeof(TetLinks) + sizeof(std::int32_t) + sizeof(std::uint32_t);
+  const std::size_t per_vertex = 2 * sizeof(Vec3) + sizeof(TetId) + sizeof(VertexId) + sizeof(std::uint32_t) + 1;
+  return tet_slots() * per_tet + vertex_slots() * per_vertex +
+         (free_tets_.size() + free_vertices_.size()) * sizeof(std::uint32_t);
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/mesh/transaction.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace incise::inline v0 {
+
+namespace {
+
+constexpr std::uint32_t kTouched = 1;
+constexpr std::uint32_t kFirstNew = 2;
+constexpr TetVertices kNoVertices{};
+
+}  // namespace
+
+Transaction::Transaction(TetMesh& mesh)
+    : mesh_(mesh), tet_mark_(mesh.tet_slots()), vertex_mark_(mesh.vertex_slots()) {
+  step_.before.tet_slots = mesh.tet_slots();
+  step_.before.vertex_slots = mesh.vertex_slots();
+  step_.free_tets_common = mesh.free_tets_.size();
+  step_.free_vertices_common = mesh.free_vertices_.size();
+}
+
+Transaction::~Transaction() {
+  if (is_open_) {
+    rollback();
+  }
+}
+
+void Transaction::touch(TetId tet) {
+  if (tet_mark_[tet.value] == 0) {
+    tet_mark_[tet.value] = kTouched;
+    step_.before.tets.push_back({tet, mesh_.tet_vertices_[tet], mesh_.tet_links_[tet], mesh_.tet_region_[tet]});
+  }
+}
+
+void Transaction::touch(VertexId vertex) {
+  if (vertex_mark_[vertex.value] == 0) {
+    vertex_mark_[vertex.value] = kTouched;
+    step_.before.vertices.push_back({vertex, mesh_.rest_[vertex], mesh_.current_[vertex], mesh_.vertex_tet_[vertex],
+                                     mesh_.vertex_origin_[vertex], mesh_.vertex_shape_[vertex]});
+  }
+}
+
+std::uint32_t Transaction::take_tet_slot() {
+  std::uint32_t slot = 0;
+  if (mesh_.free_tets_.empty()) {
+    slot = mesh_.tet_slots();
+    mesh_.tet_vertices_.push_back(kNoVertices);
+    mesh_.tet_links_.push_back({});
+    mesh_.tet_region_.push_back(0);
+    if (mesh_.tet_generation_.size() <= slot) {
+      mesh_.tet_generation_.push_back(0);
+    }
+  } else {
+    slot = mesh_.free_tets_.back();
+    mesh_.free_tets_.pop_back();
+    if (mesh_.free_tets_.size() < step_.free_tets_common) {
+      --step_.free_tets_common;
+      step_.before.free_tets.push_back(slot);
+    }
+  }
+  tet_mark_.ensure(std::size_t{slot} + 1);
+  tet_mark_[slot] = kFirstNew + static_cast<std::uint32_t>(step_.new_tets.size());
+  step_.new_tets.push_back(TetId(slot));
+  return slot;
+}
+
+std::uint32_t Transaction::take_vertex_slot() {
+  std::uint32_t slot = 0;
+  if (mesh_.free_vertices_.empty()) {
+    slot = mesh_.vertex_slots();
+    mesh_.rest_.push_back(Vec3::Zero());
+    mesh_.current_.push_back(Vec3::Zero());
+    mesh_.vertex_tet_.push_back({});
+    mesh_.vertex_origin_.push_back({});
+    mesh_.vertex_shape_.push_back(0);
+    if (mesh_.vertex_generation_.size() <= slot) {
+      mesh_.vertex_generation_.push_back(0);
+    }
+  } else {
+    slot = mesh_.free_vertices_.back();
+    mesh_.free_vertices_.pop_back();
+    if (mesh_.free_vertices_.size() < step_.free_vertices_common) {
+      --step_.free_vertices_common;
+      step_.before.free_vertices.push_back(slot);
+    }
+  }
+  vertex_mark_.ensure(std::size_t{slot} + 1);
+  vertex_mark_[slot] = kFirstNew + static_cast<std::uint32_t>(step_.new_vertices.size());
+  step_.new_vertices.push_back(VertexId(slot));
+  ++mesh_.live_vertices_;
+  return slot;
+}
+
+VertexId Transaction::add_vertex(std::span<const VertexId> parents, std::span<const double> weights, const Vec3& rest,
+                                 const Vec3& current) {
+  assert(parents.size() == weights.size() && !parents.empty() && parents.size() <= 4);
+  const VertexId id(take_vertex_slot());
+  mesh_.rest_[id] = rest;
+  mesh_.current_[id] = current;
+  mesh_.vertex_tet_[id] = TetId();
+  mesh_.vertex_origin_[id] = VertexId();
+  mesh_.vertex_shape_[id] = 0;
+  BornVertex record{id, {}, {}, rest, current};
+  std::copy(parents.begin(), parents.end(), record.parents.begin());
+  std::copy(weights.begin(), weights.end(), record.weights.begin());
+  step_.born.push_back(record);
+  return id;
+}
+
+VertexId Transaction::add_vertex_on_edge(VertexId a, VertexId b, double t) {
+  const std::array<VertexId, 2> parents = {a, b};
+  const std::array<double, 2> weights = {1.0 - t, t};
+  const Vec3 rest = mesh_.rest_[a] + t * (mesh_.rest_[b] - mesh_.rest_[a]);
+  const Vec3 current = mesh_.current_[a] + t * (mesh_.current_[b] - mesh_.current_[a]);
+  return add_vertex(parents, weights, rest, current);
+}
+
+VertexId Transaction::copy_vertex(VertexId source) {
+  const VertexId id(take_vertex_slot());
+  mesh_.rest_[id] = mesh_.rest_[source];
+  mesh_.current_[id] = mesh_.current_[source];
+  mesh_.vertex_tet_[id] = TetId();
+  mesh_.vertex_origin_[id] = mesh_.vertex_origin_[source];
+  mesh_.vertex_shape_[id] = mesh_.vertex_shape_[source];
+  step_.copied.push_back({id, source});
+  return id;
+}
+
+TetId Transaction::add_tet(const TetVertices& vertices, TetId parent) {
+  const TetId id(take_tet_slot());
+  mesh_.tet_vertices_[id] = vertices;
+  mesh_.tet_links_[id] = {};
+  mesh_.tet_region_[id] = mesh_.tet_region_[parent];
+  parents_.push_back(parent);
+  ++mesh_.live_tets_;
+  return id;
+}
+
+void Transaction::remove_tet(TetId tet) {
+  touch(tet);
+  mesh_.tet_vertices_[tet] = kNoVertices;
+  ++mesh_.tet_generation_[tet];
+  removed_tets_.push_back(tet);
+  --mesh_.live_tets_;
+}
+
+void Transaction::remove_vertex(VertexId vertex) {
+  touch(vertex);
+  mesh_.vertex_shape_[vertex] = shape::kDead;
+  mesh_.vertex_tet_[vertex] = TetId();
+  ++mesh_.vertex_generation_[vertex];
+  removed_vertices_.push_back(vertex);
+  --mesh_.live_vertices_;
+}
+
+void Transaction::set_link(Side side, Link link) {
+  touch(side.tet());
+  mesh_.tet_links_[side.tet()][side.side()] = link;
+}
+
+void Transaction::join(Side a, Side b) {
+  set_link(a, Link(b));
+  set_link(b, Link(a));
+}
+
+void Transaction::open(Side a, Side b, std::uint32_t tag) {
+  set_link(a, Link::boundary(tag));
+  set_link(b, Link::boundary(tag));
+  opened_.push_back({a, b, tag});
+}
+
+void Transaction::set_corner(TetId tet, unsigned corner, VertexId vertex) {
+  touch(tet);
+  mesh_.tet_vertices_[tet][corner] = vertex;
+}
+
+void Transaction::set_tet_of(VertexId vertex, TetId tet) {
+  touch(vertex);
+  mesh_.vertex_tet_[vertex] = tet;
+}
+
+void Transaction::set_shape(VertexId vertex, std::uint8_t bits) {
+  touch(vertex);
+  mesh_.vertex_shape_[vertex] = bits;
+}
+
+void Transaction::move(VertexId vertex, const Vec3& rest, const Vec3& current) {
+  touch(vertex);
+  step_.moved.push_back({vertex, mesh_.rest_[vertex], rest, mesh_.current_[vertex], current});
+  mesh_.rest_[vertex] = rest;
+  mesh_.current_[vertex] = current;
+}
+
+TetId Transaction::root_parent(TetId tet) const {
+  while (tet_mark_[tet.value] >= kFirstNew) {
+    tet = parents_[tet_mark_[tet.value] - kFirstNew];
+  }
+  return tet;
+}
+
+void Transaction::record_tets() {
+  for (const TetImage& old : step_.before.tets) {
+    if (!mesh_.is_live(old.id)) {
+      step_.consumed.push_back({old.id, old.vertices});
+    } else if (mesh_.tet_vertices_[old.id] != old.vertices) {
+      step_.rewired.push_back({old.id, old.vertices, mesh_.tet_vertices_[old.id]});
+    }
+  }
+  step_.produced.reserve(step_.new_tets.size());
+  for (const TetId id : step_.new_tets) {
+    if (mesh_.is_live(id)) {
+      step_.produced.push_back({id, root_parent(id), mesh_.tet_vertices_[id], mesh_.tet_region_[id]});
+    }
+  }
+}
+
+void Transaction::record_vertices() {
+  for (const VertexId id : removed_vertices_) {
+    if (vertex_mark_[id.value] == kTouched) {
+      step_.died.push_back(id);
+    }
+  }
+}
+
+void Transaction::record_opened() {
+  for (const OpenedFace& face : opened_) {
+    if (mesh_.is_live(face.a.tet()) && mesh_.is_live(face.b.tet())) {
+      step_.opened.push_back(face);
+    }
+  }
+}
+
+void Transaction::release_slots() {
+  for (const TetId tet : removed_tets_) {
+    mesh_.free_tets_.push_back(tet.value);
+  }
+  for (const VertexId vertex : removed_vertices_) {
+    mesh_.free_vertices_.push_back(vertex.value);
+  }
+}
+
+Step Transaction::commit() {
+  assert(is_open_);
+  is_open_ = false;
+  record_tets();
+  record_vertices();
+  record_opened();
+  std::reverse(step_.before.free_tets.begin(), step_.before.free_tets.end());
+  std::reverse(step_.before.free_vertices.begin(), step_.before.free_vertices.end());
+  release_slots();
+  return std::move(step_);
+}
+
+void Transaction::rollback() {
+  if (!is_open_) {
+    return;
+  }
+  Journal journal;
+  journal.append(commit());
+  journal.undo(mesh_);
+}
+
+}  // namespace incise::inline v0
