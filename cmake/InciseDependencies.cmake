@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+# Finds what the library and the programs stand on, once and for every folder.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+if(INCISE_WITH_TBB)
+  find_package(TBB REQUIRED)
+endif()
+if(INCISE_WITH_VTU)
+  find_package(pugixml REQUIRED)
+endif()
+if(INCISE_WITH_GZIP)
+  find_package(ZLIB REQUIRED)
+endif()
+if(NOT EMSCRIPTEN)
+  find_package(Threads REQUIRED)
+  find_package(fmt REQUIRED)
+  find_package(nlohmann_json REQUIRED)
+endif()
+if(INCISE_BUILD_APPS)
+  find_package(CLI11 REQUIRED)
+  find_package(spdlog REQUIRED)
+endif()
+
+# Package that provides each imported target that a module may link privately, for the installed config file.
+set(incise_package_of_TBB::tbb TBB)
+set(incise_package_of_pugixml::pugixml pugixml)
+set(incise_package_of_pugixml pugixml)
+set(incise_package_of_ZLIB::ZLIB ZLIB)
+set(incise_package_of_fmt::fmt fmt)
+set(incise_package_of_spdlog::spdlog spdlog)
+set(incise_package_of_hwy::hwy hwy)
+set(incise_package_of_Threads::Threads Threads)
+# Nothing of these is left to link once the library is built.
+set(incise_header_only Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt-header-only CLI11::CLI11
+                       spdlog::spdlog_header_only)
+
+# A compiler cache, where there is one. Emscripten brings its own wrapper.
+if(PROJECT_IS_TOP_LEVEL AND NOT EMSCRIPTEN AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(INCISE_CCACHE ccache)
+  mark_as_advanced(INCISE_CCACHE)
+  if(INCISE_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${INCISE_CCACHE})
+  endif()
+endif()

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+set(prefix ${WORK_DIR}/prefix)
+set(consumer_build ${WORK_DIR}/build)
+file(REMOVE_RECURSE ${prefix} ${consumer_build})
+
+function(run_step what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${what} failed (${status}):\n${output}")
+  endif()
+  message(STATUS "${what}: done\n${output}")
+endfunction()
+
+run_step("Install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
+run_step("Configure the consumer" ${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${consumer_build} -G ${GENERATOR}
+  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
+  -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DWANTED_VERSION=${VERSION} -DEXAMPLE=${EXAMPLE})
+run_step("Build the consumer" ${CMAKE_COMMAND} --build ${consumer_build})
+run_step("Run the consumer" ${consumer_build}/consumer)
+if(EXISTS ${consumer_build}/example)
+  run_step("Run the example" ${CMAKE_COMMAND} -E chdir ${consumer_build} ${consumer_build}/example)
+endif()
