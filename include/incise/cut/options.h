@@ -31,6 +31,7 @@ struct CutStatistics {
   std::uint64_t crumbs_kept = 0;       ///< pieces too small to separate, left attached
   std::uint64_t pinched_edges = 0;     ///< edges bisected because both their fans kept both ends
   std::uint64_t latent_faces = 0;      ///< incision faces whose vertices all stayed joined
+  std::uint64_t blocked_edges = 0;     ///< edges left whole because a tet around them is, or would become, flat
   std::uint64_t sheets = 0;            ///< parts into which a sweep that meets itself was taken, in time order
 
   CutStatistics& operator+=(const CutStatistics& other);

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/crumbs.h"
+
+#include <algorithm>
+
+namespace incise::inline v0 {
+
+namespace {
+
+constexpr std::size_t kMaxCrumbTets = 256;
+constexpr std::size_t kMaxPieceSearch = 512;
+
+class CrumbFinder {
+ public:
+  CrumbFinder(const Transaction& transaction, const Neighbourhood& near, std::vector<IncisionFace>& incision)
+      : transaction_(transaction), mesh_(transaction.mesh()), near_(near), incision_(incision) {
+    for (std::uint32_t i = 0; i < incision_.size(); ++i) {
+      mark(incision_[i].a);
+      mark(incision_[i].b);
+    }
+    is_dropped_.resize(incision_.size(), false);
+  }
+
+  std::uint64_t run() {
+    std::uint64_t crumbs = 0;
+    for (std::uint32_t i = 0; i < incision_.size(); ++i) {
+      for (const TetId seed : {incision_[i].a.tet(), incision_[i].b.tet()}) {
+        if (state_[seed.value] == kUnseen && is_crumb(seed)) {
+          crumbs += attach() ? 1U : 0U;
+        }
+      }
+    }
+    drop_faces();
+    return crumbs;
+  }
+
+ private:
+  enum State : std::uint8_t { kUnseen, kLarge, kCrumb };
+
+  void mark(Side side) {
+    blocked_.ensure(std::size_t{side.tet().value} + 1);
+    blocked_[side.tet().value] = static_cast<std::uint8_t>(blocked_[side.tet().value] | 1U << side.side());
+    state_.ensure(std::size_t{side.tet().value} + 1);
+  }
+  [[nodiscard]] bool is_blocked(Side side) const { return ((blocked_[side.tet().value] >> side.side()) & 1U) != 0; }
+
+  /// The volume below which a piece around this tet is a crumb, from the edges of the input tet that it lies in.
+  [[nodiscard]] double limit_at(TetId tet) const {
+    const NearTet* parent = near_.find(transaction_.root_parent(tet));
+    if (parent == nullptr) {
+      return 0.0;
+    }
+    double sum = 0;
+    for (const std::uint32_t e : parent->edges) {
+      sum += (mesh_.rest(near_.edges[e].b) - mesh_.rest(near_.edges[e].a)).norm();
+    }
+    const double spacing = sum / 6.0;
+    return kCrumbShare * spacing * spacing * spacing;
+  }
+  /// Floods from `seed` until the piece is complete or too large. Leaves its tets in `piece_`.
+  bool is_crumb(TetId seed) {
+    const double limit = limit_at(seed);
+    double volume = 0;
+    piece_.assign(1, seed);
+    state_[seed.value] = kCrumb;
+    bool is_large = false;
+    for (std::size_t i = 0; i < piece_.size() && !is_large; ++i) {
+      volume += mesh_.rest_volume(piece_[i]);
+      is_large = volume >= limit || piece_.size() > kMaxCrumbTets;
+      for (unsigned s = 0; s < 4 && !is_large; ++s) {
+        const Link link = mesh_.links(piece_[i])[s];
+        if (link.is_boundary() || is_blocked(Side(piece_[i], s))) {
+          continue;
+        }
+        const TetId next = link.side().tet();
+        state_.ensure(std::size_t{next.value} + 1);
+        blocked_.ensure(std::size_t{next.value} + 1);
+        if (state_[next.value] == kLarge) {
+          is_large = true;
+        } else if (state_[next.value] == kUnseen) {
+          state_[next.value] = kCrumb;
+          piece_.push_back(next);
+        }
+      }
+    }
+    if (is_large) {
+      for (const TetId tet : piece_) {
+        state_[tet.value] = kLarge;
+      }
+    }
+    return !is_large;
+  }
+  [[nodiscard]] bool is_in_piece(TetId tet) const {
+    return std::find(piece_.begin(), piece_.end(), tet) != piece_.end();
+  }
+  [[nodiscard]] double area_of(Side side) const {
+    const auto v = mesh_.vertices(side);
+    return (mesh_.rest(v[1]) - mesh_.rest(v[0])).cross(mesh_.rest(v[2]) - mesh_.rest(v[0])).norm();
+  }
+  /// Drops the faces between the crumb and the piece behind its largest face.
+  bool attach() {
+    struct Border {
+      std::uint32_t face;
+      TetId behind;
+      double area;
+    };
+    std::vector<Border> borders;
+    for (std::uint32_t i = 0; i < incision_.size(); ++i) {
+      const bool has_a = is_in_piece(incision_[i].a.tet()), has_b = is_in_piece(incision_[i].b.tet());
+      if (has_a != has_b) {
+        const Side behind = has_a ? incision_[i].b : incision_[i].a;
+        borders.push_back({i, behind.tet(), area_of(behind)});
+      }
+    }
+    if (borders.empty()) {
+      return false;
+    }
+    const auto largest = std::max_element(borders.begin(), borders.end(),
+                                          [](const Border& x, const Border& y) { return x.area < y.area; });
+    const std::vector<TetId> piece = piece_around(largest->behind);
+    for (const Border& border : borders) {
+      if (std::find(piece.begin(), piece.end(), border.behind) != piece.end()) {
+        is_dropped_[border.face] = true;
+      }
+    }
+    return true;
+  }
+  /// Some of the tets connected to `seed` without crossing the incision.
+  [[nodiscard]] std::vector<TetId> piece_around(TetId seed) {
+    std::vector<TetId> piece = {seed};
+    for (std::size_t i = 0; i < piece.size() && piece.size() < kMaxPieceSearch; ++i) {
+      for (unsigned s = 0; s < 4; ++s) {
+        const Link link = mesh_.links(piece[i])[s];
+        blocked_.ensure(std::size_t{piece[i].value} + 1);
+        if (!link.is_boundary() && !is_blocked(Side(piece[i], s)) &&
+            std::find(piece.begin(), piece.end(), link.side().tet()) == piece.end()) {
+          piece.push_back(link.side().tet());
+        }
+      }
+    }
+    return piece;
+  }
+  void drop_faces() {
+    std::size_t kept = 0;
+    for (std::uint32_t i = 0; i < incision_.size(); ++i) {
+      if (!is_dropped_[i]) {
+        incision_[kept++] = incision_[i];
+      }
+    }
+    incision_.resize(kept);
+  }
+
+  const Transaction& transaction_;
+  const TetMesh& mesh_;
+  const Neighbourhood& near_;
+  std::vector<IncisionFace>& incision_;
+  ZeroedArray<std::uint8_t> blocked_, state_;
+  std::vector<bool> is_dropped_;
+  std::vector<TetId> piece_;
+};
+
+}  // namespace
+
+std::uint64_t keep_crumbs(const Transaction& transaction, const Neighbourhood& neighbourhood,
+                          std::vector<IncisionFace>& incision) {
+  return CrumbFinder(transaction, neighbourhood, incision).run();
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/edge_table.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace incise::inline v0 {
+
+namespace {
+
+std::size_t hash_of(VertexId a, VertexId b) {
+  std::uint64_t key = (std::uint64_t{a.value} << 32U) | b.value;
+  key *= 0x9E3779B97F4A7C15ULL;
+  return static_cast<std::size_t>(key >> 20U);
+}
+
+}  // namespace
+
+void EdgeTable::clear() {
+  edges_.clear();
+  std::fill(slots_.begin(), slots_.end(), 0U);
+}
+
+std::uint32_t EdgeTable::find_or_add(VertexId a, VertexId b) {
+  if (b < a) {
+    std::swap(a, b);
+  }
+  if (slots_.size() < 2 * (edges_.size() + 8)) {
+    rehash(std::max<std::size_t>(1024, 4 * slots_.size()));
+  }
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t i = hash_of(a, b) & mask;; i = (i + 1) & mask) {
+    if (slots_[i] == 0) {
+      CutEdge edge;
+      edge.a = a;
+      edge.b = b;
+      edges_.push_back(edge);
+      slots_[i] = size();
+      return size() - 1;
+    }
+    const CutEdge& edge = edges_[slots_[i] - 1];
+    if (edge.a == a && edge.b == b) {
+      return slots_[i] - 1;
+    }
+  }
+}
+
+void EdgeTable::rehash(std::size_t capacity) {
+  slots_.assign(capacity, 0U);
+  const std::size_t mask = capacity - 1;
+  for (std::uint32_t index = 0; index < size(); ++index) {
+    std::size_t i = hash_of(edges_[index].a, edges_[index].b) & mask;
+    while (slots_[i] != 0) {
+      i = (i + 1) & mask;
+    }
+    slots_[i] = index + 1;
+  }
+}
+
+}  // namespace incise::inline v0

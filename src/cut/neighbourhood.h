@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cut/edge_table.h"
+#include "incise/mesh/tet_mesh.h"
+
+namespace incise::inline v0 {
+
+/// A tet near the blade.
+struct NearTet {
+  TetId id;
+  std::array<std::uint32_t, 6> edges;  ///< into `Neighbourhood::edges`, by edge number
+  std::uint8_t flagged = 0;            ///< bit e: the sheet crosses edge e an odd number of times
+  std::uint8_t on = 0;                 ///< bit c: corner c takes part in the cut
+  bool is_complete = true;             ///< every face has an even number of flagged edges
+  bool is_cuttable = false;            ///< complete, crossed, and all that must be split can be
+};
+
+/// The colour of corner c of a complete tet, relative to corner 0: which side of the sheet it lies on (bit 0 or 1).
+constexpr unsigned colour_of(std::uint8_t flagged, unsigned corner) {
+  return corner == 0 ? 0U : (flagged >> kEdgeOfCorners[0][corner]) & 1U;
+}
+
+/// Whether some face has an odd number of flagged edges: the border of the sheet pierces it (algorithm: parity law).
+constexpr bool has_odd_face(std::uint8_t flagged) {
+  bool is_odd = false;
+  for (const auto& edges : kSideEdges) {
+    is_odd |= (((flagged >> edges[0]) ^ (flagged >> edges[1]) ^ (flagged >> edges[2])) & 1U) != 0;
+  }
+  return is_odd;
+}
+
+/// What a sheet does to the part of the mesh that it passes through. Lives for one sheet.
+struct Neighbourhood {
+  EdgeTable edges;
+  std::vector<NearTet> tets;
+  ZeroedArray<std::uint32_t> index_of_tet;  ///< 0 far, 1 + index into `tets`
+  ZeroedArray<std::uint8_t> is_on;          ///< by vertex slot: takes part in the cut
+
+  [[nodiscard]] const NearTet* find(TetId tet) const {
+    const std::uint32_t index = index_of_tet[tet.value];
+    return index == 0 ? nullptr : &tets[index - 1];
+  }
+  /// The edge of a near tet between two of its corners.
+  [[nodiscard]] const CutEdge& edge(const NearTet& tet, unsigned a, unsigned b) const {
+    return edges[tet.edges[kEdgeOfCorners[a][b]]];
+  }
+};
+
+}  // namespace incise::inline v0

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cut/subdivide.h"
+#include "incise/mesh/star.h"
+
+namespace incise::inline v0 {
+
+/// What separation did.
+struct Separation {
+  std::uint64_t opened_faces = 0;
+  std::uint64_t latent_faces = 0;    ///< incision faces none of whose vertices came apart: still joined
+  std::uint64_t copied_vertices = 0;
+  std::uint64_t pinched_edges = 0;   ///< bisected
+};
+
+/// Separates the material along the incision faces, in one pass: every vertex of an incision face gets one copy per
+/// face-connected part of its star after the incision faces are taken away.
+///
+/// This is the terminal state of the paper's Algorithms 1 and 2 iterated to the end, whatever their order; it also
+/// separates where their literal form stalls (closed interior sheets, several sectors at a vertex). An edge both of
+/// whose ends stay whole although two of its fans are apart (a neck one edge wide) is bisected first, so that its
+/// midpoint comes apart. Every boundary edge that results has exactly two boundary faces.
+/// `split_vertices` with the number of their incident tets are checked for fans that share no face as well.
+/// Source: paper §2.3, §2.4; proof of equivalence in docs/paper_map.md. Cost: O(stars of the incision's vertices).
+Separation separate(Transaction& transaction, std::vector<IncisionFace> incision,
+                    const std::vector<TetId>& new_tets, std::uint32_t tag, StarWalker& walker);
+
+}  // namespace incise::inline v0

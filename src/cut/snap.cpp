@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/snap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// A vertex of a link, with whether the edge from the centre to it is flagged, for a small union-find.
+struct LinkVertex {
+  VertexId vertex;
+  bool is_flagged;
+  std::uint32_t parent;
+};
+
+/// The link of a vertex: its neighbours, joined where a tet of the star joins them.
+class LinkGraph {
+ public:
+  void build(const TetMesh& mesh, VertexId centre, const std::vector<TetId>& star, const Neighbourhood& near) {
+    vertices_.clear();
+    for (const TetId tet : star) {
+      const unsigned c = mesh.corner_of(tet, centre);
+      const NearTet* near_tet = near.find(tet);
+      std::array<std::uint32_t, 3> index{};
+      for (unsigned k = 0; k < 3; ++k) {
+        const unsigned other = kSideCorners[c][k];
+        const bool is_flagged = near_tet != nullptr && ((near_tet->flagged >> kEdgeOfCorners[c][other]) & 1U) != 0;
+        index[k] = find_or_add(mesh.vertices(tet)[other], is_flagged);
+      }
+      for (unsigned k = 0; k < 3; ++k) {
+        const std::uint32_t a = index[k], b = index[(k + 1) % 3];
+        if (vertices_[a].is_flagged == vertices_[b].is_flagged) {
+          unite(a, b);
+        }
+      }
+    }
+  }
+  /// Mean distance from the centre to its neighbours.
+  [[nodiscard]] double mean_length(const TetMesh& mesh, VertexId centre) const {
+    double sum = 0;
+    for (const LinkVertex& v : vertices_) {
+      sum += (mesh.rest(v.vertex) - mesh.rest(centre)).norm();
+    }
+    return sum / static_cast<double>(vertices_.size());
+  }
+  /// Whether the flagged neighbours form at most one connected part, and so do the others.
+  [[nodiscard]] bool has_two_parts_at_most() {
+    std::array<unsigned, 2> parts{};
+    for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
+      parts[vertices_[i].is_flagged ? 1 : 0] += root(i) == i ? 1U : 0U;
+    }
+    return parts[0] <= 1 && parts[1] <= 1;
+  }
+
+ private:
+  std::uint32_t find_or_add(VertexId vertex, bool is_flagged) {
+    for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
+      if (vertices_[i].vertex == vertex) {
+        return i;
+      }
+    }
+    const auto index = static_cast<std::uint32_t>(vertices_.size());
+    vertices_.push_back({vertex, is_flagged, index});
+    return index;
+  }
+  std::uint32_t root(std::uint32_t i) {
+    while (vertices_[i].parent != i) {
+      i = vertices_[i].parent = vertices_[vertices_[i].parent].parent;
+    }
+    return i;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) { vertices_[root(a)].parent = root(b); }
+
+  std::vector<LinkVertex> vertices_;
+};
+
+/// The vertices of flagged edges, ascending, each once.
+std::vector<VertexId> vertices_of_flagged_edges(const Neighbourhood& near) {
+  std::vector<VertexId> found;
+  for (const CutEdge& edge : near.edges.edges()) {
+    if (edge.is_flagged()) {
+      found.push_back(edge.a);
+      found.push_back(edge.b);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+struct Candidate {
+  OnVertex on;
+  bool is_coincident;
+  [[nodiscard]] double rank() const { return on.distance / on.spacing; }
+  bool operator<(const Candidate& other) const {
+    return rank() != other.rank() ? rank() < other.rank() : on.vertex < other.on.vertex;
+  }
+};
+
+/// Snapping reaches a little further where an earlier cut already passes: its wall may have bent to a vertex by `snap`
+/// of edges that have become shorter since.
+constexpr double kWallReach = 1.75;
+
+std::vector<Candidate> find_candidates(const TetMesh& mesh, const Sheet& sheet, double snap, const Neighbourhood& near,
+                                       StarWalker& walker) {
+  std::vector<Candidate> candidates;
+  LinkGraph link;
+  for (const VertexId v : vertices_of_flagged_edges(near)) {
+    link.build(mesh, v, walker.star(mesh, v), near);
+    const double spacing = link.mean_length(mesh, v);
+    const bool is_on_wall = (mesh.shape_of(v) & shape::kWall) != 0;
+    const double reach = std::max(kCoincident, is_on_wall ? kWallReach * snap : snap) * spacing;
+    const auto hit = sheet.tree().closest(mesh.rest(v), reach);
+    if (!hit.is_valid()) {
+      continue;
+    }
+    const double distance = std::sqrt(hit.distance2);
+    const bool is_coincident = distance <= kCoincident * spacing;
+    const bool is_sound = (mesh.shape_of(v) & shape::kPinched) == 0 && link.has_two_parts_at_most();
+    if (is_coincident || is_sound) {
+      candidates.push_back({{v, spacing, distance, hit.point, hit.triangle}, is_coincident});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
+}
+
+bool would_flatten_a_tet(const TetMesh& mesh, VertexId vertex, const Neighbourhood& near, StarWalker& walker) {
+  for (const TetId tet : walker.star(mesh, vertex)) {
+    unsigned on = 0;
+    for (const VertexId v : mesh.vertices(tet)) {
+      on += near.is_on[v.value];
+    }
+    if (on == 3) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void mark_tets(const TetMesh& mesh, Neighbourhood& near) {
+  for (NearTet& tet : near.tets) {
+    for (unsigned c = 0; c < 4; ++c) {
+      tet.on = static_cast<std::uint8_t>(tet.on | near.is_on[mesh.vertices(tet.id)[c].value] << c);
+    }
+  }
+}
+
+// --- moving ----------------------------------------------------------------------------------------------------------
+
+/// What holds a vertex in place: the planes of the surfaces and material borders that it lies on.
+struct Constraint {
+  unsigned planes = 0;  ///< 0 free, 1 within a plane, 2 along a line, 3 not at all
+  Vec3 first = Vec3::Zero(), second = Vec3::Zero();  ///< unit normals
+};
+
+/// Normals this close are one plane; a vertex that slides in it changes no volume beyond rounding.
+constexpr double kFlat = 1e-9;
+
+void add_plane(Constraint& constraint, const Vec3& normal) {
+  const auto is_same = [&](const Vec3& n) { return n.cross(normal).squaredNorm() <= kFlat * kFlat; };
+  if (constraint.planes >= 1 && is_same(constraint.first)) return;
+  if (constraint.planes >= 2 && is_same(constraint.second)) return;
+  if (constraint.planes == 0) constraint.first = normal;
+  if (constraint.planes == 1) constraint.second = normal;
+  constraint.planes = std::min(3U, constraint.planes + 1);
+}
+
+Constraint constraint_of(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star) {
+  Constraint constraint;
+  if ((mesh.shape_of(vertex) & shape::kPinched) != 0) {
+    constraint.planes = 3;
+  }
+  for (const TetId tet : star) {
+    for (unsigned s = 0; s < 4 && constraint.planes < 3; ++s) {
+      if (mesh.vertices(tet)[s] == vertex) {
+        continue;
+      }
+      const Link link = mesh.links(tet)[s];
+      if (link.is_boundary() || mesh.region(link.side().tet()) != mesh.region(tet)) {
+        const auto face = mesh.vertices(Side(tet, s));
+        const Vec3 normal =
+            (mesh.rest(face[1]) - mesh.rest(face[0])).cross(mesh.rest(face[2]) - mesh.rest(face[0]));
+        const double length = normal.norm();
+        if (length > 0) {
+          add_plane(constraint, normal / length);
+        }
+      }
+    }
+  }
+  return constraint;
+}
+
+/// The direction in which a constrained vertex may approach a plane with the given normal; zero for none.
+Vec3 direction_towards(const Vec3& normal, const Constraint& constraint) {
+  switch (constraint.planes) {
+    case 0:
+      return normal;
+    case 1:
+      return normal - constraint.first.dot(normal) * constraint.first;
+    case 2:
+      return constraint.first.cross(constraint.second);
+    default:
+      return Vec3::Zero();
+  }
+}
+
+struct Landing {
+  Vec3 point;
+  double distance;  ///< left between the point and the sheet
+};
+
+/// Newton steps from the vertex to the sheet within its constraint; one step lands exactly on a plane.
+Landing land_on_sheet(const Vec3& start, const OnVertex& on, const Sheet& sheet, const Constraint& constraint) {
+  if (constraint.planes == 0) {
+    return {on.target, 0.0};
+  }
+  Landing landing{start, on.distance};
+  Vec3 target = on.target;
+  std::uint32_t triangle = on.triangle;
+  for (unsigned round = 0; round < 4 && landing.distance > 1e-13 * on.spacing; ++round) {
+    const Vec3 normal = sheet.normal(triangle).normalized();
+    const Vec3 direction = direction_towards(normal, constraint);
+    const double slope = direction.dot(normal);
+    if (!(std::abs(slope) > 0.1)) {
+      break;
+    }
+    const Vec3 next = landing.point + (normal.dot(target - landing.point) / slope) * direction;
+    const auto hit = sheet.tree().closest(next, on.spacing);
+    if (!hit.is_valid() || !(hit.distance2 < landing.distance * landing.distance)) {
+      break;
+    }
+    landing = {next, std::sqrt(hit.distance2)};
+    target = hit.point;
+    triangle = hit.triangle;
+  }
+  return landing;
+}
+
+double volume6(const std::array<Vec3, 4>& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); }
+
+/// Whether every tet of the star keeps a quarter of its volume with the vertex moved.
+bool keeps_volumes(const TetMesh& mesh, VertexId vertex, const Vec3& moved, const std::vector<TetId>& star) {
+  for (const TetId tet : star) {
+    std::array<Vec3, 4> p;
+    for (unsigned c = 0; c < 4; ++c) {
+      const VertexId v = mesh.vertices(tet)[c];
+      p[c] = v == vertex ? moved : mesh.rest(v);
+    }
+    if (!(volume6(p) >= 0.25 * mesh.rest_volume6(tet)) || !(volume6(p) > 0)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The current position of a rest point near `vertex`, interpolated in the tet of the star that holds it best.
+Vec3 current_at(const TetMesh& mesh, VertexId vertex, const Vec3& rest_point, const std::vector<TetId>& star) {
+  if (mesh.current(vertex) == mesh.rest(vertex)) {
+    return rest_point;
+  }
+  double best = -1e300;
+  Vec3 current = mesh.current(vertex);
+  for (const TetId tet : star) {
+    const TetVertices& v = mesh.vertices(tet);
+    std::array<Vec3, 4> p = {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
+    const double whole = volume6(p);
+    std::array<double, 4> weight{};
+    for (unsigned c = 0; c < 4; ++c) {
+      const Vec3 kept = p[c];
+      p[c] = rest_point;
+      weight[c] = volume6(p) / whole;
+      p[c] = kept;
+    }
+    const double least = *std::min_element(weight.begin(), weight.end());
+    if (least > best) {
+      best = least;
+      current.setZero();
+      for (unsigned c = 0; c < 4; ++c) {
+        current += weight[c] * mesh.current(v[c]);
+      }
+    }
+  }
+  return current;
+}
+
+}  // namespace
+
+std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const Sheet& sheet, double snap,
+                                         Neighbourhood& neighbourhood, StarWalker& walker) {
+  std::vector<OnVertex> chosen;
+  for (const Candidate& candidate : find_candidates(mesh, sheet, snap, neighbourhood, walker)) {
+    if (!would_flatten_a_tet(mesh, candidate.on.vertex, neighbourhood, walker)) {
+      neighbourhood.is_on[candidate.on.vertex.value] = 1;
+      chosen.push_back(candidate.on);
+    }
+  }
+  mark_tets(mesh, neighbourhood);
+  return chosen;
+}
+
+std::uint64_t move_on_vertices(Transaction& transaction, const Sheet& sheet, double snap,
+                               const std::vector<OnVertex>& chosen, StarWalker& walker) {
+  const TetMesh& mesh = transaction.mesh();
+  std::uint64_t bent = 0;
+  for (const OnVertex& on : chosen) {
+    if (on.distance <= kCoincident * on.spacing) {
+      continue;
+    }
+    const std::vector<TetId>& star = walker.star(mesh, on.vertex);
+    const Vec3 start = mesh.rest(on.vertex);
+    const Landing landing = land_on_sheet(start, on, sheet, constraint_of(mesh, on.vertex, star));
+    const bool has_landed = landing.distance <= 1e-9 * on.spacing;
+    const bool is_short = (landing.point - start).norm() <= 1.5 * snap * on.spacing;
+    if (has_landed && is_short && keeps_volumes(mesh, on.vertex, landing.point, star)) {
+      transaction.move(on.vertex, landing.point, current_at(mesh, on.vertex, landing.point, star));
+    } else {
+      ++bent;
+    }
+  }
+  return bent;
+}
+
+}  // namespace incise::inline v0

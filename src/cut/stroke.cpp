@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/cut/stroke.h"
+
+#include <cmath>
+#include <string>
+
+namespace incise::inline v0 {
+
+namespace {
+
+Error bad_stroke(const Stroke& stroke, const std::string& what) {
+  return {ErrorCode::kBadArgument, "stroke \"" + stroke.name + "\": " + what, {}};
+}
+
+bool is_finite(const Vec3& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
+
+/// The point of the plane n·x = d that is nearest to `p`; exactly on the plane along the axes that n lies in.
+Vec3 project(const Vec3& p, const Vec3& n, double d) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (n[(axis + 1) % 3] == 0 && n[(axis + 2) % 3] == 0) {
+      Vec3 q = p;
+      q[axis] = d / n[axis];
+      return q;
+    }
+  }
+  return p - n * ((n.dot(p) - d) / n.dot(n));
+}
+
+/// A unit vector orthogonal to `n`, in a coordinate plane where `n` allows.
+Vec3 tangent_of(const Vec3& n) {
+  int least = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (std::abs(n[axis]) < std::abs(n[least])) {
+      least = axis;
+    }
+  }
+  const int i = (least + 1) % 3, j = (least + 2) % 3;
+  Vec3 t = Vec3::Zero();
+  t[i] = -n[j];
+  t[j] = n[i];
+  return t / t.norm();
+}
+
+}  // namespace
+
+Status check(const Stroke& stroke) {
+  const std::size_t times = stroke.times.size();
+  if (times == 0 || stroke.edges.size() != times) {
+    return bad_stroke(stroke, "needs one polyline per time, and at least one time");
+  }
+  for (std::size_t i = 0; i < times; ++i) {
+    if (!std::isfinite(stroke.times[i]) || (i > 0 && !(stroke.times[i] > stroke.times[i - 1]))) {
+      return bad_stroke(stroke, "times must be finite and increase; time " + std::to_string(i) + " does not");
+    }
+    if (stroke.edges[i].size() < 2 || stroke.edges[i].size() != stroke.edges[0].size()) {
+      return bad_stroke(stroke, "every polyline needs the same number of points, at least 2; the one at time " +
+                                    std::to_string(i) + " has " + std::to_string(stroke.edges[i].size()));
+    }
+    for (std::size_t k = 0; k < stroke.edges[i].size(); ++k) {
+      if (!is_finite(stroke.edges[i][k])) {
+        return bad_stroke(stroke, "point " + std::to_string(k) + " at time " + std::to_string(i) + " is not finite");
+      }
+    }
+  }
+  return {};
+}
+
+Result<Stroke> plane_stroke(const Box& bounds, const Vec3& normal, double offset) {
+  const double length = normal.norm();
+  if (!is_finite(normal) || !std::isfinite(offset) || !(length > 0) || !std::isfinite(length)) {
+    return Error{ErrorCode::kBadArgument, "a plane needs a finite, non-zero normal and a finite offset", {}};
+  }
+  const Vec3 centre = project(0.5 * (bounds.lo + bounds.hi), normal, offset);
+  const Vec3 u = tangent_of(normal);
+  const Vec3 v = (normal / length).cross(u);
+  // An equilateral triangle whose inscribed circle holds every point of the body near the plane.
+  const double r = 1.25 * (bounds.hi - bounds.lo).norm() + 1e-9 * length;
+  const double half = 1.75 * r;
+  Stroke stroke;
+  stroke.name = "plane";
+  stroke.times = {0.0, 1.0};
+  const Vec3 a = centre - r * v - half * u, b = centre - r * v + half * u, c = centre + 2.0 * r * v;
+  stroke.edges = {{a, b}, {a, c}};
+  return stroke;
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/subdivide.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "incise/geom/predicates.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+constexpr unsigned kFirstSplitCode = 4;
+/// A tet with |volume| at most this share of its longest edge cubed counts as flat (the definition of `find_defects`).
+constexpr double kFlatShare = 1e-12;
+
+using Corners = std::array<Vec3, 4>;
+
+int orientation(const Corners& p) { return orient3d(p[0], p[1], p[2], p[3]); }
+
+bool is_flat(const Corners& p) {
+  double longest2 = 0;
+  for (const auto& [a, b] : kEdgeCorners) {
+    longest2 = std::max(longest2, (p[b] - p[a]).squaredNorm());
+  }
+  const double volume6 = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+  return !(volume6 > 6.0 * kFlatShare * longest2 * std::sqrt(longest2));
+}
+
+bool is_sound(const Corners& p, bool keeps_shape_floor) {
+  return orientation(p) > 0 && !(keeps_shape_floor && is_flat(p));
+}
+
+/// Whether a flagged edge needs a split point: neither end takes part in the cut itself.
+bool needs_split(const NearTet& tet, unsigned edge) {
+  const auto [a, b] = kEdgeCorners[edge];
+  return ((tet.flagged >> edge) & 1U) != 0 && ((tet.on >> a) & 1U) == 0 && ((tet.on >> b) & 1U) == 0;
+}
+
+void place_split_points(const TetMesh& mesh, double clamp, EdgeTable& edges) {
+  for (CutEdge& edge : edges.edges()) {
+    if (edge.is_flagged()) {
+      const double t = edge.crossings > 1 ? 0.5 * (edge.t + edge.t_second) : edge.t;
+      edge.t = std::min(std::max(t, clamp), 1.0 - clamp);
+      edge.position = mesh.rest(edge.a) + edge.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
+    }
+  }
+}
+
+/// The planned edges of a tet, first bisected first: longest first, ties by ends. A total order of the mesh's edges.
+class BisectionOrder {
+ public:
+  explicit BisectionOrder(const TetMesh& mesh, const Neighbourhood& near) : mesh_(mesh), near_(near) {}
+  [[nodiscard]] std::span<const std::uint8_t> of(const NearTet& tet) {
+    unsigned count = 0;
+    for (std::uint8_t e = 0; e < 6; ++e) {
+      const CutEdge& edge = near_.edges[tet.edges[e]];
+      if (edge.is_planned) {
+        items_[count++] = {(mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e};
+      }
+    }
+    std::sort(items_.begin(), items_.begin() + count);
+    for (unsigned i = 0; i < count; ++i) {
+      order_[i] = items_[i].number;
+    }
+    return {order_.data(), count};
+  }
+
+ private:
+  struct Item {
+    double length2;
+    VertexId a, b;
+    std::uint8_t number;
+    bool operator<(const Item& other) const {
+      if (length2 != other.length2) return length2 > other.length2;
+      if (a != other.a) return a < other.a;
+      return b < other.b;
+    }
+  };
+  const TetMesh& mesh_;
+  const Neighbourhood& near_;
+  std::array<Item, 6> items_;
+  std::array<std::uint8_t, 6> order_{};
+};
+
+/// Marks the tets that the sheet cuts through and plans the splits that they need.
+void plan_splits(const SubdivisionRules& rules, Neighbourhood& near) {
+  for (CutEdge& edge : near.edges.edges()) {
+    edge.is_planned = false;
+  }
+  for (NearTet& tet : near.tets) {
+    bool is_possible = true;
+    for (unsigned e = 0; e < 6; ++e) {
+      is_possible &= !(needs_split(tet, e) && near.edges[tet.edges[e]].is_blocked);
+    }
+    tet.is_cuttable = tet.is_complete && tet.flagged != 0 && is_possible;
+    for (unsigned e = 0; e < 6; ++e) {
+      CutEdge& edge = near.edges[tet.edges[e]];
+      if (needs_split(tet, e) && !edge.is_blocked && (tet.is_cuttable || rules.splits_partial_tets)) {
+        edge.is_planned = true;
+      }
+    }
+  }
+}
+
+Vec3 position_of(std::uint8_t code, const TetMesh& mesh, const NearTet& tet, const Neighbourhood& near) {
+  return code < kFirstSplitCode ? mesh.rest(mesh.vertices(tet.id)[code])
+                                : near.edges[tet.edges[code - kFirstSplitCode]].position;
+}
+
+Corners corners_of(const SplitTemplate::Child& child, const TetMesh& mesh, const NearTet& tet,
+                   const Neighbourhood& near) {
+  Corners p;
+  for (unsigned c = 0; c < 4; ++c) {
+    p[c] = position_of(child[c], mesh, tet, near);
+  }
+  return p;
+}
+
+/// Whether every child of a tet is as sound as the tet.
+bool children_are_sound(const SplitTemplate& split, const TetMesh& mesh, const NearTet& tet, const Neighbourhood& near,
+                        bool keeps_shape_floor) {
+  const bool has_floor = keeps_shape_floor && is_sound(corners_of({0, 1, 2, 3}, mesh, tet, near), true);
+  return std::all_of(split.children.begin(), split.children.end(), [&](const SplitTemplate::Child& child) {
+    return is_sound(corners_of(child, mesh, tet, near), has_floor);
+  });
+}
+
+/// Blocks the planned edges of every tet that would get an unsound child. Returns how many.
+std::uint64_t block_unsound(const TetMesh& mesh, const SubdivisionRules& rules, SplitTemplates& templates,
+                            Neighbourhood& near) {
+  std::uint64_t blocked = 0;
+  BisectionOrder order(mesh, near);
+  for (const NearTet& tet : near.tets) {
+    const auto planned = order.of(tet);
+    if (planned.empty() || children_are_sound(templates.find(planned), mesh, tet, near, rules.keeps_shape_floor)) {
+      continue;
+    }
+    for (const std::uint8_t e : planned) {
+      CutEdge& edge = near.edges[tet.edges[e]];
+      blocked += edge.is_blocked ? 0U : 1U;
+      edge.is_blocked = true;
+    }
+  }
+  return blocked;
+}
+
+// --- carrying out ----------------------------------------------------------------------------------------------------
+
+class Subdivider {
+ public:
+  Subdivider(Transaction& transaction, SplitTemplates& templates, Neighbourhood& near)
+      : transaction_(transaction), mesh_(transaction.mesh()), near_(near), templates_(templates) {}
+
+  Subdivision run() {
+    make_split_points();
+    make_children();
+    for (std::uint32_t i = 0; i < result_.parents.size(); ++i) {
+      link_inner(i);
+      for (unsigned s = 0; s < 4; ++s) {
+        link_outer(i, s);
+      }
+    }
+    find_uncut_incision();
+    remove_parents();
+    return std::move(result_);
+  }
+
+ private:
+  void make_split_points() {
+    for (CutEdge& edge : near_.edges.edges()) {
+      if (edge.is_planned) {
+        edge.split = transaction_.add_vertex_on_edge(edge.a, edge.b, edge.t);
+        near_.is_on.ensure(std::size_t{edge.split.value} + 1);
+        near_.is_on[edge.split.value] = 1;
+        ++result_.new_vertices;
+      }
+    }
+  }
+  void make_children() {
+    BisectionOrder order(mesh_, near_);
+    subdivided_.assign(near_.tets.size(), kInvalidIndex);
+    for (std::uint32_t n = 0; n < near_.tets.size(); ++n) {
+      const auto planned = order.of(near_.tets[n]);
+      if (planned.empty()) {
+        continue;
+      }
+      const SplitTemplate& split = templates_.find(planned);
+      subdivided_[n] = static_cast<std::uint32_t>(result_.parents.size());
+      result_.parents.push_back(near_.tets[n].id);
+      result_.first_child.push_back(static_cast<std::uint32_t>(result_.children.size()));
+      splits_.push_back(&split);
+      near_index_.push_back(n);
+      for (const SplitTemplate::Child& child : split.children) {
+        result_.children.push_back(transaction_.add_tet(vertices_of(child, near_.tets[n]), near_.tets[n].id));
+        for (const VertexId v : mesh_.vertices(result_.children.back())) {
+          transaction_.set_tet_of(v, result_.children.back());
+        }
+      }
+    }
+    result_.first_child.push_back(static_cast<std::uint32_t>(result_.children.size()));
+  }
+  [[nodiscard]] TetVertices vertices_of(const SplitTemplate::Child& child, const NearTet& tet) const {
+    TetVertices v;
+    for (unsigned c = 0; c < 4; ++c) {
+      v[c] = child[c] < kFirstSplitCode ? mesh_.vertices(tet.id)[child[c]]
+                                        : near_.edges[tet.edges[child[c] - kFirstSplitCode]].split;
+    }
+    return v;
+  }
+  [[nodiscard]] Side side_of(std::uint32_t parent, SplitTemplate::ChildSide side) const {
+    return {result_.children[result_.first_child[parent] + side / 4U], side & 3U};
+  }
+  /// Which side of the sheet a child of a cut tet lies on: the colour of any corner that is not on the sheet.
+  [[nodiscard]] static unsigned colour_of_child(const SplitTemplate::Child& child, const NearTet& tet) {
+    for (const std::uint8_t code : child) {
+      if (code < kFirstSplitCode && ((tet.on >> code) & 1U) == 0) {
+        return colour_of(tet.flagged, code);
+      }
+    }
+    return colour_of(tet.flagged, child[0] < kFirstSplitCode ? child[0] : 0);
+  }
+  void link_inner(std::uint32_t parent) {
+    const NearTet& tet = near_.tets[near_index_[parent]];
+    const SplitTemplate& split = *splits_[parent];
+    for (const auto& [a, b] : split.inner) {
+      transaction_.join(side_of(parent, a), side_of(parent, b));
+      if (tet.is_cuttable &&
+          colour_of_child(split.children[a / 4U], tet) != colour_of_child(split.children[b / 4U], tet)) {
+        result_.incision.push_back({side_of(parent, a), side_of(parent, b)});
+      }
+    }
+  }
+  void link_outer(std::uint32_t parent, unsigned side) {
+    const auto& outer = splits_[parent]->outer[side];
+    const Link link = mesh_.link({result_.parents[parent], side});
+    if (link.is_boundary()) {
+      for (const auto child_side : outer) {
+        transaction_.set_link(side_of(parent, child_side), link);
+      }
+      return;
+    }
+    const std::uint32_t near_neighbour = near_.index_of_tet[link.side().tet().value];
+    const std::uint32_t neighbour = near_neighbour == 0 ? kInvalidIndex : subdivided_[near_neighbour - 1];
+    if (neighbour == kInvalidIndex) {
+      transaction_.join(side_of(parent, outer[0]), link.side());
+    } else if (parent < neighbour) {
+      link_faces(parent, outer, neighbour, splits_[neighbour]->outer[link.side().side()]);
+    }
+  }
+  /// Pairs the parts of a face that two subdivided tets share.
+  void link_faces(std::uint32_t parent, const std::vector<SplitTemplate::ChildSide>& outer, std::uint32_t neighbour,
+                  const std::vector<SplitTemplate::ChildSide>& facing) {
+    for (const auto child_side : outer) {
+      const Side here = side_of(parent, child_side);
+      for (const auto other_side : facing) {
+        const Side there = side_of(neighbour, other_side);
+        if (is_same_face(here, there)) {
+          transaction_.join(here, there);
+        }
+      }
+    }
+  }
+  [[nodiscard]] bool is_same_face(Side a, Side b) const {
+    const auto u = mesh_.vertices(a), v = mesh_.vertices(b);
+    return std::all_of(u.begin(), u.end(), [&](VertexId x) { return x == v[0] || x == v[1] || x == v[2]; });
+  }
+  /// Faces of the input mesh that lie on the sheet: three ON vertices, and the two tets on opposite sides.
+  void find_uncut_incision() {
+    for (std::uint32_t n = 0; n < near_.tets.size(); ++n) {
+      const NearTet& tet = near_.tets[n];
+      for (unsigned apex = 0; apex < 4; ++apex) {
+        const unsigned face = 15U & ~(1U << apex);
+        const Link link = mesh_.links(tet.id)[apex];
+        if ((tet.on & face) != face || link.is_boundary() || subdivided_[n] != kInvalidIndex || !tet.is_complete) {
+          continue;
+        }
+        const std::uint32_t neighbour = near_.index_of_tet[link.side().tet().value];
+        const bool is_first = neighbour == 0 || n < neighbour - 1;
+        if (is_first && lies_across(tet, apex, link.side())) {
+          result_.incision.push_back({Side(tet.id, apex), link.side()});
+        }
+      }
+    }
+  }
+  /// Whether the tet behind a side lies on the other side of the sheet.
+  [[nodiscard]] bool lies_across(const NearTet& tet, unsigned apex, Side behind) const {
+    const unsigned corner = apex == 0 ? 1 : 0;
+    const VertexId common = mesh_.vertices(tet.id)[corner];
+    const unsigned here = (tet.flagged >> kEdgeOfCorners[corner][apex]) & 1U;
+    const NearTet* other = near_.find(behind.tet());
+    if (other == nullptr) {
+      return here != 0;
+    }
+    const unsigned other_corner = mesh_.corner_of(behind.tet(), common);
+    const unsigned there = (other->flagged >> kEdgeOfCorners[other_corner][behind.side()]) & 1U;
+    return other->is_complete && here != there;
+  }
+  void remove_parents() {
+    for (const TetId parent : result_.parents) {
+      transaction_.remove_tet(parent);
+    }
+  }
+
+  Transaction& transaction_;
+  const TetMesh& mesh_;
+  Neighbourhood& near_;
+  SplitTemplates& templates_;
+  Subdivision result_;
+  std::vector<std::uint32_t> subdivided_;         // by near tet: index into parents
+  std::vector<std::uint32_t> near_index_;         // by parent
+  std::vector<const SplitTemplate*> splits_;      // by parent
+};
+
+}  // namespace
+
+std::uint64_t plan_subdivision(const TetMesh& mesh, const SubdivisionRules& rules, SplitTemplates& templates,
+                               Neighbourhood& neighbourhood) {
+  place_split_points(mesh, rules.clamp, neighbourhood.edges);
+  std::uint64_t blocked = 0;
+  plan_splits(rules, neighbourhood);
+  while (const std::uint64_t more = block_unsound(mesh, rules, templates, neighbourhood)) {
+    blocked += more;
+    plan_splits(rules, neighbourhood);
+  }
+  return blocked;
+}
+
+Subdivision subdivide(Transaction& transaction, SplitTemplates& templates, Neighbourhood& neighbourhood) {
+  return Subdivider(transaction, templates, neighbourhood).run();
+}
+
+std::vector<IncisionFace> find_paper_incision(const TetMesh& mesh, const Neighbourhood& neighbourhood,
+                                              const Subdivision& subdivision) {
+  std::vector<IncisionFace> found;
+  const auto is_on = [&](VertexId v) { return neighbourhood.is_on[v.value] != 0; };
+  const auto visit = [&](TetId tet, bool sees_far) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Side side(tet, s);
+      const Link link = mesh.link(side);
+      const auto face = mesh.vertices(side);
+      if (link.is_boundary() || !is_on(face[0]) || !is_on(face[1]) || !is_on(face[2])) {
+        continue;
+      }
+      if (side < link.side() || (sees_far && neighbourhood.find(link.side().tet()) == nullptr)) {
+        found.push_back({side, link.side()});
+      }
+    }
+  };
+  for (const TetId child : subdivision.children) visit(child, false);
+  for (const NearTet& tet : neighbourhood.tets) {
+    if (mesh.is_live(tet.id)) visit(tet.id, true);
+  }
+  return found;
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "incise/cut/stroke.h"
+#include "incise/geom/predicates.h"
+#include "incise/geom/triangle_tree.h"
+
+namespace incise::inline v0 {
+
+/// One triangle of a swept surface.
+struct SweptTriangle {
+  std::array<std::uint32_t, 3> points;  ///< indices into `SweptSurface::points`
+  std::uint32_t step;                   ///< the step that swept it
+  std::uint32_t column;                 ///< the segment of the edge that swept it
+};
+
+/// What a blade swept: triangles in the order of time, then along the edge.
+///
+/// Neighbouring strips share points, keys included, so that every mesh edge sees one surface without seams.
+/// Paper §2.2 (sweep face). Differs: triangles with a fixed diagonal instead of quads, exact on every strip.
+struct SweptSurface {
+  std::vector<SosPoint> points;
+  std::vector<SweptTriangle> triangles;
+};
+
+/// The key of the first blade point; every vertex slot is below.
+inline constexpr std::uint64_t kFirstBladeKey = std::uint64_t{1} << 32U;
+
+/// The surface that a stroke sweeps. Equal points of one column at consecutive times are one point, and so are the first
+/// and last column of a closed edge and the first and last row of a motion that returns (within 1e-12 of its extent).
+/// Triangles that name a point twice are left out. `stroke` must pass `check`.
+SweptSurface sweep(const Stroke& stroke);
+
+/// Parts of a sweep that are each free of self-crossing, in time order: lists of ascending triangle indices.
+///
+/// A sweep that meets itself must be cut one part after the other: taken as one surface its two passes would cancel
+/// where they cross. Consecutive parts overlap by up to `overlap` in length, so that the cut stays whole where they
+/// join (cutting the same place again changes nothing). Strips that fold back onto earlier ones within `slit` count as
+/// meeting them. Cost: O(n log n) triangle pairs whose boxes overlap.
+std::vector<std::vector<std::uint32_t>> split_at_self_crossings(const SweptSurface& surface, double overlap,
+                                                                double slit);
+
+/// A part of a surface with a search tree: what one cut is made with.
+class Sheet {
+ public:
+  Sheet(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles);
+
+  [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+  [[nodiscard]] const SosPoint& point(std::uint32_t triangle, unsigned corner) const {
+    return (*surface_).points[triangles_[triangle][corner]];
+  }
+  [[nodiscard]] const TriangleTree& tree() const { return tree_; }
+  [[nodiscard]] const Box& bounds() const { return bounds_; }
+  /// Unit mean normal, or zero where the sheet has none (closed).
+  [[nodiscard]] const Vec3& mean_normal() const { return mean_normal_; }
+  /// Unnormalised normal of a triangle: twice its area vector.
+  [[nodiscard]] Vec3 normal(std::uint32_t triangle) const;
+
+ private:
+  const SweptSurface* surface_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  TriangleTree tree_;
+  Box bounds_;
+  Vec3 mean_normal_ = Vec3::Zero();
+};
+
+}  // namespace incise::inline v0
