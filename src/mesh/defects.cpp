@@ -71,7 +71,9 @@ struct KeyedTet {
   [[nodiscard]] bool same_set(const KeyedTet& o) const { return low == o.low && high == o.high; }
 };
 
-std::uint64_t pack(std::uint32_t a, std::uint32_t b) { return (std::uint64_t{a} << 32U) | b; }
+std::uint64_t pack(std::uint32_t a, std::uint32_t b) {
+  return (std::uint64_t{a} << 32U) | b;
+}
 
 // Tets whose vertex set an earlier tet has, rising.
 std::vector<std::uint32_t> find_repeated_tets(const std::vector<Tet>& tets) {
@@ -296,7 +298,9 @@ bool Defects::none() const {
   return std::all_of(counts.begin(), counts.end(), [](std::uint64_t n) { return n == 0; });
 }
 
-Defects find_defects(const TetSoup& soup) { return Finder(soup).run(); }
+Defects find_defects(const TetSoup& soup) {
+  return Finder(soup).run();
+}
 
 std::vector<NamedDefect> list_defects(const Defects& defects) {
   const auto counts = counts_of(defects);

@@ -55,9 +55,9 @@ struct Defects {
 
 /// One line of a list of defects.
 struct NamedDefect {
-  std::string_view name;               ///< as in `incise info --json`, for instance "zero_volume"
-  std::uint64_t count = 0;             ///< how many there are
-  std::vector<std::uint32_t> examples; ///< as in `Defects::examples`
+  std::string_view name;                ///< as in `incise info --json`, for instance "zero_volume"
+  std::uint64_t count = 0;              ///< how many there are
+  std::vector<std::uint32_t> examples;  ///< as in `Defects::examples`
 };
 
 /// Count what is wrong with a soup.

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "incise/mesh/tet_soup.h"
+
+namespace incise::inline v0 {
+namespace io {
+
+/// What a mesh file can carry: tets, faces, and labels. Optional arrays are empty where absent.
+struct MeshData {
+  TetSoup soup;                                         ///< points, tets, region per tet
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< `n_triangles × 3`, indices into `soup.points`
+  std::vector<std::int32_t> triangle_stroke;            ///< `n_triangles` or empty; 0 = skin, else the stroke's
+                                                        ///< number; a foreign file's own face label
+  std::vector<std::int32_t> piece;                      ///< `n_tets` or empty: face-connected piece
+  std::vector<std::int32_t> origin_vertex;              ///< `n_points` or empty: vertex of the mesh before the cut
+};
+
+/// Triangles without connectivity, as a surface file holds them; equal points are not merged.
+struct SurfaceSoup {
+  std::vector<Vec3> points;                             ///< `n_points`, in the file's length unit
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< `n_triangles × 3`, indices into `points`
+};
+
+}  // namespace io
+}  // namespace incise::inline v0

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "incise/core/result.h"
+#include "incise/io/mesh_data.h"
+
+namespace incise::inline v0 {
+namespace io {
+
+/// The families of mesh files.
+enum class Format : std::uint8_t {
+  kMedit,   ///< .mesh
+  kMsh,     ///< Gmsh .msh
+  kVtk,     ///< legacy .vtk
+  kVtu,     ///< .vtu
+  kTetGen,  ///< .node and .ele
+  kVega,    ///< .veg
+  kAbaqus,  ///< .inp
+  kPly,     ///< tetrahedral .ply (read only)
+};
+
+/// A mesh as its file has it: nothing is reordered, turned, merged or dropped.
+struct MeshFile {
+  Format format = Format::kMedit;
+  std::string format_name;  ///< for people, for instance "Gmsh MSH 2.2 ASCII"
+  bool gzipped = false;
+  MeshData data;
+  bool ten_node = false;                 ///< tets had mid-edge nodes: their four corners are in `data`
+  std::vector<std::uint32_t> mid_nodes;  ///< rising: points that are only mid-edge nodes of tets
+  std::size_t file_vertices = 0;         ///< vertices in the file, mid-edge nodes included
+  std::size_t file_tets = 0;             ///< tets in the file
+  std::vector<std::string> notes;        ///< what was left out, in words
+};
+
+/// Bounds on what a reader may take.
+struct ReadLimits {
+  /// Bytes after gunzip; unit byte, usual size below 1 GB. Smaller values refuse large gzipped meshes.
+  std::uint64_t max_inflated_bytes = std::uint64_t{4} << 30U;
+};
+
+/// Gets a file that stands beside the one being read: TetGen's other half, or what *INCLUDE names.
+///
+/// @param name  a file name or relative path, as the format gives it.
+/// @return its bytes, gunzipped.
+using SiblingLoader = std::function<Result<std::string>(const std::string& name)>;
+
+/// Read a tetrahedral mesh; the format is found from the content, not from the name.
+///
+/// MEDIT .mesh; Gmsh .msh 1.0, 2.x and 4.1, ASCII and binary; legacy .vtk 2.0 to 5.1; .vtu in all encodings but
+/// LZ4 and LZMA; TetGen .node or .ele (the other is looked for beside it); Vega .veg; Abaqus .inp; tetrahedral
+/// .ply; any of them gzipped. Ten-node tets keep their corners; their other nodes stay in `data.soup.points`.
+/// @return the mesh, with all indices in range and all coordinates finite, and at least one tet.
+/// Errors: `kBadFile` "FILE:LINE: what; remedy" (or a byte offset), `kUnsupported` for a format of no use here,
+/// `kOutOfMemory`. Cost: O(n); holds the file's bytes and the mesh at once. Thread-safe.
+[[nodiscard]] Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+/// Read a mesh from memory, as `read_mesh` does; this is what the fuzzers call.
+///
+/// @param bytes    the content of a file, gzipped or not.
+/// @param name     stands for FILE in messages; for TetGen it names the other half (`a.ele` asks for `a.node`).
+/// @param sibling  where the format needs a second file; without it such files are refused.
+[[nodiscard]] Result<MeshFile> read_mesh_bytes(std::string_view bytes, const std::string& name = "mesh",
+                                               const SiblingLoader& sibling = {}, const ReadLimits& limits = {});
+
+/// Write a mesh in the format that the extension names, gzipped where `.gz` follows.
+///
+/// `.mesh`, `.msh` (2.2 ASCII), `.vtk` (4.2 ASCII), `.vtu`, `.node` or `.ele` (both are written), `.veg`, `.inp`.
+/// Numbers read back bit for bit. `region` goes everywhere; `piece` everywhere but `.mesh`; triangles with `stroke`
+/// to `.mesh .msh .vtk .vtu`; `origin_vertex` to `.msh .vtk .vtu .node`.
+/// The file is written beside its place and renamed: no partial file is ever seen under its name.
+/// @param data  indices in range, finite points, arrays of the documented lengths.
+/// Errors: `kBadArgument` for bad data or an unknown extension, `kIo`. Cost: O(n); holds the file's bytes.
+[[nodiscard]] Status write_mesh(const std::filesystem::path& path, const MeshData& data);
+
+/// The bytes that `write_mesh` would put into the file of that extension (without `.gz`), for tests and the web.
+///
+/// @param extension  ".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".
+[[nodiscard]] Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData& data);
+
+}  // namespace io
+}  // namespace incise::inline v0

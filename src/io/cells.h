@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What legacy VTK and VTU share: cells by type, and labels by name.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/reader.h"
+
+namespace incise::inline v0 {
+namespace io {
+
+inline constexpr std::int64_t kVtkTriangle = 5;
+inline constexpr std::int64_t kVtkTet = 10;
+inline constexpr std::int64_t kVtkTet10 = 24;
+
+/// Sorts cells into tets and triangles, and the labels of cells likewise.
+class CellSorter {
+ public:
+  explicit CellSorter(Job& job) : job_(job) {}
+
+  /// Append cells: `offsets` has one entry more than `types`; vertex numbers count from `first_vertex`.
+  bool add(const std::vector<std::int64_t>& types, const std::vector<std::int64_t>& offsets,
+           const std::vector<std::int64_t>& connectivity, std::size_t first_vertex, std::size_t n_vertices);
+
+  /// Whether an array of this name is of use.
+  [[nodiscard]] static bool wants_cell_array(std::string_view name);
+  [[nodiscard]] static bool wants_point_array(std::string_view name) { return name == "origin_vertex"; }
+
+  /// Labels of the cells that the last `add` brought, one per cell.
+  void label_cells(std::string_view name, const std::vector<double>& values);
+  void label_points(std::string_view name, const std::vector<double>& values);
+
+  /// Call once at the end.
+  void finish_notes();
+
+ private:
+  bool fail_index(std::int64_t vertex, std::size_t n);
+  bool add_tet(const std::int64_t* nodes, std::size_t n_nodes, std::size_t first_vertex, std::size_t n_vertices);
+  void put(std::vector<std::int32_t>& labels, std::size_t i, double value);
+
+  Job& job_;
+  std::vector<std::uint32_t> slot_;  // per cell of the last block: position among the tets or the triangles
+  std::vector<std::int64_t> types_;
+  int region_rank_ = 0;
+  std::uint64_t skipped_ = 0;
+  std::uint64_t fractions_ = 0;
+};
+
+}  // namespace io
+}  // namespace incise::inline v0

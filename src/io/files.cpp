@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/files.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "io/gzip.h"
+#include "io/text.h"
+
+namespace incise::inline v0 {
+namespace io {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Closer {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Closer>;
+
+Error io_error(ErrorCode code, const fs::path& path, const std::string& what) {
+  return {code, path.string() + ": " + what};
+}
+
+// A new file beside `path`, of a name that nobody has.
+File open_beside(const fs::path& path, fs::path& temporary) {
+  for (int i = 0; i < 1000; ++i) {
+    temporary = path;
+    temporary += "." + std::to_string(i) + ".tmp";
+    File file(std::fopen(temporary.string().c_str(), "wbx"));
+    if (file || errno != EEXIST) return file;
+  }
+  return nullptr;
+}
+
+Status write_all(const fs::path& path, std::string_view bytes, fs::path& temporary) {
+  File file = open_beside(path, temporary);
+  if (!file) {
+    const std::string why = std::strerror(errno);
+    temporary.clear();
+    return io_error(ErrorCode::kIo, path, "cannot be written (" + why + "); choose a folder that you may write to");
+  }
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() &&
+                       std::fflush(file.get()) == 0 && std::ferror(file.get()) == 0;
+  if (std::fclose(file.release()) == 0 && written) return {};
+  return io_error(ErrorCode::kIo, path, "writing failed; is the disk full?");
+}
+
+}  // namespace
+
+Result<std::string> load_file(const fs::path& path, const ReadLimits& limits) {
+  std::error_code code;
+  if (fs::is_directory(path, code)) {
+    return io_error(ErrorCode::kBadFile, path, "is a folder; give the file in it");
+  }
+  const File file(std::fopen(path.string().c_str(), "rb"));
+  if (!file) {
+    return io_error(ErrorCode::kBadFile, path,
+                    std::string("cannot be opened (") + std::strerror(errno) + "); check the name");
+  }
+  const auto size = fs::file_size(path, code);
+  std::string bytes;
+  if (!code && size <= limits.max_inflated_bytes) bytes.reserve(static_cast<std::size_t>(size) + 1);
+  std::vector<char> chunk(std::size_t{1} << 18U);
+  for (std::size_t got = 0; (got = std::fread(chunk.data(), 1, chunk.size(), file.get())) > 0;) {
+    if (bytes.size() + got > limits.max_inflated_bytes) {
+      return io_error(ErrorCode::kOutOfMemory, path,
+                      "is larger than " + std::to_string(limits.max_inflated_bytes) + " bytes; cut it into parts");
+    }
+    bytes.append(chunk.data(), got);
+  }
+  if (std::ferror(file.get()) != 0) return io_error(ErrorCode::kBadFile, path, "reading failed; check the disk");
+  return bytes;
+}
+
+Result<std::string> load_either(const fs::path& path, const ReadLimits& limits) {
+  std::error_code code;
+  fs::path zipped = path;
+  zipped += ".gz";
+  const bool plain = fs::exists(path, code) || !fs::exists(zipped, code);
+  Result<std::string> bytes = load_file(plain ? path : zipped, limits);
+  if (!bytes || !is_gzip(*bytes)) return bytes;
+  std::string out;
+  std::string why;
+  if (!gunzip(*bytes, limits.max_inflated_bytes, out, why)) return io_error(ErrorCode::kBadFile, path, why);
+  return out;
+}
+
+Status store_files(const std::vector<std::pair<fs::path, std::string_view>>& files) {
+  std::vector<fs::path> temporary(files.size());
+  Status status;
+  for (std::size_t i = 0; i < files.size() && status.ok(); ++i) {
+    status = write_all(files[i].first, files[i].second, temporary[i]);
+  }
+  for (std::size_t i = 0; i < files.size() && status.ok(); ++i) {
+    std::error_code code;
+    fs::rename(temporary[i], files[i].first, code);
+    if (code)
+      status = io_error(ErrorCode::kIo, files[i].first, "cannot be replaced (" + code.message() + "); is it a folder?");
+  }
+  std::error_code ignored;
+  for (const fs::path& path : temporary) {
+    if (!status.ok() && !path.empty()) fs::remove(path, ignored);
+  }
+  return status;
+}
+
+Status store_packed(const std::vector<fs::path>& paths, std::vector<std::string> contents, bool gzipped) {
+  std::vector<std::pair<fs::path, std::string_view>> files;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    std::string packed;
+    if (gzipped) {
+      if (!gzip(contents[i], packed)) {
+        return io_error(ErrorCode::kUnsupported, paths[i], "this build writes no gzip; leave .gz off the name");
+      }
+      contents[i] = std::move(packed);
+    }
+    files.emplace_back(paths[i], contents[i]);
+  }
+  return store_files(files);
+}
+
+Extension extension_of(const fs::path& path) {
+  Extension found;
+  found.name = to_lower(path.extension().string());
+  found.gzipped = found.name == ".gz";
+  if (found.gzipped) found.name = to_lower(path.stem().extension().string());
+  return found;
+}
+
+}  // namespace io
+}  // namespace incise::inline v0

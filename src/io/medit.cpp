@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// MEDIT .mesh, ASCII. Keywords and rows as in "MEDIT: An interactive mesh visualization software", INRIA RT-0253.
+#include "incise/core/id.h"
+#include "io/reader.h"
+
+namespace incise::inline v0 {
+namespace io {
+namespace {
+
+class MeditReader {
+ public:
+  explicit MeditReader(Job& job) : job_(job), in_(job.bytes, job.name, job.error) { in_.set_comment('#'); }
+
+  bool run() {
+    std::int64_t version = 0;
+    if (!same_word(in_.word(), "MeshVersionFormatted") || !in_.integer(version, "format version")) {
+      return in_.fail("a MEDIT file begins with 'MeshVersionFormatted' and a number");
+    }
+    while (in_.skip_space()) {
+      const std::string_view keyword = in_.word();
+      if (same_word(keyword, "End")) break;
+      if (!section(keyword)) return false;
+    }
+    return has_vertices_ || in_.fail("there is no Vertices section");
+  }
+
+ private:
+  bool section(std::string_view keyword) {
+    if (same_word(keyword, "Dimension")) return dimension();
+    if (same_word(keyword, "Vertices")) return vertices();
+    if (same_word(keyword, "Tetrahedra")) return tets(4);
+    if (same_word(keyword, "TetrahedraP2")) return tets(10);
+    if (same_word(keyword, "Triangles")) return triangles();
+    skip_numbers();
+    return true;
+  }
+
+  // Sections of no use here hold numbers only; the next keyword begins with a letter.
+  void skip_numbers() {
+    double number = 0;
+    while (!in_.peek().empty() && parse_double(in_.peek(), number)) in_.word();
+  }
+
+  bool dimension() {
+    std::int64_t n = 0;
+    if (!in_.integer(n, "dimension")) return false;
+    return n == 3 || in_.fail("dimension must be 3");
+  }
+
+  // The label at the end of a row; rows without one have label 0.
+  bool label(std::int32_t& out, const char* what) {
+    std::int64_t value = 0;
+    out = 0;
+    if (in_.at_line_end()) return in_.end_line("row");
+    if (!in_.integer_in_line(value, what)) return false;
+    if (!to_label(value, out)) return in_.fail(std::string(what) + " does not fit 32 bits");
+    return in_.end_line("row");
+  }
+
+  bool vertices() {
+    std::int64_t n = 0;
+    if (has_vertices_) return in_.fail("there are two Vertices sections");
+    if (!in_.count(n, 3, "number of vertices")) return false;
+    has_vertices_ = true;
+    auto& points = job_.soup().points;
+    points.resize(static_cast<std::size_t>(n));
+    std::int32_t ignored = 0;
+    for (Vec3& p : points) {
+      in_.skip_space();
+      for (int k = 0; k < 3; ++k) {
+        if (!in_.real_in_line(p[k], "coordinate")) return false;
+      }
+      if (!label(ignored, "vertex label")) return false;
+    }
+    return true;
+  }
+
+  bool vertex(std::uint32_t& out) {
+    std::int64_t value = 0;
+    if (!in_.integer_in_line(value, "vertex number")) return false;
+    const std::size_t n = has_vertices_ ? job_.soup().points.size() : kInvalidIndex;
+    return to_index(value, n, out, 1) || in_.fail("vertex number " + std::to_string(value) + " is out of range");
+  }
+
+  bool tets(std::size_t nodes) {
+    std::int64_t n = 0;
+    if (!in_.count(n, nodes, "number of tetrahedra")) return false;
+    auto& soup = job_.soup();
+    soup.tets.reserve(soup.tets.size() + static_cast<std::size_t>(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      in_.skip_space();
+      std::array<std::uint32_t, 10> row = {};
+      for (std::size_t k = 0; k < nodes; ++k) {
+        if (!vertex(row[k])) return false;
+      }
+      soup.tets.push_back({row[0], row[1], row[2], row[3]});
+      job_.mids.insert(job_.mids.end(), row.begin() + 4, row.begin() + static_cast<std::ptrdiff_t>(nodes));
+      if (!label(soup.regions.emplace_back(), "tet label")) return false;
+    }
+    return true;
+  }
+
+  bool triangles() {
+    std::int64_t n = 0;
+    if (!in_.count(n, 3, "number of triangles")) return false;
+    auto& data = job_.out.data;
+    data.triangles.reserve(static_cast<std::size_t>(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      in_.skip_space();
+      for (std::uint32_t& v : data.triangles.emplace_back()) {
+        if (!vertex(v)) return false;
+      }
+      if (!label(data.triangle_stroke.emplace_back(), "triangle label")) return false;
+    }
+    return true;
+  }
+
+  Job& job_;
+  Cursor in_;
+  bool has_vertices_ = false;
+};
+
+}  // namespace
+
+bool read_medit(Job& job) {
+  job.out.format = Format::kMedit;
+  job.out.format_name = "MEDIT .mesh ASCII";
+  return MeditReader(job).run();
+}
+
+}  // namespace io
+}  // namespace incise::inline v0

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the format of a mesh from its content, and gets bytes from the disk.
+#include "incise/io/mesh_file.h"
+
+#include <new>
+#include <system_error>
+
+#include "io/files.h"
+#include "io/gzip.h"
+#include "io/reader.h"
+
+namespace incise::inline v0 {
+namespace io {
+namespace {
+
+constexpr const char* kReadable =
+    "Incise reads MEDIT .mesh, Gmsh .msh, legacy .vtk, .vtu, TetGen .node/.ele, Vega .veg, Abaqus .inp and "
+    "tetrahedral .ply";
+
+using Reader = bool (*)(Job&);
+
+bool starts_with(std::string_view text, std::string_view with) {
+  return text.substr(0, with.size()) == with;
+}
+
+bool refuse(Job& job, const std::string& what) {
+  return job.fail(what + " cannot be read; " + kReadable, ErrorCode::kUnsupported);
+}
+
+// Known formats that are of no use here, by their first bytes.
+const char* unsupported_kind(std::string_view bytes) {
+  using std::string_view_literals::operator""sv;
+  if (starts_with(bytes, "\x89HDF\r\n")) return "HDF5 (.h5)";
+  if (starts_with(bytes, "MATLAB 5.0")) return "MATLAB (.mat)";
+  if (starts_with(bytes, "\1\0\0\0"sv) || starts_with(bytes, "\0\0\0\1"sv)) return "binary MEDIT (.meshb)";
+  if (starts_with(bytes, "PK\3\4")) return "a zip archive";
+  if (starts_with(bytes, "solid ") || starts_with(bytes, "OFF")) return "a surface (it holds no tets)";
+  if (starts_with(bytes, "CDF") || starts_with(bytes, "NRRD")) return "this kind of file";
+  return nullptr;
+}
+
+// Lines that begin with '*' tell Vega from Abaqus.
+Reader star_format(std::string_view bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    const std::string_view line = trim(bytes.substr(at, end - at));
+    const std::string_view keyword = trim(line.substr(0, line.find(',')));
+    if (same_word(keyword, "*VERTICES") || same_word(keyword, "*ELEMENTS")) return read_vega;
+    if (same_word(keyword, "*NODE") || same_word(keyword, "*HEADING") || same_word(keyword, "*ELEMENT")) {
+      return read_abaqus;
+    }
+    if (starts_with(to_lower(line.substr(0, 9)), "*include ") && line.find('=') == std::string_view::npos)
+      return read_vega;
+    at = end + 1;
+  }
+  return nullptr;
+}
+
+// The format by the first line that is not a comment.
+Reader text_format(std::string_view bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    const std::string_view line = trim(bytes.substr(at, end - at));
+    at = end + 1;
+    if (line.empty() || line[0] == '#') continue;
+    if (line[0] == '$') return read_msh;
+    if (line[0] == '*') return star_format(bytes);
+    if (line[0] == '<') return read_vtu;
+    if (same_word(line.substr(0, 20), "MeshVersionFormatted")) return read_medit;
+    double number = 0;
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    return parse_double(word, number) ? read_tetgen : nullptr;
+  }
+  return nullptr;
+}
+
+Reader find_reader(std::string_view bytes) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (starts_with(bytes, kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  if (starts_with(bytes, "# vtk DataFile")) return read_vtk;
+  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return read_ply_tets;
+  return text_format(bytes);
+}
+
+bool run(Job& job) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (job.bytes.empty()) return job.fail("the file is empty; export the mesh again");
+  if (starts_with(job.bytes, kByteOrderMark)) job.bytes.remove_prefix(kByteOrderMark.size());
+  if (const char* kind = unsupported_kind(job.bytes)) return refuse(job, kind);
+  const std::string_view trimmed = trim(job.bytes.substr(0, 64));
+  if (starts_with(trimmed, "{") || starts_with(trimmed, "[")) return refuse(job, "JSON");
+  const Reader reader = find_reader(job.bytes);
+  if (reader == nullptr) return refuse(job, "this kind of file");
+  return reader(job) && finish(job);
+}
+
+// Messages end with a remedy, as the contract of errors asks.
+Error complete(Error error) {
+  if (error.message.find(';') == std::string::npos) error.message += "; the file is damaged: export the mesh again";
+  return error;
+}
+
+Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, const SiblingLoader& sibling,
+                            const ReadLimits& limits) {
+  Job job{name, bytes, sibling, limits, {}, {}};
+  if (!run(job)) return complete(std::move(job.error));
+  return std::move(job.out);
+}
+
+}  // namespace
+
+Result<MeshFile> read_mesh_bytes(std::string_view bytes, const std::string& name, const SiblingLoader& sibling,
+                                 const ReadLimits& limits) {
+  return guarded<MeshFile>(name, [&]() -> Result<MeshFile> {
+    if (!is_gzip(bytes)) return read_plain(bytes, name, sibling, limits);
+    std::string inflated;
+    std::string why;
+    if (!gunzip(bytes, limits.max_inflated_bytes, inflated, why)) return Error{ErrorCode::kBadFile, name + ": " + why};
+    Result<MeshFile> file = read_plain(inflated, name, sibling, limits);
+    if (file) file->gzipped = true;
+    return file;
+  });
+}
+
+Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
+  const std::string name = path.string();
+  return guarded<MeshFile>(name, [&]() -> Result<MeshFile> {
+    Result<std::string> bytes = load_file(path, limits);
+    if (!bytes) return bytes.error();
+    const SiblingLoader sibling = [&path, &limits](const std::string& other) {
+      // TetGen asks with the whole path; *INCLUDE with one that is relative to the file.
+      const std::filesystem::path wanted(other);
+      const bool beside = wanted.parent_path() == path.parent_path();
+      return load_either(beside ? wanted : path.parent_path() / wanted, limits);
+    };
+    return read_mesh_bytes(*bytes, name, sibling, limits);
+  });
+}
+
+}  // namespace io
+}  // namespace incise::inline v0

@@ -1,0 +1,532 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gmsh MSH 1.0, 2.x and 4.1, ASCII and binary, after the format chapter of the Gmsh reference manual.
+#include <bit>
+#include <cstring>
+#include <map>
+
+#include "incise/core/id.h"
+#include "io/reader.h"
+
+namespace incise::inline v0 {
+namespace io {
+namespace {
+
+constexpr int kTriangle = 2;
+constexpr int kTet = 4;
+constexpr int kTet10 = 11;
+
+// Nodes per element type 0 to 31; 0 where the type does not exist.
+constexpr std::array<std::uint8_t, 32> kNodesOfType = {0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
+                                                       8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
+
+std::size_t nodes_of(std::int64_t type) {
+  return type >= 0 && type < 32 ? kNodesOfType[static_cast<std::size_t>(type)] : 0;
+}
+bool is_tet(std::int64_t type) {
+  return type == kTet || type == kTet10 || (type >= 29 && type <= 31);
+}
+
+// One code path for ASCII and binary: integers, sizes and reals of a row, and its end.
+class Source {
+ public:
+  explicit Source(Job& job) : text(job.bytes, job.name, job.error) {}
+
+  Cursor text;
+  bool binary = false;
+  bool swap = false;
+  std::size_t size_bytes = 8;
+
+  bool begin_row() { return binary || text.skip_space() || text.fail("the file ends too early"); }
+  bool end_row() { return binary || text.end_line("row"); }
+
+  bool integer(std::int64_t& out, const char* what) {
+    if (!binary) return text.integer_in_line(out, what);
+    std::int32_t raw = 0;
+    if (!take(raw, what)) return false;
+    out = raw;
+    return true;
+  }
+  bool size(std::int64_t& out, const char* what) {
+    if (!binary) return text.integer_in_line(out, what);
+    if (size_bytes == 4) return integer(out, what);
+    return take(out, what);
+  }
+  bool real(double& out, const char* what) { return binary ? take(out, what) : text.real_in_line(out, what); }
+
+  // A number of rows that the rest of the file can hold.
+  bool fits(std::int64_t n, std::size_t ascii_bytes, std::size_t binary_bytes, const char* what) {
+    const std::size_t each = binary ? binary_bytes : ascii_bytes;
+    if (n >= 0 && static_cast<std::uint64_t>(n) <= (text.remaining() + 1) / each) return true;
+    return fail(std::string(what) + " is " + std::to_string(n) + ", more than the rest of the file can hold");
+  }
+  bool skip(std::size_t n) {
+    if (n > text.remaining()) return fail("the file ends too early");
+    text.seek(text.position() + n);
+    return true;
+  }
+  bool fail(const std::string& what) { return text.fail(what); }
+
+ private:
+  template <class T>
+  bool take(T& out, const char* what) {
+    if (text.remaining() < sizeof(T)) return fail(std::string(what) + " missing: the file ends too early");
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), text.bytes().data() + text.position(), sizeof(T));
+    if (swap) std::reverse(raw.begin(), raw.end());
+    std::memcpy(&out, raw.data(), sizeof(T));
+    text.seek(text.position() + sizeof(T));
+    return true;
+  }
+};
+
+class MshReader {
+ public:
+  explicit MshReader(Job& job) : job_(job), in_(job) {}
+
+  bool run() {
+    while (in_.text.skip_space()) {
+      const std::string_view section = trim(in_.text.line());
+      if (section.empty() || section[0] != '$') return in_.text.fail("expected a section, found " + in_quotes(section));
+      if (!read_section(section.substr(1))) return false;
+    }
+    if (version_ == 0) return in_.text.fail("there is no $MeshFormat section; export it from Gmsh as MSH 2.2");
+    if (!has_nodes_ || !has_elements_) return in_.text.fail("the sections of nodes and elements must both be there");
+    return true;
+  }
+
+ private:
+  bool read_section(std::string_view name) {
+    if (name == "MeshFormat") return mesh_format();
+    if (name == "NOD" || name == "ELM") version_ = 1;
+    if (name == "NOD") return once(has_nodes_, "$NOD") && nodes_2() && end_section("ENDNOD");
+    if (name == "ELM") return once(has_elements_, "$ELM") && elements_1() && end_section("ENDELM");
+    if (version_ == 0 && (name == "Nodes" || name == "Elements" || name == "Entities")) {
+      return in_.text.fail("$" + std::string(name) + " comes before any $MeshFormat; export it from Gmsh as MSH 2.2");
+    }
+    if (name == "Nodes") {
+      return once(has_nodes_, "$Nodes") && (version_ == 2 ? nodes_2() : nodes_4()) && end_section("EndNodes");
+    }
+    if (name == "Elements") {
+      if (!has_nodes_) return in_.text.fail("$Elements comes before $Nodes");
+      return once(has_elements_, "$Elements") && (version_ == 2 ? elements_2() : elements_4()) &&
+             end_section("EndElements");
+    }
+    if (name == "Entities" && version_ == 4) return entities() && end_section("EndEntities");
+    if (name == "ElementData") return data(true) && end_section("EndElementData");
+    if (name == "NodeData") return data(false) && end_section("EndNodeData");
+    return skip_section(name);
+  }
+
+  bool once(bool& seen, const char* name) {
+    if (seen) return in_.text.fail(std::string("there are two sections ") + name);
+    return seen = true;
+  }
+
+  bool end_section(std::string_view name) {
+    const std::string_view found = in_.text.word();
+    if (found.size() == name.size() + 1 && found[0] == '$' && found.substr(1) == name) return true;
+    return in_.fail("expected $" + std::string(name) + ", found " + in_quotes(found) + ": the count may be wrong");
+  }
+
+  // $EndName at the start of a line ends a section that Incise has no use for.
+  bool skip_section(std::string_view name) {
+    const std::string upper = "\n$END" + std::string(name);
+    const std::string mixed = "\n$End" + std::string(name);
+    const std::size_t from = in_.text.position() == 0 ? 0 : in_.text.position() - 1;
+    std::size_t at = in_.text.bytes().find(mixed, from);
+    if (at == std::string_view::npos) at = in_.text.bytes().find(upper, from);
+    if (at == std::string_view::npos) return in_.text.fail("section $" + std::string(name) + " does not end");
+    in_.text.seek(at + mixed.size());
+    in_.text.line();
+    return true;
+  }
+
+  bool mesh_format() {
+    double version = 0;
+    std::int64_t type = 0;
+    std::int64_t size = 0;
+    Cursor& text = in_.text;
+    if (!text.real(version, "format version") || !text.integer(type, "file type") || !text.integer(size, "data size")) {
+      return false;
+    }
+    if (version >= 2 && version < 3) {
+      version_ = 2;
+    } else if (version == 4.1) {
+      version_ = 4;
+    } else {
+      return job_.fail("MSH versions 1.0, 2.x and 4.1 can be read, but not " + std::to_string(version).substr(0, 3) +
+                           "; export it from Gmsh as MSH 2.2",
+                       ErrorCode::kUnsupported);
+    }
+    if ((type != 0 && type != 1) || (size != 4 && size != 8)) return text.fail("file type or data size is unknown");
+    in_.size_bytes = static_cast<std::size_t>(size);
+    text.line();
+    if (type == 1 && !byte_order()) return false;
+    name_format(version_ == 2 ? "2.2" : "4.1");
+    return end_section("EndMeshFormat") && (text.line(), true);
+  }
+
+  bool byte_order() {
+    in_.binary = true;
+    in_.text.set_binary();
+    std::int64_t one = 0;
+    if (!in_.integer(one, "byte order mark")) return false;
+    in_.swap = one != 1;
+    return one == 1 || one == 0x01000000 || in_.fail("the byte order mark is neither 1 nor 1 swapped");
+  }
+
+  void name_format(const char* version) {
+    job_.out.format_name = std::string("Gmsh MSH ") + version + (in_.binary ? " binary" : " ASCII");
+  }
+
+  // The line of a count, with what the rest of the file can hold.
+  bool count_line(std::int64_t& n, std::size_t ascii_bytes, std::size_t binary_bytes, const char* what) {
+    // Versions 1 and 2 write counts as text in binary files too.
+    if (!in_.text.integer(n, what)) return false;
+    in_.text.line();
+    return in_.fits(n, ascii_bytes, binary_bytes, what);
+  }
+
+  bool coordinates(Vec3& p) {
+    return in_.real(p[0], "coordinate") && in_.real(p[1], "coordinate") && in_.real(p[2], "coordinate");
+  }
+
+  bool seal_nodes() {
+    if (node_ids_.seal()) return true;
+    return in_.fail("node number " + std::to_string(node_ids_.repeated()) + " is there twice");
+  }
+
+  bool nodes_2() {
+    std::int64_t n = 0;
+    if (version_ == 1) name_format("1.0");
+    if (!count_line(n, 8, 28, "number of nodes")) return false;
+    job_.soup().points.resize(static_cast<std::size_t>(n));
+    for (Vec3& p : job_.soup().points) {
+      std::int64_t id = 0;
+      if (!in_.begin_row() || !in_.integer(id, "node number") || !coordinates(p) || !in_.end_row()) return false;
+      node_ids_.add(id);
+    }
+    return seal_nodes();
+  }
+
+  bool node(std::uint32_t& out, bool wide) {
+    std::int64_t id = 0;
+    if (!(wide ? in_.size(id, "node number") : in_.integer(id, "node number"))) return false;
+    out = node_ids_.find(id);
+    return out != kInvalidIndex || in_.fail("node number " + std::to_string(id) + " is not among the nodes");
+  }
+
+  // The nodes of one element of a known type; tets and triangles are kept.
+  bool element(std::int64_t id, std::int64_t type, std::int64_t label, bool wide) {
+    const std::size_t n = nodes_of(type);
+    std::array<std::uint32_t, 56> row = {};
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!node(row[i], wide)) return false;
+    }
+    std::int32_t tag = 0;
+    if (!to_label(label, tag)) return in_.fail("physical tag does not fit 32 bits");
+    auto& data = job_.out.data;
+    if (is_tet(type)) {
+      tet_ids_.add(id);
+      data.soup.tets.push_back({row[0], row[1], row[2], row[3]});
+      data.soup.regions.push_back(tag);
+      job_.mids.insert(job_.mids.end(), row.begin() + 4, row.begin() + static_cast<std::ptrdiff_t>(n));
+    } else if (type == kTriangle) {
+      triangle_ids_.add(id);
+      data.triangles.push_back({row[0], row[1], row[2]});
+      data.triangle_stroke.push_back(tag);
+    } else if (type > kTet && n > 0) {
+      ++skipped_;
+    }
+    return true;
+  }
+
+  bool seal_elements() {
+    if (skipped_ > 0) job_.out.notes.push_back(std::to_string(skipped_) + " elements that are not tets were left out");
+    if (tet_ids_.seal() && triangle_ids_.seal()) return true;
+    return in_.fail("an element number is there twice");
+  }
+
+  bool elements_1() {
+    std::int64_t n = 0;
+    if (!has_nodes_) return in_.text.fail("$ELM comes before $NOD");
+    if (!count_line(n, 12, 12, "number of elements")) return false;
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::int64_t id = 0;
+      std::int64_t type = 0;
+      std::int64_t physical = 0;
+      std::int64_t elementary = 0;
+      std::int64_t nodes = 0;
+      if (!in_.begin_row() || !in_.integer(id, "element number") || !in_.integer(type, "element type") ||
+          !in_.integer(physical, "physical region") || !in_.integer(elementary, "elementary region") ||
+          !in_.integer(nodes, "number of nodes")) {
+        return false;
+      }
+      if (nodes_of(type) == 0 || static_cast<std::size_t>(nodes) != nodes_of(type)) {
+        return in_.fail("element type " + std::to_string(type) + " cannot have " + std::to_string(nodes) + " nodes");
+      }
+      if (!element(id, type, physical, false) || !in_.end_row()) return false;
+    }
+    return seal_elements();
+  }
+
+  bool tags(std::int64_t n, std::int64_t& physical) {
+    std::int64_t ignored = 0;
+    if (n < 0 || n > 1000) return in_.fail("number of tags is " + std::to_string(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (!in_.integer(i == 0 ? physical : ignored, "tag")) return false;
+    }
+    return true;
+  }
+
+  bool check_type(std::int64_t type) {
+    return nodes_of(type) > 0 || in_.fail("element type " + std::to_string(type) + " is unknown");
+  }
+
+  bool elements_2() {
+    std::int64_t n = 0;
+    if (!count_line(n, 8, 8, "number of elements")) return false;
+    if (in_.binary) return elements_2_binary(n) && seal_elements();
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::int64_t id = 0;
+      std::int64_t type = 0;
+      std::int64_t n_tags = 0;
+      std::int64_t physical = 0;
+      if (!in_.begin_row() || !in_.integer(id, "element number") || !in_.integer(type, "element type") ||
+          !check_type(type) || !in_.integer(n_tags, "number of tags") || !tags(n_tags, physical) ||
+          !element(id, type, physical, false) || !in_.end_row()) {
+        return false;
+      }
+    }
+    return seal_elements();
+  }
+
+  bool elements_2_binary(std::int64_t n) {
+    for (std::int64_t done = 0; done < n;) {
+      std::int64_t type = 0;
+      std::int64_t follow = 0;
+      std::int64_t n_tags = 0;
+      if (!in_.integer(type, "element type") || !check_type(type) || !in_.integer(follow, "number of elements") ||
+          !in_.integer(n_tags, "number of tags")) {
+        return false;
+      }
+      if (follow < 1 || follow > n - done) return in_.fail("a block of elements is longer than the section");
+      for (std::int64_t i = 0; i < follow; ++i) {
+        std::int64_t id = 0;
+        std::int64_t physical = 0;
+        if (!in_.integer(id, "element number") || !tags(n_tags, physical) || !element(id, type, physical, false)) {
+          return false;
+        }
+      }
+      done += follow;
+    }
+    return true;
+  }
+
+  bool entities() {
+    std::array<std::int64_t, 4> n = {};
+    if (!in_.begin_row()) return false;
+    for (std::int64_t& k : n) {
+      if (!in_.size(k, "number of entities") || !in_.fits(k, 8, 28, "number of entities")) return false;
+    }
+    for (std::size_t dim = 0; dim < 4; ++dim) {
+      for (std::int64_t i = 0; i < n[dim]; ++i) {
+        if (!entity(dim)) return false;
+      }
+    }
+    return true;
+  }
+
+  bool entity(std::size_t dim) {
+    std::int64_t tag = 0;
+    std::int64_t n = 0;
+    std::int64_t value = 0;
+    double ignored = 0;
+    if (!in_.begin_row() || !in_.integer(tag, "entity tag")) return false;
+    for (int i = 0; i < (dim == 0 ? 3 : 6); ++i) {
+      if (!in_.real(ignored, "bounding box")) return false;
+    }
+    if (!in_.size(n, "number of physical tags") || !in_.fits(n, 2, 4, "number of physical tags")) return false;
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (!in_.integer(value, "physical tag")) return false;
+      if (i == 0) physical_[{static_cast<std::int64_t>(dim), tag}] = value;
+    }
+    if (dim == 0) return in_.end_row();
+    if (!in_.size(n, "number of bounding entities") || !in_.fits(n, 2, 4, "number of bounding entities")) return false;
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (!in_.integer(value, "bounding entity")) return false;
+    }
+    return in_.end_row();
+  }
+
+  bool header_4(std::int64_t& n_blocks, std::int64_t& n, const char* what) {
+    std::int64_t ignored = 0;
+    return in_.begin_row() && in_.size(n_blocks, "number of blocks") && in_.size(n, what) &&
+           in_.size(ignored, "lowest number") && in_.size(ignored, "highest number") && in_.end_row() &&
+           in_.fits(n_blocks, 8, 12 + in_.size_bytes, "number of blocks");
+  }
+
+  bool nodes_4() {
+    std::int64_t n_blocks = 0;
+    std::int64_t n = 0;
+    if (!header_4(n_blocks, n, "number of nodes")) return false;
+    if (!in_.fits(n, 8, 24 + in_.size_bytes, "number of nodes")) return false;
+    job_.soup().points.reserve(static_cast<std::size_t>(n));
+    for (std::int64_t b = 0; b < n_blocks; ++b) {
+      if (!node_block(n)) return false;
+    }
+    if (static_cast<std::int64_t>(node_ids_.size()) != n) return in_.fail("there are fewer nodes than the header says");
+    return seal_nodes();
+  }
+
+  bool node_block(std::int64_t n_all) {
+    std::int64_t dim = 0;
+    std::int64_t tag = 0;
+    std::int64_t parametric = 0;
+    std::int64_t n = 0;
+    if (!in_.begin_row() || !in_.integer(dim, "entity dimension") || !in_.integer(tag, "entity tag") ||
+        !in_.integer(parametric, "parametric") || !in_.size(n, "number of nodes in the block") || !in_.end_row()) {
+      return false;
+    }
+    if (n < 0 || n > n_all - static_cast<std::int64_t>(node_ids_.size())) {
+      return in_.fail("there are more nodes than the header says");
+    }
+    if (dim < 0 || dim > 3) return in_.fail("entity dimension is " + std::to_string(dim));
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::int64_t id = 0;
+      if (!in_.begin_row() || !in_.size(id, "node number") || !in_.end_row()) return false;
+      node_ids_.add(id);
+    }
+    for (std::int64_t i = 0; i < n; ++i) {
+      double ignored = 0;
+      if (!in_.begin_row() || !coordinates(job_.soup().points.emplace_back())) return false;
+      for (std::int64_t k = 0; parametric != 0 && k < dim; ++k) {
+        if (!in_.real(ignored, "parametric coordinate")) return false;
+      }
+      if (!in_.end_row()) return false;
+    }
+    return true;
+  }
+
+  bool elements_4() {
+    std::int64_t n_blocks = 0;
+    std::int64_t n = 0;
+    if (!header_4(n_blocks, n, "number of elements")) return false;
+    if (!in_.fits(n, 4, 2 * in_.size_bytes, "number of elements")) return false;
+    std::int64_t done = 0;
+    for (std::int64_t b = 0; b < n_blocks; ++b) {
+      if (!element_block(n, done)) return false;
+    }
+    if (done != n) return in_.fail("there are fewer elements than the header says");
+    return seal_elements();
+  }
+
+  bool element_block(std::int64_t n_all, std::int64_t& done) {
+    std::int64_t dim = 0;
+    std::int64_t tag = 0;
+    std::int64_t type = 0;
+    std::int64_t n = 0;
+    if (!in_.begin_row() || !in_.integer(dim, "entity dimension") || !in_.integer(tag, "entity tag") ||
+        !in_.integer(type, "element type") || !check_type(type) || !in_.size(n, "number of elements in the block") ||
+        !in_.end_row()) {
+      return false;
+    }
+    if (n < 0 || n > n_all - done) return in_.fail("there are more elements than the header says");
+    const auto found = physical_.find({dim, tag});
+    const std::int64_t physical = found == physical_.end() ? 0 : found->second;
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::int64_t id = 0;
+      if (!in_.begin_row() || !in_.size(id, "element number") || !element(id, type, physical, true) || !in_.end_row()) {
+        return false;
+      }
+    }
+    done += n;
+    return true;
+  }
+
+  // $ElementData and $NodeData: tags, then a number and values per row. Known names are kept.
+  bool data(bool of_elements) {
+    Cursor& text = in_.text;
+    std::int64_t n = 0;
+    std::string name;
+    if (!text.count(n, 1, "number of string tags")) return false;
+    text.line();
+    for (std::int64_t i = 0; i < n; ++i) {
+      const std::string_view tag = trim(text.line());
+      if (i == 0) name = tag.size() >= 2 ? std::string(tag.substr(1, tag.size() - 2)) : std::string();
+    }
+    double ignored = 0;
+    if (!text.count(n, 1, "number of real tags")) return false;
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (!text.real(ignored, "real tag")) return false;
+    }
+    std::array<std::int64_t, 3> sizes = {0, 1, 0};  // time step, components, rows
+    if (!text.count(n, 1, "number of integer tags")) return false;
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::int64_t value = 0;
+      if (!text.integer(value, "integer tag")) return false;
+      if (i < 3) sizes[static_cast<std::size_t>(i)] = value;
+    }
+    text.line();
+    return data_rows(of_elements, name, sizes[1], sizes[2]);
+  }
+
+  bool data_rows(bool of_elements, const std::string& name, std::int64_t components, std::int64_t n) {
+    if (components < 1 || components > 100) return in_.fail("number of components is " + std::to_string(components));
+    const auto width = static_cast<std::size_t>(components);
+    if (!in_.fits(n, 2 + 2 * width, 4 + 8 * width, "number of values")) return false;
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::int64_t id = 0;
+      double value = 0;
+      if (!in_.begin_row() || !in_.integer(id, "number")) return false;
+      for (std::size_t k = 0; k < width; ++k) {
+        if (!in_.real(value, "value")) return false;
+      }
+      if (!in_.end_row()) return false;
+      if (width == 1) keep(of_elements, name, id, value);
+    }
+    return true;
+  }
+
+  static void put(std::vector<std::int32_t>& labels, std::size_t n, std::uint32_t at, double value) {
+    std::int32_t label = 0;
+    if (at >= n || !to_label(value, label)) return;
+    labels.resize(n, 0);
+    labels[at] = label;
+  }
+
+  void keep(bool of_elements, const std::string& name, std::int64_t id, double value) {
+    auto& data = job_.out.data;
+    const std::size_t n_tets = data.soup.tets.size();
+    if (!of_elements) {
+      if (name == "origin_vertex") put(data.origin_vertex, data.soup.points.size(), node_ids_.find(id), value);
+    } else if (name == "region") {
+      put(data.soup.regions, n_tets, tet_ids_.find(id), value);
+    } else if (name == "piece") {
+      put(data.piece, n_tets, tet_ids_.find(id), value);
+    } else if (name == "stroke") {
+      put(data.triangle_stroke, data.triangles.size(), triangle_ids_.find(id), value);
+    }
+  }
+
+  Job& job_;
+  Source in_;
+  int version_ = 0;
+  bool has_nodes_ = false;
+  bool has_elements_ = false;
+  std::uint64_t skipped_ = 0;
+  IdMap node_ids_;
+  IdMap tet_ids_;
+  IdMap triangle_ids_;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> physical_;  // (dimension, entity) → physical tag
+};
+
+}  // namespace
+
+bool read_msh(Job& job) {
+  job.out.format = Format::kMsh;
+  return MshReader(job).run();
+}
+
+}  // namespace io
+}  // namespace incise::inline v0
