@@ -44,7 +44,7 @@ class SideMemo {
   const Sheet& sheet_;
   ZeroedArray<std::uint32_t> index_;
   std::vector<std::int8_t> signs_;
-  std::size_t count_ = 0;
+  std::uint32_t count_ = 0;
   bool is_used_ = false;
 };
 

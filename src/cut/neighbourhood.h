@@ -22,14 +22,15 @@ struct NearTet {
 
 /// The colour of corner c of a complete tet, relative to corner 0: which side of the sheet it lies on (bit 0 or 1).
 constexpr unsigned colour_of(std::uint8_t flagged, unsigned corner) {
-  return corner == 0 ? 0U : (flagged >> kEdgeOfCorners[0][corner]) & 1U;
+  return corner == 0 ? 0U : (unsigned{flagged} >> kEdgeOfCorners[0][corner]) & 1U;
 }
 
 /// Whether some face has an odd number of flagged edges: the border of the sheet pierces it (algorithm: parity law).
 constexpr bool has_odd_face(std::uint8_t flagged) {
+  const unsigned bits = flagged;
   bool is_odd = false;
   for (const auto& edges : kSideEdges) {
-    is_odd |= (((flagged >> edges[0]) ^ (flagged >> edges[1]) ^ (flagged >> edges[2])) & 1U) != 0;
+    is_odd |= (((bits >> edges[0]) ^ (bits >> edges[1]) ^ (bits >> edges[2])) & 1U) != 0;
   }
   return is_odd;
 }

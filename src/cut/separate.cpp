@@ -20,7 +20,7 @@ class IncisionMarks {
     bits_[side.tet().value] = static_cast<std::uint8_t>(bits_[side.tet().value] | 1U << side.side());
   }
   [[nodiscard]] bool has(Side side) const {
-    return side.tet().value < bits_.capacity() && ((bits_[side.tet().value] >> side.side()) & 1U) != 0;
+    return side.tet().value < bits_.capacity() && ((unsigned{bits_[side.tet().value]} >> side.side()) & 1U) != 0;
   }
 
  private:

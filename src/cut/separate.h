@@ -14,6 +14,7 @@ struct Separation {
   std::uint64_t latent_faces = 0;    ///< incision faces none of whose vertices came apart: still joined
   std::uint64_t copied_vertices = 0;
   std::uint64_t pinched_edges = 0;   ///< bisected
+  std::uint64_t singleton_vertices = 0;  ///< divided by Algorithm 2 (paper profile)
 };
 
 /// Separates the material along the incision faces, in one pass: every vertex of an incision face gets one copy per

@@ -26,7 +26,7 @@ class LinkGraph {
       std::array<std::uint32_t, 3> index{};
       for (unsigned k = 0; k < 3; ++k) {
         const unsigned other = kSideCorners[c][k];
-        const bool is_flagged = near_tet != nullptr && ((near_tet->flagged >> kEdgeOfCorners[c][other]) & 1U) != 0;
+        const bool is_flagged = near_tet != nullptr && ((unsigned{near_tet->flagged} >> kEdgeOfCorners[c][other]) & 1U) != 0;
         index[k] = find_or_add(mesh.vertices(tet)[other], is_flagged);
       }
       for (unsigned k = 0; k < 3; ++k) {

@@ -34,7 +34,7 @@ bool is_sound(const Corners& p, bool keeps_shape_floor) {
 /// Whether a flagged edge needs a split point: neither end takes part in the cut itself.
 bool needs_split(const NearTet& tet, unsigned edge) {
   const auto [a, b] = kEdgeCorners[edge];
-  return ((tet.flagged >> edge) & 1U) != 0 && ((tet.on >> a) & 1U) == 0 && ((tet.on >> b) & 1U) == 0;
+  return ((unsigned{tet.flagged} >> edge) & 1U) != 0 && ((unsigned{tet.on} >> a) & 1U) == 0 && ((unsigned{tet.on} >> b) & 1U) == 0;
 }
 
 void place_split_points(const TetMesh& mesh, double clamp, EdgeTable& edges) {
@@ -55,11 +55,16 @@ class BisectionOrder {
     unsigned count = 0;
     for (std::uint8_t e = 0; e < 6; ++e) {
       const CutEdge& edge = near_.edges[tet.edges[e]];
-      if (edge.is_planned) {
-        items_[count++] = {(mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e};
+      if (!edge.is_planned) {
+        continue;
       }
+      const Item item{(mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e};
+      unsigned place = count++;
+      for (; place > 0 && item < items_[place - 1]; --place) {
+        items_[place] = items_[place - 1];
+      }
+      items_[place] = item;
     }
-    std::sort(items_.begin(), items_.begin() + count);
     for (unsigned i = 0; i < count; ++i) {
       order_[i] = items_[i].number;
     }
@@ -214,7 +219,7 @@ class Subdivider {
   /// Which side of the sheet a child of a cut tet lies on: the colour of any corner that is not on the sheet.
   [[nodiscard]] static unsigned colour_of_child(const SplitTemplate::Child& child, const NearTet& tet) {
     for (const std::uint8_t code : child) {
-      if (code < kFirstSplitCode && ((tet.on >> code) & 1U) == 0) {
+      if (code < kFirstSplitCode && ((unsigned{tet.on} >> code) & 1U) == 0) {
         return colour_of(tet.flagged, code);
       }
     }
@@ -287,13 +292,13 @@ class Subdivider {
   [[nodiscard]] bool lies_across(const NearTet& tet, unsigned apex, Side behind) const {
     const unsigned corner = apex == 0 ? 1 : 0;
     const VertexId common = mesh_.vertices(tet.id)[corner];
-    const unsigned here = (tet.flagged >> kEdgeOfCorners[corner][apex]) & 1U;
+    const unsigned here = (unsigned{tet.flagged} >> kEdgeOfCorners[corner][apex]) & 1U;
     const NearTet* other = near_.find(behind.tet());
     if (other == nullptr) {
       return here != 0;
     }
     const unsigned other_corner = mesh_.corner_of(behind.tet(), common);
-    const unsigned there = (other->flagged >> kEdgeOfCorners[other_corner][behind.side()]) & 1U;
+    const unsigned there = (unsigned{other->flagged} >> kEdgeOfCorners[other_corner][behind.side()]) & 1U;
     return other->is_complete && here != there;
   }
   void remove_parents() {

@@ -91,8 +91,8 @@ void Journal::restore(TetMesh& mesh, const Step& step, const StepImage& image) {
   mesh.tet_vertices_.resize(image.tet_slots);
   mesh.tet_links_.resize(image.tet_slots);
   mesh.tet_region_.resize(image.tet_slots);
-  mesh.rest_.resize(image.vertex_slots);
-  mesh.current_.resize(image.vertex_slots);
+  mesh.rest_.resize(image.vertex_slots, Vec3::Zero());
+  mesh.current_.resize(image.vertex_slots, Vec3::Zero());
   mesh.vertex_tet_.resize(image.vertex_slots);
   mesh.vertex_origin_.resize(image.vertex_slots);
   mesh.vertex_shape_.resize(image.vertex_slots, shape::kDead);

@@ -7,6 +7,7 @@
 #include "incise/core/log.h"
 #include "incise/core/profile.h"
 #include "incise/core/result.h"
+#include "incise/cut/cutter.h"
 #include "incise/cut/options.h"
 #include "incise/cut/stroke.h"
 #include "incise/mesh/journal.h"
@@ -53,11 +54,12 @@ class Engine {
   bool redo();
 
  private:
-  Engine() = default;
+  Engine(TetMesh mesh, EngineOptions options);
 
   TetMesh mesh_;
   Journal journal_;
   EngineOptions options_;
+  Cutter cutter_;
   std::vector<std::size_t> stroke_ends_;   // journal position after each stroke
   std::vector<std::size_t> undone_ends_;  // of strokes that redo would apply, last first
 };

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cut/separate.h"
+
+namespace incise::inline v0 {
+
+/// What the incision faces around a vertex let one do with it (paper §2.3, Figure 4).
+enum class Dividability : std::uint8_t {
+  kNot,
+  kCircle,  ///< type I: some of the faces around the vertex form a closed circle
+  kSector,  ///< type II: some of them form a sector between two surface edges
+};
+
+/// The paper's separation to the letter: Algorithm 1 with both kinds of dividable vertex and Algorithm 2, in turn until
+/// neither finds anything.
+///
+/// Readings: an edge is a surface edge where it lies on the current boundary, faces opened before included; line 9
+/// asks for a path between two cutting edges, not between every two faces at the vertex (which stalls where a sector
+/// and an unrelated face meet); the two groups are told apart by flooding the star without crossing incision faces.
+/// Cost: O(faces · rounds), about one round per ring of faces from the contour inwards.
+Separation separate_as_paper(Transaction& transaction, std::vector<IncisionFace> incision, std::uint32_t tag,
+                             StarWalker& walker);
+
+}  // namespace incise::inline v0

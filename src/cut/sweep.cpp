@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "incise/geom/closest.h"
+#include "incise/geom/intersect.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Numbers the points of a stroke's rows and columns, with equal neighbours as one.
+class PointGrid {
+ public:
+  PointGrid(const Stroke& stroke, std::vector<SosPoint>& points) : stroke_(stroke), points_(points) {
+    const std::size_t rows = stroke.edges.size(), columns = stroke.edges[0].size();
+    index_.assign(rows, std::vector<std::uint32_t>(columns, 0));
+    is_closed_ = columns > 2 && std::all_of(stroke.edges.begin(), stroke.edges.end(),
+                                            [](const auto& edge) { return edge.front() == edge.back(); });
+    const bool returns = rows > 2 && returns_to_start();
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t c = 0; c < columns; ++c) {
+        index_[r][c] = returns && r + 1 == rows ? index_[0][c] : number(r, c);
+      }
+    }
+  }
+  [[nodiscard]] std::uint32_t at(std::size_t row, std::size_t column) const { return index_[row][column]; }
+
+ private:
+  [[nodiscard]] const Vec3& point(std::size_t row, std::size_t column) const { return stroke_.edges[row][column]; }
+  std::uint32_t number(std::size_t r, std::size_t c) {
+    if (is_closed_ && c + 1 == stroke_.edges[r].size()) return index_[r][0];
+    if (r > 0 && point(r, c) == point(r - 1, c)) return index_[r - 1][c];
+    if (c > 0 && point(r, c) == point(r, c - 1)) return index_[r][c - 1];
+    const auto index = static_cast<std::uint32_t>(points_.size());
+    points_.push_back({point(r, c), kFirstBladeKey + index});
+    return index;
+  }
+  /// The last polyline is the first again, up to rounding.
+  [[nodiscard]] bool returns_to_start() const {
+    const auto& first = stroke_.edges.front();
+    const auto& last = stroke_.edges.back();
+    double extent = 0, gap = 0;
+    for (const auto& edge : stroke_.edges) {
+      for (std::size_t c = 0; c < edge.size(); ++c) {
+        extent = std::max(extent, (edge[c] - first[0]).norm());
+      }
+    }
+    for (std::size_t c = 0; c < first.size(); ++c) {
+      gap = std::max(gap, (last[c] - first[c]).norm());
+    }
+    // A blade that went out and back the same way returns too, but encloses nothing: its rows are no ring.
+    const bool turns_back = stroke_.edges.size() == 3 || first == stroke_.edges[stroke_.edges.size() - 2];
+    return gap <= 1e-12 * extent && !turns_back;
+  }
+
+  const Stroke& stroke_;
+  std::vector<SosPoint>& points_;
+  std::vector<std::vector<std::uint32_t>> index_;
+  bool is_closed_ = false;
+};
+
+void add_triangle(SweptSurface& surface, std::array<std::uint32_t, 3> points, std::size_t step, std::size_t column) {
+  if (points[0] != points[1] && points[1] != points[2] && points[2] != points[0]) {
+    surface.triangles.push_back({points, static_cast<std::uint32_t>(step), static_cast<std::uint32_t>(column)});
+  }
+}
+
+// --- self-crossing ---------------------------------------------------------------------------------------------------
+
+std::array<SosPoint, 3> corners(const SweptSurface& surface, std::uint32_t triangle) {
+  const auto& p = surface.triangles[triangle].points;
+  return {surface.points[p[0]], surface.points[p[1]], surface.points[p[2]]};
+}
+
+unsigned shared_points(const SweptTriangle& a, const SweptTriangle& b) {
+  unsigned count = 0;
+  for (const std::uint32_t p : a.points) {
+    count += static_cast<unsigned>(std::count(b.points.begin(), b.points.end(), p));
+  }
+  return count;
+}
+
+Vec3 area_vector(const std::array<SosPoint, 3>& t) {
+  return (t[1].position - t[0].position).cross(t[2].position - t[0].position);
+}
+
+/// Whether the centre of one triangle lies within `slit` of the other: they cover the same place.
+bool covers(const std::array<SosPoint, 3>& a, const std::array<SosPoint, 3>& b, double slit) {
+  const Vec3 centre = (a[0].position + a[1].position + a[2].position) / 3.0;
+  const auto hit = closest_on_triangle(centre, b[0].position, b[1].position, b[2].position);
+  return hit.distance2 <= slit * slit;
+}
+
+/// Whether two triangles of a sweep meet otherwise than as neighbours on one sheet.
+bool meet(const SweptSurface& surface, std::uint32_t i, std::uint32_t j, double slit) {
+  const std::array<SosPoint, 3> a = corners(surface, i), b = corners(surface, j);
+  const double reach = std::min(slit, 1e-3 * std::sqrt(std::min(area_vector(a).norm(), area_vector(b).norm())));
+  if (shared_points(surface.triangles[i], surface.triangles[j]) == 0 &&
+      triangles_cross(a, b)) {
+    return true;
+  }
+  return covers(a, b, reach) || covers(b, a, reach);
+}
+
+Box box_of(const SweptSurface& surface, std::uint32_t triangle, double margin) {
+  const auto t = corners(surface, triangle);
+  Box box{t[0].position, t[0].position};
+  for (const SosPoint& p : t) {
+    box.lo = box.lo.cwiseMin(p.position);
+    box.hi = box.hi.cwiseMax(p.position);
+  }
+  box.lo.array() -= margin;
+  box.hi.array() += margin;
+  return box;
+}
+
+/// For each triangle, the last earlier triangle that it meets, plus one; 0 for none.
+std::vector<std::uint32_t> last_met(const SweptSurface& surface, double slit) {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const SosPoint& p : surface.points) points.push_back(p.position);
+  for (const SweptTriangle& t : surface.triangles) triangles.push_back(t.points);
+  const TriangleTree tree(points, triangles);
+  std::vector<std::uint32_t> met(triangles.size(), 0);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    tree.for_each_overlap(box_of(surface, i, slit), [&](std::uint32_t j) {
+      if (j < i && j + 1 > met[i] && meet(surface, i, j, slit)) {
+        met[i] = j + 1;
+      }
+    });
+  }
+  return met;
+}
+
+/// The first triangle of the overlap before `start`: back to earlier triangles within `overlap` of travel, but not to
+/// any that later ones of the new part would meet.
+std::uint32_t overlap_start(const SweptSurface& surface, std::uint32_t start, std::uint32_t not_before,
+                            double overlap) {
+  const Vec3 origin = corners(surface, start)[0].position;
+  std::uint32_t first = start;
+  while (first > not_before) {
+    const auto t = corners(surface, first - 1);
+    const double distance = std::min({(t[0].position - origin).norm(), (t[1].position - origin).norm(),
+                                      (t[2].position - origin).norm()});
+    if (distance > overlap) {
+      break;
+    }
+    --first;
+  }
+  return first;
+}
+
+}  // namespace
+
+SweptSurface sweep(const Stroke& stroke) {
+  SweptSurface surface;
+  const PointGrid grid(stroke, surface.points);
+  const std::size_t columns = stroke.edges[0].size();
+  for (std::size_t r = 0; r + 1 < stroke.edges.size(); ++r) {
+    for (std::size_t c = 0; c + 1 < columns; ++c) {
+      const std::uint32_t a = grid.at(r, c), b = grid.at(r, c + 1), d = grid.at(r + 1, c), e = grid.at(r + 1, c + 1);
+      add_triangle(surface, {a, b, e}, r, c);
+      add_triangle(surface, {a, e, d}, r, c);
+    }
+  }
+  return surface;
+}
+
+std::vector<std::vector<std::uint32_t>> split_at_self_crossings(const SweptSurface& surface, double overlap,
+                                                                double slit) {
+  std::vector<std::vector<std::uint32_t>> parts;
+  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
+  if (count == 0) {
+    return parts;
+  }
+  const std::vector<std::uint32_t> met = last_met(surface, slit);
+  std::uint32_t start = 0;  // first triangle that only this part cuts
+  std::uint32_t first = 0;  // with the overlap
+  for (std::uint32_t i = 0; i <= count; ++i) {
+    if (i < count && met[i] <= first) {
+      continue;
+    }
+    std::vector<std::uint32_t> part;
+    for (std::uint32_t k = first; k < i; ++k) part.push_back(k);
+    parts.push_back(std::move(part));
+    if (i < count) {
+      start = i;
+      first = std::max(met[i], overlap_start(surface, start, met[i], overlap));
+    }
+  }
+  return parts;
+}
+
+Sheet::Sheet(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles) : surface_(&surface) {
+  std::vector<Vec3> points;
+  points.reserve(surface.points.size());
+  for (const SosPoint& p : surface.points) points.push_back(p.position);
+  bounds_ = {Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+  double area = 0;
+  for (const std::uint32_t t : triangles) {
+    triangles_.push_back(surface.triangles[t].points);
+    const auto p = corners(surface, t);
+    for (const SosPoint& q : p) {
+      bounds_.lo = bounds_.lo.cwiseMin(q.position);
+      bounds_.hi = bounds_.hi.cwiseMax(q.position);
+    }
+    mean_normal_ += area_vector(p);
+    area += area_vector(p).norm();
+  }
+  tree_ = TriangleTree(points, triangles_);
+  const double length = mean_normal_.norm();
+  mean_normal_ = length > 0.01 * area && length > 0 ? Vec3(mean_normal_ / length) : Vec3(Vec3::Zero());
+}
+
+Vec3 Sheet::normal(std::uint32_t triangle) const {
+  const Vec3& a = point(triangle, 0).position;
+  return (point(triangle, 1).position - a).cross(point(triangle, 2).position - a);
+}
+
+}  // namespace incise::inline v0
