@@ -53,6 +53,12 @@ class Source {
   }
   bool real(double& out, const char* what) { return binary ? take(out, what) : text.real_in_line(out, what); }
 
+  // Bounding boxes hold numbers beyond the largest double.
+  bool skip_real(const char* what) {
+    if (binary) return skip(8);
+    return !text.word_in_line().empty() || fail(std::string(what) + " missing: the row ends too early");
+  }
+
   // A number of rows that the rest of the file can hold.
   bool fits(std::int64_t n, std::size_t ascii_bytes, std::size_t binary_bytes, const char* what) {
     const std::size_t each = binary ? binary_bytes : ascii_bytes;
@@ -341,10 +347,9 @@ class MshReader {
     std::int64_t tag = 0;
     std::int64_t n = 0;
     std::int64_t value = 0;
-    double ignored = 0;
     if (!in_.begin_row() || !in_.integer(tag, "entity tag")) return false;
     for (int i = 0; i < (dim == 0 ? 3 : 6); ++i) {
-      if (!in_.real(ignored, "bounding box")) return false;
+      if (!in_.skip_real("bounding box")) return false;
     }
     if (!in_.size(n, "number of physical tags") || !in_.fits(n, 2, 4, "number of physical tags")) return false;
     for (std::int64_t i = 0; i < n; ++i) {
