@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+
+#include "incise/geom/vec.h"
+
+namespace incise::inline v0 {
+
+/// A closed box with sides along the axes; empty unless told otherwise. Lengths in the mesh's unit.
+struct Box {
+  Vec3 lo = Vec3::Constant(std::numeric_limits<double>::infinity());   ///< least corner
+  Vec3 hi = Vec3::Constant(-std::numeric_limits<double>::infinity());  ///< greatest corner
+
+  [[nodiscard]] bool is_empty() const { return !(lo.x() <= hi.x() && lo.y() <= hi.y() && lo.z() <= hi.z()); }
+
+  /// Grows to hold a point.
+  void extend(const Vec3& point) {
+    lo = lo.cwiseMin(point);
+    hi = hi.cwiseMax(point);
+  }
+  /// Grows to hold another box.
+  void extend(const Box& other) {
+    lo = lo.cwiseMin(other.lo);
+    hi = hi.cwiseMax(other.hi);
+  }
+
+  /// Whether two boxes have a point in common; boxes that only touch do.
+  [[nodiscard]] bool overlaps(const Box& o) const {
+    return lo.x() <= o.hi.x() && o.lo.x() <= hi.x() && lo.y() <= o.hi.y() && o.lo.y() <= hi.y() &&
+           lo.z() <= o.hi.z() && o.lo.z() <= hi.z();
+  }
+  /// Squared distance from a point to the nearest point of the box; 0 inside.
+  [[nodiscard]] double distance2(const Vec3& p) const {
+    return (lo - p).cwiseMax(p - hi).cwiseMax(0.0).squaredNorm();
+  }
+};
+
+}  // namespace incise::inline v0
