@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "incise/io/mesh_data.h"
+#include "incise/mesh/components.h"
+#include "incise/mesh/tet_mesh.h"
+
+namespace incise::inline v0 {
+namespace app {
+
+/// Packs a mesh for a file: live vertices and tets in the order of their slots, at rest; region and piece per tet; a
+/// triangle with its stroke's number for every side of a cut wall; the input's number of each vertex, -1 where a cut
+/// made it.
+///
+/// @param pieces       of this mesh.
+/// @param file_vertex  as in `LoadedMesh`: the file's number of each input vertex, or empty.
+/// Cost: O(slots).
+[[nodiscard]] io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces,
+                                        const std::vector<std::uint32_t>& file_vertex = {});
+
+/// The boundary of a mesh, skin and cut walls, as triangles that turn counter-clockwise seen from outside.
+/// Cost: O(slots).
+[[nodiscard]] io::SurfaceSoup to_surface(const TetMesh& mesh);
+
+}  // namespace app
+}  // namespace incise::inline v0

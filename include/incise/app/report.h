@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "incise/core/profile.h"
+#include "incise/cut/options.h"
+#include "incise/mesh/quality_stats.h"
+#include "incise/mesh/validate.h"
+
+namespace incise::inline v0 {
+namespace app {
+
+struct MeshCounts {
+  std::uint64_t vertices = 0, tets = 0, components = 0;
+};
+
+struct PieceFigures {
+  std::uint64_t tets = 0;
+  double volume = 0;  ///< cubed length units
+};
+
+/// A sample's distribution by nearest rank; all zero for an empty sample.
+struct Percentiles {
+  double p50 = 0, p99 = 0, p999 = 0, max = 0;
+};
+[[nodiscard]] Percentiles percentiles(std::vector<double> sample);
+
+/// What was asked for, as the report repeats it.
+struct ReportOptions {
+  Profile profile = Profile::kIncise;
+  double snap = 0.2;
+  unsigned threads = 1;
+  std::uint64_t seed = 0;
+  std::string blade;  ///< the file, or empty
+  std::string plane;  ///< "nx,ny,nz,d", or empty
+};
+
+/// Everything that `incise cut` reports.
+struct CutReport {
+  std::string input;               ///< the mesh file
+  std::string input_format;
+  std::vector<std::string> notes;  ///< from loading
+  ReportOptions options;
+  std::uint64_t strokes = 0;
+  MeshCounts before, after;
+  std::vector<PieceFigures> pieces;  ///< after, by label
+  CutStatistics cut;
+  QualityStats quality_before, quality_cut, quality_after, quality_incision;
+  double volume_before = 0, volume_after = 0;
+  ValidityReport validity_before, validity_after;
+  ValidityChange change;           ///< `ok` is the report's verdict
+  StageTimes times;
+  double total_ms = 0;             ///< by the clock around all strokes
+  std::vector<double> step_ms;
+  std::vector<StageTimes> stage_ms;  ///< one sample per entry
+  std::uint64_t hash = 0;          ///< of the mesh after
+};
+
+/// The report as JSON, format "incise-report" version 1, with a newline at the end. Cost: O(steps + pieces).
+[[nodiscard]] std::string to_json(const CutReport& report);
+
+/// A few lines for people.
+[[nodiscard]] std::string to_text(const CutReport& report);
+
+}  // namespace app
+}  // namespace incise::inline v0

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "incise/core/result.h"
+
+namespace incise::inline v0 {
+namespace app {
+
+/// A parsed JSON value that knows its line, so that messages can name it. Duplicate keys are refused on reading.
+struct JsonValue {
+  enum class Kind : std::uint8_t { kNull, kBool, kNumber, kString, kArray, kObject };
+
+  Kind kind = Kind::kNull;
+  std::uint32_t line = 1;  ///< where the value ends, for arrays and objects where it begins
+  double number = 0;       ///< of kNumber; 0 or 1 of kBool
+  std::string text;        ///< of kString
+  std::vector<JsonValue> items;   ///< of kArray; the values of kObject
+  std::vector<std::string> keys;  ///< of kObject, one per item
+
+  [[nodiscard]] const JsonValue* find(std::string_view key) const;
+};
+
+struct JsonLimits {
+  std::size_t max_bytes = std::size_t{64} << 20U;
+  std::size_t max_values = std::size_t{1} << 23U;
+  std::size_t max_depth = 16;
+};
+
+/// Parses a whole document. Errors: kBadFile "FILE:LINE: what".
+Result<JsonValue> parse_json(std::string_view text, std::string_view file_name, const JsonLimits& limits = {});
+
+/// Walks a tree and remembers the first error, named by file, line and JSON path.
+class JsonReader {
+ public:
+  explicit JsonReader(std::string_view file_name) : file_name_(file_name) {}
+
+  [[nodiscard]] bool ok() const { return !failed_; }
+  [[nodiscard]] const Error& error() const { return error_; }
+
+  /// Every one of these returns false, and keeps the first error, where the value is not as asked.
+  bool is_object(const JsonValue& value, const std::string& path, std::initializer_list<std::string_view> known_keys);
+  const JsonValue* member(const JsonValue& object, const std::string& path, std::string_view key);
+  bool is_array(const JsonValue& value, const std::string& path, std::size_t min_items, std::size_t max_items);
+  bool number(const JsonValue& value, const std::string& path, double& out);
+  bool numbers(const JsonValue& value, const std::string& path, double* out, std::size_t count);
+  bool text(const JsonValue& value, const std::string& path, std::string& out);
+  bool fail(const JsonValue& value, const std::string& path, const std::string& what);
+
+ private:
+  std::string file_name_;
+  Error error_;
+  bool failed_ = false;
+};
+
+}  // namespace app
+}  // namespace incise::inline v0

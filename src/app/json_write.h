@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "incise/geom/vec.h"
+#include "incise/mesh/quality_stats.h"
+#include "incise/mesh/validate.h"
+
+namespace incise::inline v0 {
+namespace app {
+
+using Json = nlohmann::ordered_json;
+
+/// A number, or null where it is not finite.
+Json encode(double number);
+Json encode(const Vec3& point);
+/// The figures are null where no tet was measured.
+Json encode(const QualityStats& quality);
+/// Without the judgement: counts of the kinds that occur, and the first few with ids.
+Json encode(const ValidityReport& report);
+
+}  // namespace app
+}  // namespace incise::inline v0

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/mesh/bounds.h"
+
+namespace incise::inline v0 {
+
+Box rest_bounds(const TetMesh& mesh) {
+  Box box;
+  mesh.for_each_vertex([&](VertexId v) {
+    if (mesh.tet_of(v).is_valid()) box.extend(mesh.rest(v));
+  });
+  return box;
+}
+
+}  // namespace incise::inline v0
