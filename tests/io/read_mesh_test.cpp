@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "io/fixtures.h"
+
+namespace incise {
+namespace {
+
+using io::read_mesh_bytes;
+using test::Fixture;
+using test::fixtures;
+using test::read_fixture;
+
+bool same_mesh(const io::MeshFile& file, bool with_regions) {
+  const io::MeshData expected = test::two_tets();
+  return file.data.soup.points == expected.soup.points && file.data.soup.tets == expected.soup.tets &&
+         (!with_regions || file.data.soup.regions == expected.soup.regions);
+}
+
+std::string message_of(const std::string& bytes, const std::string& name = "a.x") {
+  const auto file = read_mesh_bytes(bytes, name);
+  return file ? "(read without an error)" : file.error().message;
+}
+
+#define EXPECT_SAYS(bytes, part)                           \
+  do {                                                     \
+    const std::string said = message_of(bytes);            \
+    EXPECT_NE(said.find(part), std::string::npos) << said; \
+    EXPECT_NE(said.find(';'), std::string::npos) << said;  \
+  } while (false)
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string bytes_of(const std::string& name) {
+  for (const Fixture& f : fixtures()) {
+    if (f.name == name) return f.bytes;
+  }
+  ADD_FAILURE() << name;
+  return {};
+}
+
+TEST(ReadMesh, every_format_gives_the_same_mesh) {
+  for (const Fixture& f : fixtures()) {
+    SCOPED_TRACE(f.name);
+    const auto file = read_fixture(f, f.bytes);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_TRUE(same_mesh(*file, f.regions));
+    EXPECT_EQ(file->file_vertices, 5U);
+    EXPECT_EQ(file->file_tets, 2U);
+    EXPECT_FALSE(file->ten_node);
+    EXPECT_FALSE(file->format_name.empty());
+  }
+}
+
+TEST(ReadMesh, windows_line_ends_change_nothing) {
+  for (const Fixture& f : fixtures()) {
+    if (f.bytes.find('\0') != std::string::npos || f.name.find("raw") == 0) continue;
+    SCOPED_TRACE(f.name);
+    std::string bytes;
+    for (const char c : f.bytes) bytes += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    const auto file = read_fixture(f, bytes);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_TRUE(same_mesh(*file, f.regions));
+  }
+}
+
+// An .inp file has neither counts nor an end: cut between two rows it is a sound, smaller mesh.
+bool is_smaller_deck(const Fixture& f, const io::MeshFile& file) {
+  return f.name == "abaqus.inp" && file.data.soup.tets.size() == 1 &&
+         file.data.soup.tets[0] == test::two_tets().soup.tets[0];
+}
+
+TEST(ReadMesh, a_file_cut_at_any_byte_is_refused_or_gives_the_same_tets) {
+  for (const Fixture& f : fixtures()) {
+    SCOPED_TRACE(f.name);
+    for (std::size_t n = 0; n < f.bytes.size(); ++n) {
+      const auto file = read_fixture(f, f.bytes.substr(0, n));
+      if (file) {
+        EXPECT_TRUE(same_mesh(*file, false) || is_smaller_deck(f, *file)) << "cut at " << n;
+      } else {
+        EXPECT_NE(file.error().message.find(';'), std::string::npos) << file.error().message;
+      }
+    }
+  }
+}
+
+TEST(ReadMesh, a_changed_byte_never_breaks_the_reader) {
+  for (const Fixture& f : fixtures()) {
+    for (std::size_t i = 0; i < f.bytes.size(); ++i) {
+      for (const char c : {'\0', '9', '-', '\n', '\xff'}) {
+        std::string bytes = f.bytes;
+        bytes[i] = c;
+        const auto file = read_fixture(f, bytes);
+        if (!file) {
+          EXPECT_FALSE(file.error().message.empty());
+        }
+      }
+    }
+  }
+}
+
+TEST(ReadMesh, the_second_file_of_a_pair_may_be_cut_as_well) {
+  for (Fixture f : fixtures()) {
+    if (f.other.empty()) continue;
+    const std::string whole = f.other;
+    for (std::size_t n = 0; n < whole.size(); ++n) {
+      f.other = whole.substr(0, n);
+      const auto file = read_fixture(f, f.bytes);
+      if (file) {
+        EXPECT_TRUE(same_mesh(*file, true)) << f.name << " cut at " << n;
+      }
+    }
+  }
+}
+
+TEST(ReadMesh, an_empty_file_is_refused) {
+  EXPECT_SAYS("", "empty");
+}
+
+TEST(ReadMesh, unknown_formats_are_refused_with_a_list_of_the_known_ones) {
+  for (const std::string& bytes :
+       {std::string("{\"verts\":[]}"), std::string("\x89HDF\r\n\x1a\n"), std::string("MATLAB 5.0 MAT-file"),
+        std::string("hello\nworld\n"), std::string("\1\0\0\0\2\0\0\0", 8)}) {
+    const auto file = read_mesh_bytes(bytes, "a.x");
+    ASSERT_FALSE(file.ok());
+    EXPECT_EQ(file.error().code, ErrorCode::kUnsupported);
+    EXPECT_NE(file.error().message.find(".vtu"), std::string::npos);
+  }
+}
+
+TEST(ReadMesh, surfaces_are_refused) {
+  EXPECT_SAYS("solid a\nendsolid a\n", "surface");
+  EXPECT_SAYS("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", "POLYDATA");
+  EXPECT_SAYS("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n", "surface");
+  EXPECT_SAYS("MeshVersionFormatted 1\nDimension 3\nVertices\n1\n0 0 0 0\nEnd\n", "no tetrahedra");
+}
+
+TEST(ReadMesh, messages_name_the_line) {
+  EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "0 1 0 1", "0 nan 0 1"), "a.x:9: ");
+  EXPECT_SAYS(replaced(bytes_of("v2.msh"), "7 1 0 0", "7 1 0"), "a.x:11: ");
+  EXPECT_SAYS(replaced(bytes_of("v2.msh"), "7 1 0 0", "7 1 0 0 0"), "a.x:11: ");
+}
+
+TEST(ReadMesh, coordinates_must_be_finite) {
+  for (const char* word : {"nan", "inf", "-inf", "1e999", "0x10", "1.5.2", "--1"}) {
+    SCOPED_TRACE(word);
+    EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "1.5", word), word);
+    EXPECT_SAYS(replaced(bytes_of("v2.msh"), "1.5", word), word);
+    EXPECT_SAYS(replaced(bytes_of("ascii.vtk"), "1.5", word), word);
+    EXPECT_SAYS(replaced(bytes_of("ascii.vtu"), "1.5", word), word);
+    EXPECT_SAYS(replaced(bytes_of("vega.veg"), "1.5", word), word);
+    EXPECT_SAYS(replaced(bytes_of("abaqus.inp"), "1.5", word), word);
+    EXPECT_SAYS(replaced(bytes_of("surgsim.ply"), "1.5", word), word);
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double last = 1.5;
+  std::string from(8, '\0');
+  std::string to(8, '\0');
+  std::memcpy(from.data(), &last, 8);
+  std::memcpy(to.data(), &nan, 8);
+  EXPECT_SAYS(replaced(bytes_of("v2_little.msh"), from, to), "not finite");
+  EXPECT_SAYS(replaced(bytes_of("raw_little.vtu"), from, to), "not finite");
+}
+
+TEST(ReadMesh, vertex_numbers_must_be_in_range) {
+  EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "2 3 4 5 7", "2 3 4 6 7"), "out of range");
+  EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "2 3 4 5 7", "0 3 4 5 7"), "out of range");
+  EXPECT_SAYS(replaced(bytes_of("v2.msh"), "3 4 3 7 1 0 7 5 3 1", "3 4 3 7 1 0 7 5 3 2"), "not among");
+  EXPECT_SAYS(replaced(bytes_of("ascii.vtk"), "4 1 2 3 4", "4 1 2 3 5"), "vertex 5");
+  EXPECT_SAYS(replaced(bytes_of("ascii.vtu"), "1 2 3 4<", "1 2 3 -1<"), "vertex -1");
+  EXPECT_SAYS(replaced(bytes_of("vega.veg"), "2 2 3 4 5", "2 2 3 4 6"), "not among");
+  EXPECT_SAYS(replaced(bytes_of("abaqus.inp"), "3, 4, 5\n", "3, 4, 6\n"), "not there");
+  EXPECT_SAYS(replaced(bytes_of("surgsim.ply"), "4 1 2 3 4", "4 1 2 3 5"), "vertex number");
+}
+
+TEST(ReadMesh, counts_that_promise_too_much_are_refused_at_once) {
+  const std::string huge = "3000000000";
+  EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "Vertices\n5", "Vertices\n" + huge), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "Tetrahedra\n2", "Tetrahedra\n" + huge), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("v1.msh"), "$NOD\n5", "$NOD\n" + huge), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("v2.msh"), "$Nodes\n5", "$Nodes\n" + huge), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("v2.msh"), "$Elements\n3", "$Elements\n" + huge), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("v41.msh"), "2 5 1 5", "2 " + huge + " 1 5"), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("v2_little.msh"), "$Nodes\n5", "$Nodes\n" + huge), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("ascii.vtk"), "POINTS 5", "POINTS " + huge), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("binary.vtk"), "POINTS 5", "POINTS " + huge), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("ascii.vtu"), "NumberOfPoints=\"5\"", "NumberOfPoints=\"" + huge + "\""), "must hold");
+  EXPECT_SAYS(replaced(bytes_of("raw_big.vtu"), "NumberOfPoints=\"5\"", "NumberOfPoints=\"" + huge + "\""),
+              "must hold");
+  EXPECT_SAYS(replaced(bytes_of("vega.veg"), "5 3 0 0", huge + " 3 0 0"), "more than the rest");
+  EXPECT_SAYS(replaced(bytes_of("surgsim.ply"), "vertex 5", "vertex " + huge), "more rows");
+  EXPECT_SAYS(replaced(bytes_of("little.ply"), "vertex 5", "vertex " + huge), "more rows");
+}
+
+TEST(ReadMesh, counts_that_differ_by_one_are_refused) {
+  EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "Vertices\n5", "Vertices\n6"), "Edges");
+  EXPECT_SAYS(replaced(bytes_of("v2.msh"), "$Nodes\n5", "$Nodes\n4"), "$EndNodes");
+  EXPECT_SAYS(replaced(bytes_of("ascii.vtu"), "NumberOfCells=\"2\"", "NumberOfCells=\"1\""), "must hold");
+  EXPECT_SAYS(replaced(bytes_of("ascii.vtk"), "CELLS 2 10", "CELLS 2 9"), "CELLS");
+  EXPECT_SAYS(replaced(bytes_of("vega.veg"), "2 4 0", "1 4 0"), "expected a section");
+}
+
+TEST(ReadMesh, tetgen_counts_must_match_and_chastes_binary_is_refused) {
+  const auto message = [](const std::string& ele, const std::string& node) {
+    const auto file = read_fixture({"a.ele", ele, node}, ele);
+    return file ? std::string() : file.error().message;
+  };
+  const std::string node = "4 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
+  EXPECT_EQ(message("1 4\n0 0 1 2 3\n", node), "");
+  EXPECT_NE(message("2 4\n0 0 1 2 3\n", node), "");
+  EXPECT_NE(message("0 4\n0 0 1 2 3\n", node).find("more rows"), std::string::npos);
+  EXPECT_NE(message("1 4\n0 0 1 2 4\n", node).find("not among"), std::string::npos);
+  EXPECT_NE(message("1 4\n5 0 1 2 3\n", node).find("from 0 or 1"), std::string::npos);
+  EXPECT_NE(message("1 4 1\n0 0 1 2 3\n", node).find("missing"), std::string::npos);
+  EXPECT_NE(message("1 4 1 BIN\nxxxx\n", node).find("BIN"), std::string::npos);
+  EXPECT_NE(message("1 8\n0 0 1 2 3 0 1 2 3\n", node).find("4 or 10"), std::string::npos);
+  EXPECT_NE(message_of("1 4\n0 0 1 2 3\n", "a.ele").find("a.node"), std::string::npos);
+}
+
+TEST(ReadMesh, msh_without_a_format_section_is_refused) {
+  EXPECT_SAYS("$Nodes\n1 4\n1 0 0 0\n$EndNodes\n", "$MeshFormat");
+  EXPECT_SAYS("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "4.0");
+}
+
+TEST(ReadMesh, ten_node_tets_keep_their_corners_and_name_the_rest) {
+  std::string bytes = "*NODE\n";
+  for (int i = 1; i <= 11; ++i)
+    bytes += std::to_string(i) + ", " + std::to_string(i * i) + ", 0, " + std::to_string(i % 3) + "\n";
+  bytes += "*ELEMENT, TYPE=C3D10, ELSET=Eall\n1, 11, 2, 3, 4, 5, 6,\n7, 8, 9, 10\n";
+  const auto file = read_mesh_bytes(bytes, "a.inp");
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_TRUE(file->ten_node);
+  EXPECT_EQ(file->file_vertices, 11U);
+  EXPECT_EQ(file->data.soup.points.size(), 11U);
+  EXPECT_EQ(file->mid_nodes, (std::vector<std::uint32_t>{4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(file->data.soup.tets[0], (std::array<std::uint32_t, 4>{10, 1, 2, 3}));
+  EXPECT_TRUE(file->data.soup.regions.empty());
+}
+
+TEST(ReadMesh, vega_includes_are_followed_and_loops_stop) {
+  const std::string main = "*VERTICES\n*INCLUDE v.txt\n*ELEMENTS\nTET\n1 4 0\n1 1 2 3 4\n";
+  const io::SiblingLoader sibling = [](const std::string& name) -> Result<std::string> {
+    if (name == "v.txt") return std::string("4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+    if (name == "loop") return std::string("*INCLUDE loop\n");
+    return Error{ErrorCode::kBadFile, name + " is not there; put it beside"};
+  };
+  const auto file = read_mesh_bytes(main, "a.veg", sibling);
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_EQ(file->file_vertices, 4U);
+  EXPECT_FALSE(read_mesh_bytes("*INCLUDE loop\n*VERTICES\n", "a.veg", sibling).ok());
+  EXPECT_FALSE(read_mesh_bytes("*INCLUDE none\n*VERTICES\n", "a.veg", sibling).ok());
+  EXPECT_FALSE(read_mesh_bytes(main, "a.veg").ok());
+}
+
+TEST(ReadMesh, repeated_and_sparse_numbers_are_told_apart) {
+  EXPECT_SAYS(replaced(bytes_of("v1.msh"), "50 1 1 1.5", "40 1 1 1.5"), "twice");
+  EXPECT_SAYS(replaced(bytes_of("abaqus.inp"), "5, 1, 1,", "4, 1, 1,"), "twice");
+}
+
+TEST(ReadMesh, numbers_are_read_correctly_rounded) {
+  const std::vector<std::pair<const char*, double>> numbers = {
+      {"0.1", 0.1},
+      {"1e23", 1e23},
+      {"9007199254740993", 9007199254740992.0},
+      {"4.9e-324", 4.9e-324},
+      {"1D2", 100.0},
+      {"-0.0", -0.0},
+      {"1.7976931348623157e308", 1.7976931348623157e308},
+      {"1e-400", 0.0},
+      {".5", 0.5},
+      {"5.", 5.0},
+      {"+2", 2.0},
+      {"0.30000000000000004", 0.30000000000000004},
+      {"2.2250738585072011e-308", 2.2250738585072011e-308},
+      {"123456789012345678901234567890", 123456789012345678901234567890.0}};
+  for (const auto& [text, value] : numbers) {
+    const auto file = read_mesh_bytes(replaced(bytes_of("medit.mesh"), "1.5", text), "a.mesh");
+    ASSERT_TRUE(file.ok()) << text;
+    const double got = file->data.soup.points[4].z();
+    EXPECT_EQ(std::memcmp(&got, &value, sizeof got), 0) << text << " gave " << got;
+  }
+}
+
+TEST(ReadMesh, files_that_are_not_there_or_are_folders_are_refused) {
+  EXPECT_EQ(io::read_mesh("/no/such/file.mesh").error().code, ErrorCode::kBadFile);
+  EXPECT_EQ(io::read_mesh(std::filesystem::temp_directory_path()).error().code, ErrorCode::kBadFile);
+}
+
+TEST(ReadMesh, damaged_or_endless_gzip_is_refused) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "incise_read_mesh_test.mesh.gz";
+  ASSERT_TRUE(io::write_mesh(path, test::two_tets()).ok());
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const auto whole = read_mesh_bytes(bytes, "a.mesh.gz");
+  ASSERT_TRUE(whole.ok());
+  EXPECT_TRUE(whole->gzipped);
+  for (std::size_t n = 0; n + 1 < bytes.size(); ++n)
+    EXPECT_FALSE(read_mesh_bytes(bytes.substr(0, n), "a.mesh.gz").ok());
+  io::ReadLimits limits;
+  limits.max_inflated_bytes = 100;
+  const auto refused = read_mesh_bytes(bytes, "a.mesh.gz", {}, limits);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("100 bytes"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace incise

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "incise/io/surface_file.h"
+
+namespace incise {
+namespace {
+
+namespace fs = std::filesystem;
+
+io::SurfaceSoup tetrahedron() {
+  io::SurfaceSoup s;
+  s.points = {{0.1, 0, 0}, {1, 1.0 / 3, 0}, {0, 1, 0}, {0, 0, 1e-300}};
+  s.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  return s;
+}
+
+TEST(Surface, obj_ply_and_off_read_back_bit_for_bit) {
+  const io::SurfaceSoup s = tetrahedron();
+  for (const char* extension : {".obj", ".ply", ".off", ".obj.gz", ".ply.gz", ".off.gz"}) {
+    SCOPED_TRACE(extension);
+    const fs::path path = fs::path(testing::TempDir()) / (std::string("incise_surface") + extension);
+    const Status written = io::write_surface(path, s);
+    ASSERT_TRUE(written.ok()) << written.error().message;
+    const auto back = io::read_surface(path);
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    EXPECT_EQ(back->points, s.points);
+    EXPECT_EQ(back->triangles, s.triangles);
+  }
+}
+
+TEST(Surface, stl_reads_back_in_single_precision_and_welds) {
+  const io::SurfaceSoup s = tetrahedron();
+  const fs::path path = fs::path(testing::TempDir()) / "incise_surface.stl";
+  ASSERT_TRUE(io::write_surface(path, s).ok());
+  auto back = io::read_surface(path);
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(back->points.size(), 12U);
+  EXPECT_EQ(io::weld(*back), 8U);
+  EXPECT_EQ(back->points.size(), 4U);
+  EXPECT_EQ(back->triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
+  EXPECT_EQ(back->points[0].x(), static_cast<double>(0.1F));
+}
+
+TEST(Surface, ascii_stl_polygons_and_negative_indices_are_read) {
+  const auto stl = io::read_surface_bytes(
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid "
+      "a\n");
+  ASSERT_TRUE(stl.ok()) << stl.error().message;
+  EXPECT_EQ(stl->triangles.size(), 1U);
+  const auto obj = io::read_surface_bytes("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nv 0 1 0\nf 1//1 2//1 3/1/1 -1\n");
+  ASSERT_TRUE(obj.ok()) << obj.error().message;
+  EXPECT_EQ(obj->triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Surface, bad_surfaces_are_refused) {
+  for (const char* bytes :
+       {"", "v 0 0 0\nf 1 2 3\n", "v 0 0 nan\n", "OFF\n1 1 0\n0 0 0\n3 0 1 2\n", "OFF\n99999 1 0\n0 0 0\n",
+        "solid a\nvertex 0 0 0\nendsolid\n", "solid a\n", "ply\nformat ascii 1.0\n", "hello\n"}) {
+    const auto surface = io::read_surface_bytes(bytes, "a.obj");
+    ASSERT_FALSE(surface.ok()) << bytes;
+    EXPECT_EQ(surface.error().message.rfind("a.obj", 0), 0U) << surface.error().message;
+    EXPECT_NE(surface.error().message.find(';'), std::string::npos) << surface.error().message;
+  }
+}
+
+TEST(Surface, surfaces_cut_at_any_byte_never_break_the_reader) {
+  for (const char* extension : {".obj", ".ply", ".off", ".stl"}) {
+    const fs::path path = fs::path(testing::TempDir()) / (std::string("incise_cut") + extension);
+    ASSERT_TRUE(io::write_surface(path, tetrahedron()).ok());
+    std::FILE* file = std::fopen(path.string().c_str(), "rb");
+    std::string bytes(4096, '\0');
+    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file));
+    std::fclose(file);
+    for (std::size_t n = 0; n < bytes.size(); ++n) {
+      const auto surface = io::read_surface_bytes(bytes.substr(0, n), "a");
+      if (!surface) {
+        EXPECT_FALSE(surface.error().message.empty());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace incise
