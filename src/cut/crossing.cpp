@@ -97,11 +97,8 @@ std::uint8_t flags_of(const NearTet& tet, const EdgeTable& edges) {
 }
 
 void collect(const TetMesh& mesh, const std::vector<TetId>& near, Neighbourhood& out) {
-  out.edges.clear();
-  out.tets.clear();
+  out.clear(mesh);
   out.tets.reserve(near.size());
-  out.index_of_tet = ZeroedArray<std::uint32_t>(mesh.tet_slots());
-  out.is_on = ZeroedArray<std::uint8_t>(mesh.vertex_slots());
   for (const TetId id : near) {
     NearTet tet;
     tet.id = id;

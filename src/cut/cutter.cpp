@@ -119,7 +119,7 @@ class Cutter::Pipeline {
       }
       const Separation separation =
           is_paper() ? separate_as_paper(transaction, std::move(incision), tag, walker_)
-                     : separate(transaction, std::move(incision), subdivision.children, tag, walker_);
+                     : separate(transaction, std::move(incision), subdivision.children, tag, separation_);
       statistics.incision_faces += separation.opened_faces;
       statistics.latent_faces += separation.latent_faces;
       statistics.copied_vertices += separation.copied_vertices;
@@ -171,6 +171,7 @@ class Cutter::Pipeline {
   Neighbourhood near_;
   SplitTemplates templates_;
   StarWalker walker_;
+  SeparationScratch separation_;
 };
 
 Cutter::Cutter(CutOptions options) : pipeline_(std::make_unique<Pipeline>(options)) {}

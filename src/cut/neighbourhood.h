@@ -35,15 +35,31 @@ constexpr bool has_odd_face(std::uint8_t flagged) {
   return is_odd;
 }
 
-/// What a sheet does to the part of the mesh that it passes through. Lives for one sheet.
+/// What a sheet does to the part of the mesh that it passes through. Filled anew for each sheet; keeps its memory.
 struct Neighbourhood {
   EdgeTable edges;
   std::vector<NearTet> tets;
   ZeroedArray<std::uint32_t> index_of_tet;  ///< 0 far, 1 + index into `tets`
-  ZeroedArray<std::uint8_t> is_on;          ///< by vertex slot: takes part in the cut
+  ZeroedArray<std::uint8_t> is_on;          ///< by vertex slot: takes part in the cut; set by `mark_on`
+  std::vector<VertexId> on;                 ///< the vertices so marked
+
+  void mark_on(VertexId vertex) {
+    is_on.ensure(std::size_t{vertex.value} + 1);
+    is_on[vertex.value] = 1;
+    on.push_back(vertex);
+  }
+  void clear(const TetMesh& mesh) {
+    for (const NearTet& tet : tets) index_of_tet[tet.id.value] = 0;
+    for (const VertexId vertex : on) is_on[vertex.value] = 0;
+    edges.clear();
+    tets.clear();
+    on.clear();
+    index_of_tet.ensure(mesh.tet_slots());
+    is_on.ensure(mesh.vertex_slots());
+  }
 
   [[nodiscard]] const NearTet* find(TetId tet) const {
-    const std::uint32_t index = index_of_tet[tet.value];
+    const std::uint32_t index = tet.value < index_of_tet.capacity() ? index_of_tet[tet.value] : 0;
     return index == 0 ? nullptr : &tets[index - 1];
   }
   /// The edge of a near tet between two of its corners.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "cut/edge_table.h"
 #include "incise/mesh/verbs.h"
 
 namespace incise::inline v0 {
@@ -12,34 +11,19 @@ namespace {
 
 constexpr unsigned kMaxPinchRounds = 8;
 
-/// Which sides of which tets are incision faces.
-class IncisionMarks {
- public:
-  void set(Side side) {
-    bits_.ensure(std::size_t{side.tet().value} + 1);
-    bits_[side.tet().value] = static_cast<std::uint8_t>(bits_[side.tet().value] | 1U << side.side());
-  }
-  [[nodiscard]] bool has(Side side) const {
-    return side.tet().value < bits_.capacity() && ((unsigned{bits_[side.tet().value]} >> side.side()) & 1U) != 0;
-  }
-
- private:
-  ZeroedArray<std::uint8_t> bits_;
-};
-
-/// The copy of each corner of each tet around the incision: 0 the vertex itself, k its k-th copy in `Separator::copies`.
-using CornerCopies = std::array<std::uint32_t, 4>;
-
 class Separator {
  public:
   Separator(Transaction& transaction, std::vector<IncisionFace> incision, const std::vector<TetId>& new_tets,
-            std::uint32_t tag, StarWalker& walker)
+            std::uint32_t tag, SeparationScratch& scratch)
       : transaction_(transaction),
         mesh_(transaction.mesh()),
         incision_(std::move(incision)),
         new_tets_(new_tets),
         tag_(tag),
-        walker_(walker) {}
+        scratch_(scratch) {}
+  Separator(const Separator&) = delete;
+  Separator& operator=(const Separator&) = delete;
+  ~Separator() { clear_marks(); }
 
   Separation run() {
     for (unsigned round = 0; round <= kMaxPinchRounds; ++round) {
@@ -70,15 +54,15 @@ class Separator {
   };
 
   void find_copies() {
-    marks_ = {};
-    corner_copies_ = {};
-    corner_copies_.ensure(mesh_.tet_slots());
+    clear_marks();
+    scratch_.incision.ensure(mesh_.tet_slots());
+    scratch_.copies.ensure(mesh_.tet_slots());
     touched_.clear();
     parts_.clear();
     copies_ = 0;
     for (const IncisionFace& face : incision_) {
-      marks_.set(face.a);
-      marks_.set(face.b);
+      mark(face.a);
+      mark(face.b);
     }
     const std::vector<Corner> seeds = find_seeds();
     for (std::size_t i = 0; i < seeds.size();) {
@@ -89,6 +73,22 @@ class Separator {
       divide_star(seeds, i, end);
       i = end;
     }
+  }
+  void mark(Side side) {
+    std::uint8_t& bits = scratch_.incision[side.tet().value];
+    if (bits == 0) {
+      scratch_.marked.push_back(side.tet());
+    }
+    bits = static_cast<std::uint8_t>(bits | 1U << side.side());
+  }
+  [[nodiscard]] bool is_incision(Side side) const {
+    return ((unsigned{scratch_.incision[side.tet().value]} >> side.side()) & 1U) != 0;
+  }
+  void clear_marks() {
+    for (const TetId tet : scratch_.marked) scratch_.incision[tet.value] = 0;
+    for (const TetId tet : scratch_.reached) scratch_.copies[tet.value] = {};
+    scratch_.marked.clear();
+    scratch_.reached.clear();
   }
   /// Every vertex of the incision with every tet beside it; also split points at which tets meet without a face.
   std::vector<Corner> find_seeds() {
@@ -108,7 +108,7 @@ class Separator {
   /// Paper, Algorithm 2: a new vertex whose tets are more than can be reached from one of them is a singleton vertex.
   /// Arises only where the input's tets touch along an edge without sharing a face.
   void add_singleton_seeds(std::vector<Corner>& seeds) {
-    if (!has_loose_edges_) {
+    if (!mesh_.touched_itself_at_load()) {
       return;
     }
     for (const TetId tet : new_tets_) {
@@ -133,7 +133,7 @@ class Separator {
         continue;
       }
       const auto& flood =
-          walker_.flood(mesh_, v, seeds[i].tet, [&](Side side) { return marks_.has(side); });
+          scratch_.walker.flood(mesh_, v, seeds[i].tet, [&](Side side) { return is_incision(side); });
       const std::uint32_t copy = parts_.size() == first_part ? 0 : ++copies_;
       parts_.push_back({v, seeds[i].tet, copy, bits_of(v, flood)});
       for (const TetId tet : flood) {
@@ -147,16 +147,20 @@ class Separator {
   }
   // A corner is stored as copy + 1, so that 0 means "not reached yet".
   void assign(TetId tet, VertexId v, std::uint32_t copy) {
-    corner_copies_[tet.value][mesh_.corner_of(tet, v)] = copy + 1;
+    std::array<std::uint32_t, 4>& copies = scratch_.copies[tet.value];
+    if ((copies[0] | copies[1] | copies[2] | copies[3]) == 0) {
+      scratch_.reached.push_back(tet);
+    }
+    copies[mesh_.corner_of(tet, v)] = copy + 1;
     if (copy != 0) {
       touched_.push_back({v, tet});
     }
   }
   [[nodiscard]] bool is_in_some_part(VertexId v, TetId tet) const {
-    return corner_copies_[tet.value][mesh_.corner_of(tet, v)] != 0;
+    return scratch_.copies[tet.value][mesh_.corner_of(tet, v)] != 0;
   }
   [[nodiscard]] std::uint32_t copy_of(TetId tet, VertexId v) const {
-    return corner_copies_[tet.value][mesh_.corner_of(tet, v)];
+    return scratch_.copies[tet.value][mesh_.corner_of(tet, v)];
   }
   [[nodiscard]] std::uint8_t bits_of(VertexId v, const std::vector<TetId>& part) const {
     unsigned bits = mesh_.shape_of(v) & shape::kPinched;
@@ -166,7 +170,7 @@ class Separator {
           continue;
         }
         const Link link = mesh_.links(tet)[s];
-        if (marks_.has(Side(tet, s)) || (link.is_boundary() && link.tag() != 0)) {
+        if (is_incision(Side(tet, s)) || (link.is_boundary() && link.tag() != 0)) {
           bits |= shape::kWall;
         } else if (link.is_boundary()) {
           bits |= shape::kSkin;
@@ -188,23 +192,23 @@ class Separator {
   };
   [[nodiscard]] Fan fan_at(VertexId a, VertexId b, TetId seed) const {
     Fan fan{seed, copy_of(seed, a), copy_of(seed, b)};
-    walk_edge_ring(mesh_, a, b, seed, [&](Side side) { return marks_.has(side); },
+    walk_edge_ring(mesh_, a, b, seed, [&](Side side) { return is_incision(side); },
                    [&](TetId tet) { fan.lowest = std::min(fan.lowest, tet); });
     return fan;
   }
   /// Edges that need a look: kept by a face, or in more than two incision faces, or in two and on a surface.
   void find_suspects(std::vector<std::array<VertexId, 2>>& suspects) {
-    edges_.clear();
+    scratch_.edges.clear();
     for (const IncisionFace& face : incision_) {
       const auto v = mesh_.vertices(face.a);
       for (unsigned k = 0; k < 3; ++k) {
         const VertexId a = std::min(v[k], v[(k + 1) % 3]), b = std::max(v[k], v[(k + 1) % 3]);
-        CutEdge& edge = edges_[edges_.find_or_add(a, b)];
+        CutEdge& edge = scratch_.edges[scratch_.edges.find_or_add(a, b)];
         ++edge.crossings;
         edge.is_blocked |= keeps_edge(face, a, b);
       }
     }
-    for (const CutEdge& edge : edges_.edges()) {
+    for (const CutEdge& edge : scratch_.edges.edges()) {
       const bool is_on_surface = (mesh_.shape_of(edge.a) & mesh_.shape_of(edge.b)) != 0;
       if ((edge.is_blocked && edge.crossings > 1) || edge.crossings > 2 || (edge.crossings == 2 && is_on_surface)) {
         suspects.push_back({edge.a, edge.b});
@@ -316,7 +320,7 @@ class Separator {
     }
     for (const Corner& corner : touched_) {
       const unsigned c = mesh_.corner_of(corner.tet, corner.vertex);
-      transaction_.set_corner(corner.tet, c, copy_ids[corner_copies_[corner.tet.value][c] - 1]);
+      transaction_.set_corner(corner.tet, c, copy_ids[scratch_.copies[corner.tet.value][c] - 1]);
     }
     result_.copied_vertices = copies_;
   }
@@ -340,22 +344,18 @@ class Separator {
   std::vector<IncisionFace> incision_;
   const std::vector<TetId>& new_tets_;
   std::uint32_t tag_;
-  StarWalker& walker_;
-  IncisionMarks marks_;
-  ZeroedArray<CornerCopies> corner_copies_;
+  SeparationScratch& scratch_;
   std::vector<Corner> touched_;
   std::vector<Part> parts_;
-  EdgeTable edges_;
   std::uint32_t copies_ = 0;
-  bool has_loose_edges_ = true;
   Separation result_;
 };
 
 }  // namespace
 
 Separation separate(Transaction& transaction, std::vector<IncisionFace> incision, const std::vector<TetId>& new_tets,
-                    std::uint32_t tag, StarWalker& walker) {
-  return Separator(transaction, std::move(incision), new_tets, tag, walker).run();
+                    std::uint32_t tag, SeparationScratch& scratch) {
+  return Separator(transaction, std::move(incision), new_tets, tag, scratch).run();
 }
 
 }  // namespace incise::inline v0

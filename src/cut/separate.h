@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cut/edge_table.h"
 #include "cut/subdivide.h"
 #include "incise/mesh/star.h"
 
@@ -17,6 +18,17 @@ struct Separation {
   std::uint64_t singleton_vertices = 0;  ///< divided by Algorithm 2 (paper profile)
 };
 
+/// Memory that separations reuse: marks by tet slot, all zero between separations.
+struct SeparationScratch {
+  using CornerCopies = std::array<std::uint32_t, 4>;
+
+  StarWalker walker;
+  EdgeTable edges;
+  ZeroedArray<std::uint8_t> incision;   ///< bit s: side s is an incision face
+  ZeroedArray<CornerCopies> copies;     ///< 1 + the copy that each corner gets; 0 not reached
+  std::vector<TetId> marked, reached;   ///< tets with a non-zero entry in either
+};
+
 /// Separates the material along the incision faces, in one pass: every vertex of an incision face gets one copy per
 /// face-connected part of its star after the incision faces are taken away.
 ///
@@ -24,9 +36,9 @@ struct Separation {
 /// separates where their literal form stalls (closed interior sheets, several sectors at a vertex). An edge both of
 /// whose ends stay whole although two of its fans are apart (a neck one edge wide) is bisected first, so that its
 /// midpoint comes apart. Every boundary edge that results has exactly two boundary faces.
-/// `split_vertices` with the number of their incident tets are checked for fans that share no face as well.
+/// Where the input touched itself, the new vertices of `new_tets` are checked for parts that share no face as well.
 /// Source: paper §2.3, §2.4; proof of equivalence in docs/paper_map.md. Cost: O(stars of the incision's vertices).
 Separation separate(Transaction& transaction, std::vector<IncisionFace> incision,
-                    const std::vector<TetId>& new_tets, std::uint32_t tag, StarWalker& walker);
+                    const std::vector<TetId>& new_tets, std::uint32_t tag, SeparationScratch& scratch);
 
 }  // namespace incise::inline v0

@@ -256,34 +256,34 @@ bool keeps_volumes(const TetMesh& mesh, VertexId vertex, const Vec3& moved, cons
   return true;
 }
 
-/// The current position of a rest point near `vertex`, interpolated in the tet of the star that holds it best.
-Vec3 current_at(const TetMesh& mesh, VertexId vertex, const Vec3& rest_point, const std::vector<TetId>& star) {
-  if (mesh.current(vertex) == mesh.rest(vertex)) {
-    return rest_point;
-  }
-  double best = -1e300;
-  Vec3 current = mesh.current(vertex);
+/// A rest point in the barycentric coordinates of a tet.
+struct MaterialPoint {
+  TetVertices basis;
+  std::array<double, 4> weights;
+};
+
+/// The tet of the star that holds a rest point best, with its coordinates there.
+MaterialPoint locate(const TetMesh& mesh, const Vec3& rest_point, const std::vector<TetId>& star) {
+  MaterialPoint best{};
+  double greatest = -1e300;
   for (const TetId tet : star) {
     const TetVertices& v = mesh.vertices(tet);
     std::array<Vec3, 4> p = {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
     const double whole = volume6(p);
-    std::array<double, 4> weight{};
+    std::array<double, 4> weights{};
     for (unsigned c = 0; c < 4; ++c) {
       const Vec3 kept = p[c];
       p[c] = rest_point;
-      weight[c] = volume6(p) / whole;
+      weights[c] = volume6(p) / whole;
       p[c] = kept;
     }
-    const double least = *std::min_element(weight.begin(), weight.end());
-    if (least > best) {
-      best = least;
-      current.setZero();
-      for (unsigned c = 0; c < 4; ++c) {
-        current += weight[c] * mesh.current(v[c]);
-      }
+    const double least = *std::min_element(weights.begin(), weights.end());
+    if (least > greatest) {
+      greatest = least;
+      best = {v, weights};
     }
   }
-  return current;
+  return best;
 }
 
 }  // namespace
@@ -293,7 +293,7 @@ std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const Sheet& sheet
   std::vector<OnVertex> chosen;
   for (const Candidate& candidate : find_candidates(mesh, sheet, snap, neighbourhood, walker)) {
     if (!would_flatten_a_tet(mesh, candidate.on.vertex, neighbourhood, walker)) {
-      neighbourhood.is_on[candidate.on.vertex.value] = 1;
+      neighbourhood.mark_on(candidate.on.vertex);
       chosen.push_back(candidate.on);
     }
   }
@@ -315,7 +315,8 @@ std::uint64_t move_on_vertices(Transaction& transaction, const Sheet& sheet, dou
     const bool has_landed = landing.distance <= 1e-9 * on.spacing;
     const bool is_short = (landing.point - start).norm() <= 1.5 * snap * on.spacing;
     if (has_landed && is_short && keeps_volumes(mesh, on.vertex, landing.point, star)) {
-      transaction.move(on.vertex, landing.point, current_at(mesh, on.vertex, landing.point, star));
+      const MaterialPoint place = locate(mesh, landing.point, star);
+      transaction.move(on.vertex, landing.point, place.basis, place.weights);
     } else {
       ++bent;
     }

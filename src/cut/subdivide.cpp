@@ -176,8 +176,7 @@ class Subdivider {
     for (CutEdge& edge : near_.edges.edges()) {
       if (edge.is_planned) {
         edge.split = transaction_.add_vertex_on_edge(edge.a, edge.b, edge.t);
-        near_.is_on.ensure(std::size_t{edge.split.value} + 1);
-        near_.is_on[edge.split.value] = 1;
+        near_.mark_on(edge.split);
         ++result_.new_vertices;
       }
     }

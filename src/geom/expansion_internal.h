@@ -29,7 +29,9 @@ inline TwoTerm fast_two_sum(double a, double b) {
 }
 
 /// a − b.
-inline TwoTerm two_difference(double a, double b) { return two_sum(a, -b); }
+inline TwoTerm two_difference(double a, double b) {
+  return two_sum(a, -b);
+}
 
 /// Halves of 26 bits each (Dekker; theorem 17).
 inline TwoTerm split(double a) {

@@ -16,7 +16,9 @@ std::array<int, 3> sides_of(const Triangle& plane, const Triangle& corners) {
   return sides;
 }
 
-bool is_one_sided(const std::array<int, 3>& sides) { return sides[0] == sides[1] && sides[1] == sides[2]; }
+bool is_one_sided(const std::array<int, 3>& sides) {
+  return sides[0] == sides[1] && sides[1] == sides[2];
+}
 
 bool line_meets(const SosPoint& p, const SosPoint& q, const Triangle& t) {
   const int turn = orient3d_sos(p, q, t[0], t[1]);

@@ -13,8 +13,7 @@ namespace {
 /// Outward normals of the faces opposite to a, b, c, d; their lengths are twice the areas.
 struct FaceNormals {
   FaceNormals(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
-      : of{(c - b).cross(d - b), (d - a).cross(c - a), (b - a).cross(d - a),
-           (c - a).cross(b - a)} {}
+      : of{(c - b).cross(d - b), (d - a).cross(c - a), (b - a).cross(d - a), (c - a).cross(b - a)} {}
   std::array<Vec3, 4> of;
 };
 

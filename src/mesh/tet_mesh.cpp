@@ -50,6 +50,7 @@ Result<TetMesh> TetMesh::build(TetSoup soup) {
   soup = {};
   mesh.link_faces();
   mesh.mark_shapes();
+  mesh.find_loose_edges();
   return mesh;
 }
 
@@ -179,7 +180,27 @@ void TetMesh::mark_shapes() {
     vertex_shape_[v] = shape::kSkin;
     if (walker.star(*this, v).size() != incident[slot]) {
       vertex_shape_[v] |= shape::kPinched;
+      touched_itself_at_load_ = true;
     }
+  }
+}
+
+void TetMesh::find_loose_edges() {
+  std::vector<std::uint64_t> edges;
+  for_each_tet([&](TetId id) {
+    for (unsigned s = 0; s < 4; ++s) {
+      if (tet_links_[id][s].is_boundary()) {
+        const auto face = vertices(Side(id, s));
+        for (unsigned k = 0; k < 3; ++k) {
+          const auto [low, high] = std::minmax(face[k].value, face[(k + 1) % 3].value);
+          edges.push_back((std::uint64_t{low} << 32U) | high);
+        }
+      }
+    }
+  });
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 2; i < edges.size() && !touched_itself_at_load_; ++i) {
+    touched_itself_at_load_ = edges[i] == edges[i - 2];
   }
 }
 

@@ -15,7 +15,9 @@ constexpr TetVertices kNoVertices{};
 }  // namespace
 
 Transaction::Transaction(TetMesh& mesh)
-    : mesh_(mesh), tet_mark_(mesh.tet_slots()), vertex_mark_(mesh.vertex_slots()) {
+    : mesh_(mesh), tet_mark_(mesh.edit_tet_marks_), vertex_mark_(mesh.edit_vertex_marks_) {
+  tet_mark_.ensure(mesh.tet_slots());
+  vertex_mark_.ensure(mesh.vertex_slots());
   step_.before.tet_slots = mesh.tet_slots();
   step_.before.vertex_slots = mesh.vertex_slots();
   step_.free_tets_common = mesh.free_tets_.size();
@@ -187,9 +189,17 @@ void Transaction::set_shape(VertexId vertex, std::uint8_t bits) {
   mesh_.vertex_shape_[vertex] = bits;
 }
 
-void Transaction::move(VertexId vertex, const Vec3& rest, const Vec3& current) {
+void Transaction::move(VertexId vertex, const Vec3& rest, const TetVertices& basis,
+                       const std::array<double, 4>& weights) {
   touch(vertex);
-  step_.moved.push_back({vertex, mesh_.rest_[vertex], rest, mesh_.current_[vertex], current});
+  Vec3 current = rest;
+  if (mesh_.current_[vertex] != mesh_.rest_[vertex]) {
+    current.setZero();
+    for (unsigned c = 0; c < 4; ++c) {
+      current += weights[c] * mesh_.current_[basis[c]];
+    }
+  }
+  step_.moved.push_back({vertex, basis, weights, mesh_.rest_[vertex], rest, mesh_.current_[vertex], current});
   mesh_.rest_[vertex] = rest;
   mesh_.current_[vertex] = current;
 }
@@ -242,6 +252,13 @@ void Transaction::release_slots() {
   }
 }
 
+void Transaction::clear_marks() {
+  for (const TetImage& old : step_.before.tets) tet_mark_[old.id.value] = 0;
+  for (const TetId id : step_.new_tets) tet_mark_[id.value] = 0;
+  for (const VertexImage& old : step_.before.vertices) vertex_mark_[old.id.value] = 0;
+  for (const VertexId id : step_.new_vertices) vertex_mark_[id.value] = 0;
+}
+
 Step Transaction::commit() {
   assert(is_open_);
   is_open_ = false;
@@ -251,6 +268,7 @@ Step Transaction::commit() {
   std::reverse(step_.before.free_tets.begin(), step_.before.free_tets.end());
   std::reverse(step_.before.free_vertices.begin(), step_.before.free_vertices.end());
   release_slots();
+  clear_marks();
   return std::move(step_);
 }
 

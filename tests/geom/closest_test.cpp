@@ -20,14 +20,11 @@ struct Case {
 };
 
 TEST(ClosestOnTriangle, FindsEveryFeature) {
-  for (const Case& c : {Case{{1, 1, 2}, {1, 1, 0}, TriangleFeature::kFace},
-                        Case{{2, -1, 1}, {2, 0, 0}, TriangleFeature::kEdgeAb},
-                        Case{{4, 4, 0}, {2, 2, 0}, TriangleFeature::kEdgeBc},
-                        Case{{-1, 3, 1}, {0, 3, 0}, TriangleFeature::kEdgeCa},
-                        Case{{-1, -1, 5}, kA, TriangleFeature::kVertexA},
-                        Case{{6, -1, 0}, kB, TriangleFeature::kVertexB},
-                        Case{{-1, 6, 0}, kC, TriangleFeature::kVertexC},
-                        Case{{0, 0, 0}, kA, TriangleFeature::kVertexA}}) {
+  for (const Case& c :
+       {Case{{1, 1, 2}, {1, 1, 0}, TriangleFeature::kFace}, Case{{2, -1, 1}, {2, 0, 0}, TriangleFeature::kEdgeAb},
+        Case{{4, 4, 0}, {2, 2, 0}, TriangleFeature::kEdgeBc}, Case{{-1, 3, 1}, {0, 3, 0}, TriangleFeature::kEdgeCa},
+        Case{{-1, -1, 5}, kA, TriangleFeature::kVertexA}, Case{{6, -1, 0}, kB, TriangleFeature::kVertexB},
+        Case{{-1, 6, 0}, kC, TriangleFeature::kVertexC}, Case{{0, 0, 0}, kA, TriangleFeature::kVertexA}}) {
     const ClosestPoint found = closest_on_triangle(c.from, kA, kB, kC);
     EXPECT_EQ(found.feature, c.feature);
     EXPECT_LT((found.point - c.expected).norm(), 1e-15);

@@ -19,7 +19,9 @@ __extension__ typedef __int128 Int128;
 using Points = std::array<Vec3, 4>;
 using SosPoints = std::array<SosPoint, 4>;
 
-int sign_of(Int128 value) { return static_cast<int>(value > 0) - static_cast<int>(value < 0); }
+int sign_of(Int128 value) {
+  return static_cast<int>(value > 0) - static_cast<int>(value < 0);
+}
 
 // Exact while |coordinates / unit| < 2^52 and differences stay below 2^41.
 int exact_orient3d(const Points& p, double unit = 1.0) {
@@ -40,8 +42,12 @@ int exact_orient2d(const Vec3& a, const Vec3& b, const Vec3& c) {
                  (integer(b.y()) - integer(a.y())) * (integer(c.x()) - integer(a.x())));
 }
 
-int orientation(const Points& p) { return orient3d(p[0], p[1], p[2], p[3]); }
-int orientation(const SosPoints& p) { return orient3d_sos(p[0], p[1], p[2], p[3]); }
+int orientation(const Points& p) {
+  return orient3d(p[0], p[1], p[2], p[3]);
+}
+int orientation(const SosPoints& p) {
+  return orient3d_sos(p[0], p[1], p[2], p[3]);
+}
 
 Points random_grid_points(Random& random, std::int64_t extent) {
   Points p;
@@ -181,8 +187,9 @@ TEST(Orient3d, IsExactBelowAnUlp) {
 TEST(Orient3d, ChangesSignWithOddPermutations) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
-    const Points p = i % 2 == 0 ? random_grid_points(random, 2) : Points{random.point(0, 1), random.point(0, 1),
-                                                                         random.point(0, 1), random.point(0, 1)};
+    const Points p = i % 2 == 0
+                         ? random_grid_points(random, 2)
+                         : Points{random.point(0, 1), random.point(0, 1), random.point(0, 1), random.point(0, 1)};
     const int reference = orientation(p);
     for_each_permutation([&](const auto& o, int parity) {
       EXPECT_EQ(orient3d(p[o[0]], p[o[1]], p[o[2]], p[o[3]]), parity * reference);

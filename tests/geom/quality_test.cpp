@@ -22,7 +22,9 @@ template <class Measure>
 auto of(Measure measure, const Tet& t) {
   return measure(t[0], t[1], t[2], t[3]);
 }
-Tet inverted(const Tet& t) { return {t[1], t[0], t[2], t[3]}; }
+Tet inverted(const Tet& t) {
+  return {t[1], t[0], t[2], t[3]};
+}
 
 TEST(Quality, RegularTet) {
   EXPECT_NEAR(of(longest_edge_over_inradius, kRegular), 2 * std::sqrt(6.0), 1e-14);

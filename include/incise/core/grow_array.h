@@ -142,15 +142,21 @@ class GrowArray {
 
 /// Numbers by slot that all start at zero and cost memory only where they were written.
 ///
-/// For marks that live for one transaction or one search on a mesh of any size: construction is O(1) where address
-/// space can be reserved, O(slots) elsewhere.
+/// For marks on a mesh of any size: construction is O(1) where address space can be reserved, O(slots) elsewhere. Whoever
+/// keeps one for reuse sets the entries that it wrote back to zero, since fresh pages cost more than that.
 template <class T>
 class ZeroedArray {
  public:
   ZeroedArray() = default;
   explicit ZeroedArray(std::size_t count) { ensure(count); }
-  ZeroedArray(const ZeroedArray&) = delete;
-  ZeroedArray& operator=(const ZeroedArray&) = delete;
+  /// A copy starts all zero: marks belong to one search on one object.
+  ZeroedArray(const ZeroedArray& /*other*/) {}
+  ZeroedArray& operator=(const ZeroedArray& other) {
+    if (this != &other) {
+      release();
+    }
+    return *this;
+  }
   ZeroedArray(ZeroedArray&& other) noexcept { swap(other); }
   ZeroedArray& operator=(ZeroedArray&& other) noexcept {
     swap(other);

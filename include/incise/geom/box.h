@@ -27,13 +27,11 @@ struct Box {
 
   /// Whether two boxes have a point in common; boxes that only touch do.
   [[nodiscard]] bool overlaps(const Box& o) const {
-    return lo.x() <= o.hi.x() && o.lo.x() <= hi.x() && lo.y() <= o.hi.y() && o.lo.y() <= hi.y() &&
-           lo.z() <= o.hi.z() && o.lo.z() <= hi.z();
+    return lo.x() <= o.hi.x() && o.lo.x() <= hi.x() && lo.y() <= o.hi.y() && o.lo.y() <= hi.y() && lo.z() <= o.hi.z() &&
+           o.lo.z() <= hi.z();
   }
   /// Squared distance from a point to the nearest point of the box; 0 inside.
-  [[nodiscard]] double distance2(const Vec3& p) const {
-    return (lo - p).cwiseMax(p - hi).cwiseMax(0.0).squaredNorm();
-  }
+  [[nodiscard]] double distance2(const Vec3& p) const { return (lo - p).cwiseMax(p - hi).cwiseMax(0.0).squaredNorm(); }
 };
 
 }  // namespace incise::inline v0

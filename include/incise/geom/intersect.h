@@ -12,7 +12,7 @@ namespace incise::inline v0 {
 /// Exact, and never degenerate: triangles that only touch cross or do not, as their keys say, and every test on the
 /// same points agrees. Triangles whose boxes are apart do not cross.
 /// @param first, second  corners with six different keys: triangles that share a corner cannot be asked about.
-/// Cost: six `orient3d_sos` where one lies on one side of the other's plane, else up to 24.
+/// Cost: three or six `orient3d_sos` where one triangle lies on one side of the other's plane, else up to 18.
 /// **Source:** Edelsbrunner & Mücke 1990 (perturbation).
 bool triangles_cross(const std::array<SosPoint, 3>& first, const std::array<SosPoint, 3>& second);
 

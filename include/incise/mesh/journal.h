@@ -10,22 +10,26 @@ namespace incise::inline v0 {
 
 // The journal is the mesh's second interface: solvers, renderers and recorders follow it instead of the mesh.
 // Within one step a follower applies the records in the order of the members of `Step`:
-//   born, copied, moved, consumed, produced, rewired, opened, died.
+//   born, moved, copied, consumed, produced, rewired, opened, died.
+// Each list is in the order in which things happened, and may refer to what stands before it.
 
 struct BornVertex {
   VertexId id;
   std::array<VertexId, 4> parents;  ///< unused entries are invalid
-  std::array<double, 4> weights;    ///< sum to 1 over the valid parents; refer to positions before `moved`
+  std::array<double, 4> weights;    ///< sum to 1 over the valid parents
   Vec3 rest, current;               ///< at birth, bit for bit
 };
 
-struct CopiedVertex {
-  VertexId id, source;  ///< the copy starts with the source's positions after this step's `moved`
-};
-
+/// A vertex that now stands for another material point: values that live in the material must be sampled there.
 struct MovedVertex {
   VertexId id;
+  std::array<VertexId, 4> basis;  ///< the tet that holds (or is nearest to) the new place before the move
+  std::array<double, 4> weights;  ///< barycentric coordinates of the new place in it; sum to 1, may be negative
   Vec3 old_rest, rest, old_current, current;
+};
+
+struct CopiedVertex {
+  VertexId id, source;  ///< the copy starts with the source's positions as they are after this step's moves
 };
 
 struct ConsumedTet {
@@ -80,8 +84,8 @@ struct StepImage {
 /// One committed step: the net effect of a transaction, with what is needed to invert it.
 struct Step {
   std::vector<BornVertex> born;
-  std::vector<CopiedVertex> copied;
   std::vector<MovedVertex> moved;
+  std::vector<CopiedVertex> copied;
   std::vector<ConsumedTet> consumed;
   std::vector<ProducedTet> produced;
   std::vector<RewiredTet> rewired;

@@ -140,6 +140,10 @@ class TetMesh {
   /// The tets with exact-sign rest volume ≤ 0 that the input brought along, ascending. They never grow in number.
   [[nodiscard]] const std::vector<TetId>& flat_at_load() const { return flat_at_load_; }
 
+  /// Whether the input's tets touched along an edge or at a vertex without sharing a face (a boundary edge with more
+  /// than two boundary faces, or a pinched vertex).
+  [[nodiscard]] bool touched_itself_at_load() const { return touched_itself_at_load_; }
+
   /// Calls `visit(TetId)` for every live tet, ascending.
   template <class Visit>
   void for_each_tet(Visit&& visit) const {
@@ -174,6 +178,7 @@ class TetMesh {
   Status take_tets(const TetSoup& soup);
   void link_faces();
   void mark_shapes();
+  void find_loose_edges();
 
   IdArray<TetId, TetVertices> tet_vertices_;
   IdArray<TetId, TetLinks> tet_links_;
@@ -187,7 +192,10 @@ class TetMesh {
   IdArray<VertexId, std::uint8_t> vertex_shape_;
   GrowArray<std::uint32_t> free_tets_;
   GrowArray<std::uint32_t> free_vertices_;
+  ZeroedArray<std::uint32_t> edit_tet_marks_;     // scratch of the open transaction; all zero between transactions
+  ZeroedArray<std::uint32_t> edit_vertex_marks_;  // likewise
   std::vector<TetId> flat_at_load_;
+  bool touched_itself_at_load_ = false;
   std::size_t live_tets_ = 0;
   std::size_t live_vertices_ = 0;
 };

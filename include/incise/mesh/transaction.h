@@ -44,7 +44,9 @@ class Transaction {
   void set_corner(TetId tet, unsigned corner, VertexId vertex);
   void set_tet_of(VertexId vertex, TetId tet);
   void set_shape(VertexId vertex, std::uint8_t bits);
-  void move(VertexId vertex, const Vec3& rest, const Vec3& current);
+  /// Moves a vertex to the place with the barycentric coordinates `weights` in `basis`, a tet around it: the current
+  /// position and followers' values are sampled there. `rest` is that place, given exactly.
+  void move(VertexId vertex, const Vec3& rest, const TetVertices& basis, const std::array<double, 4>& weights);
 
   /// Slots taken so far.
   [[nodiscard]] const std::vector<TetId>& new_tets() const { return step_.new_tets; }
@@ -64,13 +66,14 @@ class Transaction {
   void record_vertices();
   void record_opened();
   void release_slots();
+  void clear_marks();
   std::uint32_t take_tet_slot();
   std::uint32_t take_vertex_slot();
 
   TetMesh& mesh_;
   Step step_;
-  ZeroedArray<std::uint32_t> tet_mark_;     // 0 untouched, 1 touched, 2 + index where the transaction took the slot
-  ZeroedArray<std::uint32_t> vertex_mark_;  // likewise
+  ZeroedArray<std::uint32_t>& tet_mark_;     // 0 untouched, 1 touched, 2 + index where the transaction took the slot
+  ZeroedArray<std::uint32_t>& vertex_mark_;  // likewise
   std::vector<TetId> parents_;                    // of new_tets
   std::vector<TetId> removed_tets_;
   std::vector<VertexId> removed_vertices_;
