@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "incise/geom/predicates.h"
+
 namespace incise::inline v0 {
 namespace {
 
@@ -318,9 +320,9 @@ Normalised normalise(TetSoup& soup) {
     drop_entries(soup.tets, done.dropped_tets);
   }
   for (Tet& tet : soup.tets) {
-    const Shape shape = shape_of(soup, tet);
-    if (is_flat(shape)) ++done.zero_volume;
-    if (shape.volume6 < 0) {
+    if (is_flat(shape_of(soup, tet))) ++done.zero_volume;
+    const auto& p = soup.points;
+    if (orient3d(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]) < 0) {
       std::swap(tet[2], tet[3]);
       ++done.flipped;
     }

@@ -84,7 +84,7 @@ struct Normalised {
 
 /// Turn every negative tet to positive volume and drop exact duplicates.
 ///
-/// A negative tet has its last two vertices swapped; of equal vertex sets the first tet stays.
+/// A negative tet (by exact sign) has its last two vertices swapped; of equal vertex sets the first tet stays.
 /// @param soup  `n_tets × 4` indices, all below `n_points`; `regions` is compacted along.
 /// Errors: none. Cost: O(n log n). Points are left as they are.
 Normalised normalise(TetSoup& soup);
