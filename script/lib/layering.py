@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Checks the #include lines of the tree. usage: layering.py ROOT"""
+import os
+import re
+import sys
+
+LOWEST = ("core", "geom", "mesh")
+MAY_INCLUDE = {
+    "core": (),
+    "geom": ("core",),
+    "mesh": ("core", "geom"),
+    "cut": LOWEST,
+    "improve": LOWEST,
+    "sim": LOWEST,
+    "io": LOWEST,
+    "engine": LOWEST + ("cut", "improve", "sim", "io"),
+    "app": LOWEST + ("cut", "improve", "sim", "io", "engine"),
+}
+FRONT_ENDS = ("apps", "bindings", "bench", "examples")
+# Third-party headers, and the modules whose .cpp files may include them. No public header may, but for Eigen.
+PRIVATE_HEADERS = {
+    "tbb/": ("geom", "mesh", "cut", "improve", "sim", "engine"),
+    "oneapi/": ("geom", "mesh", "cut", "improve", "sim", "engine"),
+    "hwy/": ("geom", "mesh", "cut", "improve", "sim"),
+    "pugixml.hpp": ("io",),
+    "zlib.h": ("io",),
+    "nlohmann/": ("io", "app"),
+    "fmt/": ("io", "app"),
+    "spdlog/": ("app",),
+    "CLI/": (),
+    "iostream": ("app",),  # the library prints nothing
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def sources(root, folder):
+    for where, folders, names in os.walk(os.path.join(root, folder)):
+        folders.sort()
+        for name in sorted(names):
+            if name.endswith((".h", ".cpp", ".hpp", ".c", ".cc", ".inc")):
+                yield os.path.relpath(os.path.join(where, name), root)
+
+
+def includes(root, path):
+    with open(os.path.join(root, path), encoding="utf-8") as source:
+        for number, line in enumerate(source, 1):
+            match = INCLUDE.match(line)
+            if match:
+                yield number, match.group(1)
+
+
+def module_of(header):
+    """The module of ours that `header`, as written in an #include, belongs to; None for others."""
+    parts = header.split("/")
+    if parts[0] == "incise" and len(parts) > 2:
+        return parts[1]
+    return parts[0] if parts[0] in MAY_INCLUDE and len(parts) > 1 else None
+
+
+def check_module_file(module, path, header):
+    other = module_of(header)
+    if other is not None and other != module and other not in MAY_INCLUDE[module]:
+        return "module %s must not include %s" % (module, other)
+    if other is not None and other != module and not header.startswith("incise/"):
+        return "%s is private to module %s" % (header, other)
+    if path.startswith("include/") and other is not None and not header.startswith("incise/"):
+        return "a public header includes a private one"
+    for prefix, allowed in PRIVATE_HEADERS.items():
+        if header == prefix or (prefix.endswith("/") and header.startswith(prefix)):
+            if path.startswith("include/"):
+                return "<%s> in a public header" % header
+            if module not in allowed:
+                return "<%s> has no place in module %s" % (header, module)
+    return None
+
+
+def check_front_end_file(root, path, header):
+    if header.startswith("incise/"):
+        known = header == "incise/version.h" or os.path.exists(os.path.join(root, "include", header))
+        return None if known else "%s is no public header" % header
+    beside = os.path.normpath(os.path.join(os.path.dirname(path), header))
+    if beside.startswith("src" + os.sep) or module_of(header) is not None and \
+            os.path.exists(os.path.join(root, "src", header)):
+        return "front ends use public headers only"
+    return None
+
+
+def main(root):
+    checked, wrong = 0, []
+    for base in ("include/incise", "src"):
+        for path in sources(root, base):
+            module = path.split(os.sep)[2 if base != "src" else 1]
+            if module not in MAY_INCLUDE:
+                wrong.append("%s: there is no module '%s'" % (path, module))
+                continue
+            checked += 1
+            for number, header in includes(root, path):
+                complaint = check_module_file(module, path, header)
+                if complaint:
+                    wrong.append("%s:%d: %s" % (path, number, complaint))
+    for base in FRONT_ENDS:
+        for path in sources(root, base):
+            checked += 1
+            for number, header in includes(root, path):
+                complaint = check_front_end_file(root, path, header)
+                if complaint:
+                    wrong.append("%s:%d: %s" % (path, number, complaint))
+    for line in wrong:
+        print(line)
+    print("layering: %d files, %d wrong includes" % (checked, len(wrong)))
+    return 1 if wrong or checked == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]) if len(sys.argv) == 2 else __doc__)
