@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "incise/app/blade_file.h"
+#include "incise/app/convert.h"
+#include "incise/app/cut_job.h"
+#include "incise/app/mesh_info.h"
+#include "incise/app/text_file.h"
+#include "incise/mesh/bounds.h"
+
+namespace incise_cli {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace incise;
+
+int fail(const Terminal& terminal, const Error& error, ExitCode code) {
+  terminal.error(error.message);
+  return code;
+}
+
+int fail(const Terminal& terminal, const std::string& message, ExitCode code) {
+  terminal.error(message);
+  return code;
+}
+
+/// How an error of a stage that reads and writes files ends the program.
+ExitCode exit_of(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::kBadArgument: return kUsage;
+    case ErrorCode::kIo:
+    case ErrorCode::kInternal: return kFailure;
+    case ErrorCode::kBadFile:
+    case ErrorCode::kUnsupported:
+    case ErrorCode::kOutOfMemory: return kBadInput;
+  }
+  return kFailure;
+}
+
+void print_notes(const std::vector<std::string>& notes, const std::string& file, const Terminal& terminal) {
+  for (const std::string& text : notes) terminal.note(file + ": " + text);
+}
+
+struct Plane {
+  Vec3 normal;
+  double offset = 0;
+};
+
+/// "nx,ny,nz,d": four finite numbers, the first three not all zero.
+std::optional<Plane> parse_plane(const std::string& text) {
+  std::array<double, 4> numbers{};
+  const char* at = text.c_str();
+  for (std::size_t i = 0; i < 4; ++i) {
+    char* end = nullptr;
+    numbers[i] = std::strtod(at, &end);
+    if (end == at || !std::isfinite(numbers[i]) || *end != (i < 3 ? ',' : '\0')) return std::nullopt;
+    at = end + 1;
+  }
+  const Vec3 normal(numbers[0], numbers[1], numbers[2]);
+  if (normal.isZero(0)) return std::nullopt;
+  return Plane{normal, numbers[3]};
+}
+
+/// What is wrong with the arguments, or nothing.
+std::string usage_problem(const CutArguments& a) {
+  if (a.blade.empty() == a.plane.empty()) return "give either --blade B.json or --plane nx,ny,nz,d";
+  if (!a.plane.empty() && !parse_plane(a.plane)) {
+    return "--plane " + a.plane + ": four finite numbers nx,ny,nz,d are needed, the first three not all zero";
+  }
+  if (!std::isfinite(a.snap) || a.snap < 0 || a.snap > 0.4) return "--snap must lie between 0 and 0.4";
+  if (!a.output.empty() && !app::is_mesh_extension(a.output)) {
+    return a.output + ": unknown extension; use " + app::kMeshExtensions;
+  }
+  return {};
+}
+
+/// Whether the folder of an output exists: found out before the work, not after.
+bool has_folder(const std::string& file) {
+  if (file.empty() || file == "-") return true;
+  const fs::path folder = fs::path(file).parent_path();
+  std::error_code code;
+  return folder.empty() || fs::is_directory(folder, code);
+}
+
+Result<std::vector<Stroke>> strokes_of(const CutArguments& a, const TetMesh& mesh) {
+  if (!a.blade.empty()) return app::read_blade(a.blade);
+  const Plane plane = *parse_plane(a.plane);
+  Result<Stroke> stroke = plane_stroke(rest_bounds(mesh), plane.normal, plane.offset);
+  if (!stroke.ok()) return stroke.error();
+  return std::vector<Stroke>{std::move(stroke).value()};
+}
+
+app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Terminal& terminal) {
+  app::CutJob job;
+  job.strokes = std::move(strokes);
+  job.engine.cut.profile = a.profile == "paper" ? Profile::kPaper : Profile::kIncise;
+  job.engine.cut.snap = a.snap;
+  job.engine.threads = a.threads;
+  job.engine.log = terminal.log_sink();
+  job.options.seed = a.seed;
+  job.options.blade = a.blade;
+  job.options.plane = a.plane;
+  job.progress = [&terminal](std::size_t done, std::size_t total) { terminal.progress(done, total, "strokes"); };
+  return job;
+}
+
+Status write_results(const CutArguments& a, const app::CutResult& result, const Terminal& terminal) {
+  const WritingZone zone;
+  if (!a.output.empty()) {
+    if (const Status status = io::write_mesh(a.output, result.mesh); !status.ok()) return status;
+  }
+  if (a.report == "-") {
+    terminal.data(app::to_json(result.report));
+  } else if (!a.report.empty()) {
+    return app::write_text_file(a.report, app::to_json(result.report));
+  }
+  return {};
+}
+
+int finish_cut(const CutArguments& a, const app::CutResult& result, const Terminal& terminal) {
+  if (const Status status = write_results(a, result, terminal); !status.ok()) {
+    return fail(terminal, status.error(), status.error().code == ErrorCode::kBadArgument ? kUsage : kFailure);
+  }
+  if (a.report != "-" && !terminal.is_quiet) terminal.data(app::to_text(result.report));
+  if (result.report.change.ok) return kDone;
+  return fail(terminal, "the cut broke the validity contract; see `validity` in the report", kCheckFailed);
+}
+
+}  // namespace
+
+int run_info(const InfoArguments& arguments, const Terminal& terminal) {
+  const Result<io::MeshFile> file = io::read_mesh(arguments.mesh);
+  if (!file.ok()) return fail(terminal, file.error(), kBadInput);
+  const app::MeshInfo info = app::inspect(*file, arguments.mesh);
+  terminal.data(arguments.as_json ? app::to_json(info) : app::to_text(info));
+  return kDone;
+}
+
+int run_check(const InfoArguments& arguments, const Terminal& terminal) {
+  Result<io::MeshFile> file = io::read_mesh(arguments.mesh);
+  if (!file.ok()) return fail(terminal, file.error(), kBadInput);
+  const Result<app::MeshCheck> check = app::check_mesh(std::move(file).value(), arguments.mesh);
+  if (!check.ok()) return fail(terminal, check.error(), kBadInput);
+  terminal.data(arguments.as_json ? app::to_json(*check) : app::to_text(*check));
+  return check->ok ? kDone : kCheckFailed;
+}
+
+int run_cut(const CutArguments& arguments, const Terminal& terminal) {
+  if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
+  for (const std::string& file : {arguments.output, arguments.report}) {
+    if (!has_folder(file)) return fail(terminal, file + ": its folder does not exist; create it first", kFailure);
+  }
+  if (arguments.profile == "paper" && arguments.has_snap) {
+    terminal.note("--snap has no effect with --profile paper, which never snaps");
+  }
+  Result<app::LoadedMesh> loaded = app::load_mesh(arguments.mesh);
+  if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
+  print_notes(loaded->source.notes, arguments.mesh, terminal);
+  Result<std::vector<Stroke>> strokes = strokes_of(arguments, loaded->mesh);
+  if (!strokes.ok()) return fail(terminal, strokes.error(), kBadInput);
+  const app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal);
+  const Result<app::CutResult> result = app::run_cut(std::move(loaded).value(), job, !arguments.output.empty());
+  if (result.ok()) return finish_cut(arguments, *result, terminal);
+  return fail(terminal, result.error(), result.error().code == ErrorCode::kBadArgument ? kBadInput : kFailure);
+}
+
+int run_convert(const ConvertArguments& arguments, const Terminal& terminal) {
+  if (!has_folder(arguments.out)) {
+    return fail(terminal, arguments.out + ": its folder does not exist; create it first", kFailure);
+  }
+  const WritingZone zone;
+  const Result<app::Conversion> done = app::convert(arguments.in, arguments.out);
+  if (!done.ok()) return fail(terminal, done.error(), exit_of(done.error()));
+  print_notes(done->notes, arguments.in, terminal);
+  return kDone;
+}
+
+}  // namespace incise_cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "terminal.h"
+
+namespace incise_cli {
+
+struct InfoArguments {
+  std::string mesh;
+  bool as_json = false;
+};
+
+struct CutArguments {
+  std::string mesh, blade, plane, output, report;
+  std::string profile = "incise";
+  double snap = 0.2;
+  bool has_snap = false;
+  std::uint64_t seed = 0;
+  unsigned threads = 1;
+};
+
+struct ConvertArguments {
+  std::string in, out;
+};
+
+/// Each runs one command and returns its exit code.
+int run_info(const InfoArguments& arguments, const Terminal& terminal);
+int run_check(const InfoArguments& arguments, const Terminal& terminal);
+int run_cut(const CutArguments& arguments, const Terminal& terminal);
+int run_convert(const ConvertArguments& arguments, const Terminal& terminal);
+
+}  // namespace incise_cli

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command `incise`: reads arguments, runs one command, returns its exit code.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "incise/version.h"
+#include "terminal.h"
+
+namespace incise_cli {
+namespace {
+
+struct Arguments {
+  InfoArguments info, check;
+  CutArguments cut;
+  ConvertArguments convert;
+  std::string unbuilt_record, unbuilt_picture;
+  std::uint64_t unbuilt_budget = 0;
+  bool no_merge = false, no_improve = false;  // what this version does anyway
+};
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 1 failure, 2 usage, 3 bad input, 4 a check failed, 5 no display, 130 interrupted.\n"
+    "Formats: .mesh .msh .vtk .vtu .node/.ele .veg .inp, tetrahedral .ply (read only); all also gzipped.";
+
+CLI::App* add_command(CLI::App& root, const std::string& name, const std::string& what, const std::string& examples) {
+  CLI::App* command = root.add_subcommand(name, what);
+  command->fallthrough();
+  command->footer("Examples:\n" + examples);
+  return command;
+}
+
+void add_info(CLI::App& root, Arguments& a) {
+  CLI::App* info = add_command(root, "info", "Say what is in a mesh file and what is wrong with it",
+                               "  incise info liver.msh\n  incise info liver.msh --json");
+  info->add_option("MESH", a.info.mesh, "Mesh file; the format is found from its content")->required();
+  info->add_flag("--json", a.info.as_json, "Print JSON");
+  CLI::App* check = add_command(root, "check", "Check validity and quality; exit 4 where the mesh is invalid",
+                                "  incise check liver.msh\n  incise check cut.vtu --json");
+  check->add_option("MESH", a.check.mesh, "Mesh file; the format is found from its content")->required();
+  check->add_flag("--json", a.check.as_json, "Print JSON");
+}
+
+void add_cut(CLI::App& root, Arguments& a) {
+  CLI::App* cut = add_command(root, "cut", "Cut a mesh along a blade's path or a plane",
+                              "  incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json -o cut.vtu --report cut.json\n"
+                              "  incise cut bunny.node --plane=-1,0,2,0.3 --profile paper --report -");
+  cut->add_option("MESH", a.cut.mesh, "Mesh file; the format is found from its content")->required();
+  cut->add_option("--blade", a.cut.blade, "Blade file: JSON of format incise-blade");
+  cut->add_option("--plane", a.cut.plane, "nx,ny,nz,d: cut through everything along n.x = d, n of any length");
+  cut->add_option("-o,--output", a.cut.output, "Write the cut mesh; the extension names the format");
+  cut->add_option("--profile", a.cut.profile, "incise (default), or paper: the published method")
+      ->check(CLI::IsMember({"incise", "paper"}));
+  cut->add_option("--snap", a.cut.snap, "Snapping distance as a fraction of the mean incident edge, 0 to 0.4 (default 0.2)");
+  cut->add_flag("--no-merge", a.no_merge, "Do not merge short edges after the cut (always so in this version)");
+  cut->add_flag("--no-improve", a.no_improve, "Do not improve the mesh after the cut (always so in this version)");
+  cut->add_option("--report", a.cut.report, "Write figures as JSON; - for stdout");
+  cut->add_option("--seed", a.cut.seed, "Seed, repeated in the report");
+  cut->add_option("--threads", a.cut.threads, "Worker threads, 1 to 256; the result does not depend on it")
+      ->check(CLI::Range(1, 256));
+  cut->add_option("--record", a.unbuilt_record, "Record the cut (not built yet)");
+  cut->add_option("--picture", a.unbuilt_picture, "Draw the result (not built yet)");
+  cut->add_option("--budget-us", a.unbuilt_budget, "Time for maintenance per step (not built yet)");
+}
+
+void add_convert(CLI::App& root, Arguments& a) {
+  CLI::App* convert = add_command(root, "convert", "Convert a mesh or surface; a mesh becomes its boundary in .obj .stl .ply .off",
+                                  "  incise convert bunny.node bunny.vtu\n  incise convert cut.vtu walls.stl");
+  convert->add_option("IN", a.convert.in, "File to read")->required();
+  convert->add_option("OUT", a.convert.out, "File to write; the extension names the format")->required();
+}
+
+/// Commands of the contract that later versions bring: they are named, and refuse.
+void add_unbuilt(CLI::App& root) {
+  for (const char* name : {"improve", "simulate", "replay"}) {
+    root.add_subcommand(name, "(not built yet)")->allow_extras()->prefix_command();
+  }
+}
+
+/// The first thing that was asked for but is not built, or nothing.
+std::string find_unbuilt(const CLI::App& root) {
+  for (const char* name : {"improve", "simulate", "replay"}) {
+    if (root.got_subcommand(name)) return std::string("the command ") + name;
+  }
+  const CLI::App* cut = root.get_subcommand("cut");
+  for (const char* flag : {"--record", "--picture", "--budget-us"}) {
+    if (cut->count(flag) > 0) return flag;
+  }
+  return {};
+}
+
+int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
+  if (const std::string unbuilt = find_unbuilt(root); !unbuilt.empty()) {
+    terminal.error(unbuilt + " is not built yet in version " INCISE_VERSION);
+    return kUsage;
+  }
+  if (root.got_subcommand("info")) return run_info(a.info, terminal);
+  if (root.got_subcommand("check")) return run_check(a.check, terminal);
+  if (root.got_subcommand("convert")) return run_convert(a.convert, terminal);
+  a.cut.has_snap = root.get_subcommand("cut")->count("--snap") > 0;
+  return run_cut(a.cut, terminal);
+}
+
+int run(int argc, char** argv) {
+  CLI::App root("incise cuts tetrahedral meshes", "incise");
+  Arguments arguments;
+  Terminal terminal;
+  root.set_version_flag("--version", "incise " INCISE_VERSION);
+  root.add_flag("-q,--quiet", terminal.is_quiet, "Print errors and asked-for data only");
+  root.add_flag("-v,--verbose", terminal.is_verbose, "Print more of what happens");
+  root.require_subcommand(1);
+  root.footer(std::string("Examples:\n  incise info liver.msh\n  incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
+                          "  incise cut --help\n\n") + kExitCodes);
+  add_info(root, arguments);
+  add_cut(root, arguments);
+  add_convert(root, arguments);
+  add_unbuilt(root);
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return root.exit(error) == 0 ? kDone : kUsage;
+  }
+  return dispatch(root, arguments, terminal);
+}
+
+}  // namespace
+}  // namespace incise_cli
+
+int main(int argc, char** argv) {
+  incise_cli::catch_interrupts();
+  try {
+    return incise_cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    incise_cli::Terminal().error("out of memory; use a smaller mesh or a larger machine");
+  } catch (const std::exception& error) {
+    incise_cli::Terminal().error(error.what());
+  }
+  return incise_cli::kFailure;
+}
