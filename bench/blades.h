@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "incise/cut/stroke.h"
+#include "incise/geom/box.h"
+
+namespace incise::bench {
+
+/// One cut of the growth study: strokes that go right through a body.
+struct CutCase {
+  std::string name;
+  std::vector<Stroke> strokes;
+  std::size_t pieces_of_cube = 0;  ///< pieces that a box falls into
+  bool is_planar = false;
+  bool is_accepted = false;  ///< counts in the acceptance figure for growth
+};
+
+/// The cuts of the study, fitted to a body's box: `kVariants` of each kind, one kind after the other.
+inline constexpr unsigned kVariants = 4;
+std::vector<CutCase> make_cuts(const Box& bounds);
+
+/// The triangles that a stroke sweeps, as `Stroke` documents them; empty ones are left out.
+struct SweptTriangles {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+SweptTriangles swept_triangles(const Stroke& stroke);
+
+}  // namespace incise::bench
