@@ -15,6 +15,7 @@ namespace {
 
 using test::Random;
 __extension__ typedef __int128 Int128;
+__extension__ typedef unsigned __int128 Uint128;
 
 using Points = std::array<Vec3, 4>;
 using SosPoints = std::array<SosPoint, 4>;
@@ -23,17 +24,21 @@ int sign_of(Int128 value) {
   return static_cast<int>(value > 0) - static_cast<int>(value < 0);
 }
 
-// Exact while |coordinates / unit| < 2^52 and differences stay below 2^41.
+// Exact where coordinates / unit are below 2^53 and the determinant fits 127 bits: what goes beyond on the way wraps
+// around and comes back.
 int exact_orient3d(const Points& p, double unit = 1.0) {
-  std::array<std::array<Int128, 3>, 3> m;
+  const auto integer = [unit](double x) { return static_cast<Uint128>(static_cast<std::int64_t>(x / unit)); };
+  std::array<std::array<Uint128, 3>, 3> m;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      m[row][k] = static_cast<std::int64_t>(p[row + 1][axis] / unit) - static_cast<std::int64_t>(p[0][axis] / unit);
+      m[row][k] = integer(p[row + 1][axis]) - integer(p[0][axis]);
     }
   }
-  return sign_of(m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]) + m[2][1] * (m[0][2] * m[1][0] - m[0][0] * m[1][2]) +
-                 m[2][2] * (m[0][0] * m[1][1] - m[0][1] * m[1][0]));
+  const Uint128 det = m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]) +
+                      m[2][1] * (m[0][2] * m[1][0] - m[0][0] * m[1][2]) +
+                      m[2][2] * (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+  return sign_of(static_cast<Int128>(det));
 }
 
 int exact_orient2d(const Vec3& a, const Vec3& b, const Vec3& c) {
