@@ -53,7 +53,7 @@ class Source {
   }
   bool real(double& out, const char* what) { return binary ? take(out, what) : text.real_in_line(out, what); }
 
-  // Bounding boxes hold numbers beyond the largest double.
+  // Bounding boxes hold numbers beyond the largest double, other people's data NaN.
   bool skip_real(const char* what) {
     if (binary) return skip(8);
     return !text.word_in_line().empty() || fail(std::string(what) + " missing: the row ends too early");
@@ -480,17 +480,22 @@ class MshReader {
     if (components < 1 || components > 100) return in_.fail("number of components is " + std::to_string(components));
     const auto width = static_cast<std::size_t>(components);
     if (!in_.fits(n, 2 + 2 * width, 4 + 8 * width, "number of values")) return false;
+    const bool wanted = width == 1 && is_label_name(name);
     for (std::int64_t i = 0; i < n; ++i) {
       std::int64_t id = 0;
       double value = 0;
       if (!in_.begin_row() || !in_.integer(id, "number")) return false;
       for (std::size_t k = 0; k < width; ++k) {
-        if (!in_.real(value, "value")) return false;
+        if (!(wanted ? in_.real(value, "value") : in_.skip_real("value"))) return false;
       }
       if (!in_.end_row()) return false;
-      if (width == 1) keep(of_elements, name, id, value);
+      if (wanted) keep(of_elements, name, id, value);
     }
     return true;
+  }
+
+  static bool is_label_name(std::string_view name) {
+    return name == "region" || name == "piece" || name == "stroke" || name == "origin_vertex";
   }
 
   static void put(std::vector<std::int32_t>& labels, std::size_t n, std::uint32_t at, double value) {

@@ -143,11 +143,10 @@ class PlyReader {
         if (!list(property) || !keep_list(e, property)) return false;
         continue;
       }
+      const bool coordinate = property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
       double value = 0;
-      if (!number(*property.type, value)) return false;
-      if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z') {
-        p[property.name[0] - 'x'] = value;
-      }
+      if (!(coordinate ? number(*property.type, value) : skip_number(*property.type))) return false;
+      if (coordinate) p[property.name[0] - 'x'] = value;
     }
     if (e.name == "vertex") out_.points.push_back(p);
     return true;
@@ -164,6 +163,13 @@ class PlyReader {
     in_.seek(in_.position() + type.bytes);
     out = decode(bits, type);
     return true;
+  }
+
+  // Properties of no use here may be NaN.
+  bool skip_number(const ScalarType& type) {
+    double ignored = 0;
+    if (binary_) return number(type, ignored);
+    return !in_.word_in_line().empty() || in_.fail("number missing: the row ends too early");
   }
 
   static double decode(std::uint64_t bits, const ScalarType& type) {

@@ -151,14 +151,23 @@ class VtkReader {
   bool ascii_value(double& out) { return in_.real(out, "number"); }
   bool ascii_value(std::int64_t& out) { return in_.integer(out, "integer"); }
 
+  // Arrays of no use here may hold anything, NaN included.
   bool skip_values(std::size_t n, const TypeInfo& type) {
-    if (type.kind == Kind::kBit && binary_) {
-      std::vector<double> ignored;
-      return values((n + 7) / 8, type, ignored);
-    }
     if (type.kind == Kind::kString) return skip_strings(n);
-    std::vector<double> ignored;
-    return values(n, type, ignored);
+    if (!binary_) return skip_words(n, type);
+    const std::size_t bytes = type.kind == Kind::kBit ? (n + 7) / 8 : n * type.bytes;
+    in_.line();
+    if (bytes > in_.remaining()) return check_size(n, type) && in_.fail("the file ends within an array");
+    in_.seek(in_.position() + bytes);
+    return true;
+  }
+
+  bool skip_words(std::size_t n, const TypeInfo& type) {
+    if (!check_size(n, type)) return false;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (in_.word().empty()) return in_.fail("the file ends within an array");
+    }
+    return true;
   }
 
   bool skip_strings(std::size_t n) {

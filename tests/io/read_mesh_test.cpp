@@ -169,6 +169,14 @@ TEST(ReadMesh, coordinates_must_be_finite) {
   EXPECT_SAYS(replaced(bytes_of("raw_little.vtu"), from, to), "not finite");
 }
 
+TEST(ReadMesh, data_of_no_use_may_hold_anything) {
+  EXPECT_TRUE(read_mesh_bytes(replaced(bytes_of("ascii.vtk"), "\n1 2 3 4 5\n", "\n1 nan -inf 1e999 5\n")).ok());
+  EXPECT_TRUE(read_mesh_bytes(replaced(bytes_of("surgsim.ply"), "0 0 0 .5", "0 0 0 nan")).ok());
+  EXPECT_TRUE(
+      read_mesh_bytes(bytes_of("v2.msh") + "$NodeData\n1\n\"heat\"\n1\n0\n3\n0\n1\n2\n9 nan\n7 1e999\n$EndNodeData\n")
+          .ok());
+}
+
 TEST(ReadMesh, vertex_numbers_must_be_in_range) {
   EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "2 3 4 5 7", "2 3 4 6 7"), "out of range");
   EXPECT_SAYS(replaced(bytes_of("medit.mesh"), "2 3 4 5 7", "0 3 4 5 7"), "out of range");
