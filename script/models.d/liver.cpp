@@ -76,7 +76,9 @@ int main(int argc, char** argv) {
   const Criteria criteria(params::facet_angle = 25, params::facet_size = std::atof(argv[3]),
                           params::facet_distance = std::atof(argv[4]), params::cell_radius_edge_ratio = 3,
                           params::cell_size = std::atof(argv[5]));
-  const Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria);
+  // Smoothing takes the slivers out here, since CGAL's perturber and exuder give another mesh at every run.
+  const Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, params::odt(params::max_iteration_number = 10),
+                                                     params::no_perturb(), params::no_exude());
   if (!write(complex, argv[2])) {
     std::fprintf(stderr, "liver: cannot write %s\n", argv[2]);
     return 1;
