@@ -96,15 +96,8 @@ Polynomial perturbed(const Vec3& position, unsigned rank, unsigned j) {
   return p;
 }
 
-// The sign of the determinant of the perturbed points for ε → 0+, by multiplying it all out.
-int symbolic_orient3d(const SosPoints& p, const std::array<unsigned, 4>& ranks) {
-  std::array<std::array<Polynomial, 3>, 3> m;
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (unsigned j = 0; j < 3; ++j) {
-      m[row][j] = perturbed(p[row + 1].position, ranks[row + 1], j);
-      add_to(m[row][j], perturbed(p[0].position, ranks[0], j), -1);
-    }
-  }
+// The sign of the determinant for ε → 0+ by multiplying it all out; rows as for orient3d.
+int sign_of_determinant(const std::array<std::array<Polynomial, 3>, 3>& m) {
   Polynomial det;
   for (std::size_t j = 0; j < 3; ++j) {
     const std::size_t k = (j + 1) % 3, l = (j + 2) % 3;
@@ -115,6 +108,19 @@ int symbolic_orient3d(const SosPoints& p, const std::array<unsigned, 4>& ranks) 
     if (coefficient != 0) return sign_of(coefficient);
   }
   return 0;
+}
+
+// The sign of orient3d of points whose coordinate j of point i is coordinate(i, j).
+template <class Coordinate>
+int symbolic_orient3d(Coordinate coordinate) {
+  std::array<std::array<Polynomial, 3>, 3> m;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (unsigned j = 0; j < 3; ++j) {
+      m[row][j] = coordinate(row + 1, j);
+      add_to(m[row][j], coordinate(std::size_t{0}, j), -1);
+    }
+  }
+  return sign_of_determinant(m);
 }
 
 TEST(Orient2d, SignIsPositiveWhereThePointsTurnLeft) {
@@ -230,6 +236,58 @@ TEST(Orient3d, IsExactOverTheWholeDocumentedRange) {
   EXPECT_EQ(orient3d(a, Vec3(kLarge, kLarge, kSmall), Vec3(kSmall, kSmall, kLarge), Vec3(kLarge, kLarge, kLarge)), 0);
 }
 
+TEST(Orient3d, IsExactWhereLargeAndSmallCoordinatesMeet) {
+  // Every coordinate is a small multiple of L or of S = 2^-638 L: as polynomials, of 1 or of ε.
+  Random random(12);
+  int zeros = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::array<std::array<std::int64_t, 3>, 4> factor;
+    std::array<std::array<bool, 3>, 4> is_small;
+    const double large = i % 3 == 0 ? 0x1p300 : (i % 3 == 1 ? 0x1p-380 : 0x1p1018), small = 0x1p-638 * large;
+    Points p;
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        factor[k][j] = random.integer(-2, 2);
+        is_small[k][j] = random.bits() % 2 == 0;
+        p[k][static_cast<Eigen::Index>(j)] = (is_small[k][j] ? small : large) * static_cast<double>(factor[k][j]);
+      }
+    }
+    const int expected = symbolic_orient3d([&](std::size_t k, unsigned j) {
+      return Polynomial{{is_small[k][j] ? 1U : 0U, factor[k][j]}};
+    });
+    ASSERT_EQ(orientation(p), expected);
+    zeros += static_cast<int>(expected == 0);
+  }
+  EXPECT_GT(zeros, 100);
+}
+
+TEST(Orient3d, IsExactWhereProductsUnderflow) {
+  // Integers next to a plane, scaled so that the products of three lose their last bits, or all.
+  Random random(13);
+  for (const double scale : {0x1p-365, 0x1p-370, 0x1p-375, 0x1p-379, 0x1p-385, 0x1p-520, 0x1p-540}) {
+    for (int i = 0; i < 5000; ++i) {
+      Points p = random_grid_points(random, 1LL << 20U);
+      const std::int64_t s = random.integer(-3, 3), t = random.integer(-3, 3);
+      p[3] = p[0] + static_cast<double>(s) * (p[1] - p[0]) + static_cast<double>(t) * (p[2] - p[0]) +
+             random.grid_point(-1, 1);
+      const int expected = exact_orient3d(p);
+      ASSERT_EQ(orientation({scale * p[0], scale * p[1], scale * p[2], scale * p[3]}), expected) << scale;
+    }
+  }
+}
+
+TEST(Orient2d, IsExactWhereProductsUnderflow) {
+  Random random(14);
+  for (const double scale : {0x1p-545, 0x1p-555, 0x1p-560, 0x1p-900}) {
+    for (int i = 0; i < 5000; ++i) {
+      const Vec3 a = random.grid_point(-1000000, 1000000), b = random.grid_point(-1000000, 1000000);
+      const Vec3 c = 2 * b - a + random.grid_point(-1, 1);
+      ASSERT_EQ(orient2d(scale * a.x(), scale * a.y(), scale * b.x(), scale * b.y(), scale * c.x(), scale * c.y()),
+                exact_orient2d(a, b, c));
+    }
+  }
+}
+
 TEST(Orient3d, FilterNeverContradictsTheExactSign) {
   Random random(7);
   for (int i = 0; i < 20000; ++i) {
@@ -257,7 +315,8 @@ TEST(SimulationOfSimplicity, EqualsTheDeterminantOfPerturbedPoints) {
       if (i % 4 == 1) p[1].position = p[0].position;
       if (i % 4 == 2) p[3].position = p[2].position;
       if (i % 4 == 3) p[2].position = 2 * p[1].position - p[0].position;
-      const int expected = symbolic_orient3d(p, {ranks[0], ranks[1], ranks[2], ranks[3]});
+      const int expected =
+          symbolic_orient3d([&](std::size_t row, unsigned j) { return perturbed(p[row].position, ranks[row], j); });
       ASSERT_NE(expected, 0);
       ASSERT_EQ(orientation(p), expected);
     }
