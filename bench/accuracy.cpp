@@ -176,20 +176,20 @@ std::size_t count_pieces_of_plane(const TetMesh& mesh, const Vec3& normal, doubl
   std::vector<bool> exists(2 * std::size_t{mesh.tet_slots()}, false);
   mesh.for_each_tet([&](TetId tet) {
     for (const VertexId v : mesh.vertices(tet)) {
-      exists[2 * std::size_t{tet.value} + (is_above(v) ? 1 : 0)] = true;
+      exists[2 * std::size_t{tet.value} + (is_above(v) ? 1U : 0U)] = true;
     }
     for (unsigned s = 0; s < 4; ++s) {
       const Link link = mesh.link(Side(tet, s));
       if (link.is_boundary()) continue;
       for (const VertexId v : mesh.vertices(Side(tet, s))) {
-        const std::size_t part = is_above(v) ? 1 : 0;
+        const std::size_t part = is_above(v) ? 1U : 0U;
         parts.join(2 * std::size_t{tet.value} + part, 2 * std::size_t{link.side().tet().value} + part);
       }
     }
   });
   std::size_t pieces = 0;
   for (std::size_t i = 0; i < exists.size(); ++i) {
-    pieces += exists[i] && parts.find(i) == i ? 1 : 0;
+    pieces += exists[i] && parts.find(i) == i ? 1U : 0U;
   }
   return pieces;
 }
