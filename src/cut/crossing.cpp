@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace incise::inline v0 {
 
@@ -72,12 +73,13 @@ void count_crossings(const TetMesh& mesh, const Sheet& sheet, SideMemo& sides, C
       return;
     }
     const double t = crossing_parameter(p.position, q.position, sheet, triangle);
-    // Of several crossings keep the two that lie furthest apart.
-    if (edge.crossings == 0) {
-      edge.t = edge.t_second = t;
-    } else {
-      edge.t_second = edge.crossings == 1 ? std::max(edge.t, t) : std::max(edge.t_second, t);
-      edge.t = std::min(edge.t, t);
+    if (edge.crossings == 0 || t < edge.t || (t == edge.t && triangle < edge.triangle)) {
+      edge.t = t;
+      edge.triangle = triangle;
+    }
+    if (edge.crossings == 0 || t > edge.t_second || (t == edge.t_second && triangle > edge.triangle_second)) {
+      edge.t_second = t;
+      edge.triangle_second = triangle;
     }
     ++edge.crossings;
   };
@@ -86,6 +88,42 @@ void count_crossings(const TetMesh& mesh, const Sheet& sheet, SideMemo& sides, C
     return;
   }
   sheet.tree().for_each_overlap({p.position.cwiseMin(q.position), p.position.cwiseMax(q.position)}, test);
+}
+
+/// Which vertices coincide with the sheet, each asked once.
+class CoincidenceMemo {
+ public:
+  CoincidenceMemo(const TetMesh& mesh, const Sheet& sheet) : mesh_(mesh), sheet_(sheet), known_(mesh.vertex_slots()) {}
+  /// The triangle that the vertex lies on, within `kCoincident` of `length`.
+  std::optional<std::uint32_t> find(VertexId vertex, double length) {
+    std::uint32_t& known = known_[vertex.value];
+    if (known == 0) {
+      const auto hit = sheet_.tree().closest(mesh_.rest(vertex), kCoincident * length);
+      known = hit.is_valid() ? hit.triangle + 2 : 1;
+    }
+    return known == 1 ? std::nullopt : std::optional(known - 2);
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const Sheet& sheet_;
+  ZeroedArray<std::uint32_t> known_;  // 1 apart, 2 + triangle on it
+};
+
+/// A chord that stays this share of its length away from a surface is as good as on it.
+constexpr double kChordShare = 0.1;
+
+/// Whether the piece of an edge between two crossings is a chord of one smooth part of the sheet: it leaves and enters
+/// it again from the same side, or stays close to it all along.
+bool is_graze(const Sheet& sheet, const Vec3& from, std::uint32_t first, const Vec3& to, std::uint32_t second) {
+  const Vec3 chord = to - from, n = sheet.normal(first), m = sheet.normal(second);
+  if (!(n.dot(m) > 0)) {
+    return false;
+  }
+  if ((chord.dot(n) > 0) != (chord.dot(m) > 0)) {
+    return true;
+  }
+  return sheet.tree().closest(0.5 * (from + to), kChordShare * chord.norm()).is_valid();
 }
 
 std::uint8_t flags_of(const NearTet& tet, const EdgeTable& edges) {
@@ -125,12 +163,47 @@ void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<T
   }
 }
 
-std::vector<std::uint32_t> find_multiply_crossed(const Neighbourhood& neighbourhood, double gap) {
-  std::vector<std::uint32_t> found;
+bool separates_from_middle(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, TetId tet) {
+  const TetVertices& v = mesh.vertices(tet);
+  const Vec3 middle = 0.25 * (mesh.rest(v[0]) + mesh.rest(v[1]) + mesh.rest(v[2]) + mesh.rest(v[3]));
+  const SosPoint p{mesh.rest(vertex), vertex.value}, q{middle, 2 * kFirstBladeKey + tet.value};
+  bool is_odd = false;
+  sheet.tree().for_each_overlap({p.position.cwiseMin(middle), p.position.cwiseMax(middle)}, [&](std::uint32_t triangle) {
+    is_odd ^= segment_crosses_triangle(p, q, sheet.point(triangle, 0), sheet.point(triangle, 1),
+                                       sheet.point(triangle, 2));
+  });
+  return is_odd;
+}
+
+std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet& sheet,
+                                               const Neighbourhood& neighbourhood, double gap) {
+  std::vector<DoublyCrossed> found;
+  CoincidenceMemo coincidence(mesh, sheet);
   for (std::uint32_t i = 0; i < neighbourhood.edges.size(); ++i) {
     const CutEdge& edge = neighbourhood.edges[i];
-    if (edge.crossings > 1 && edge.t_second - edge.t > gap) {
-      found.push_back(i);
+    if (edge.crossings == 0) {
+      continue;
+    }
+    const Vec3& origin = mesh.rest(edge.a);
+    const Vec3 along = mesh.rest(edge.b) - origin;
+    const auto test = [&](double from, std::uint32_t first, double to, std::uint32_t second) {
+      const bool is_apart = to - from > gap;
+      if (is_apart && !is_graze(sheet, origin + from * along, first, origin + to * along, second)) {
+        found.push_back({i, 0.5 * (from + to)});
+      }
+      return is_apart;
+    };
+    if (edge.crossings > 1 && test(edge.t, edge.triangle, edge.t_second, edge.triangle_second)) {
+      continue;
+    }
+    const double length = along.norm();
+    const auto at_a = coincidence.find(edge.a, length), at_b = coincidence.find(edge.b, length);
+    const bool is_inner = edge.t > gap && edge.t_second < 1.0 - gap;
+    if (is_inner && at_a.has_value() && test(0.0, *at_a, edge.t, edge.triangle)) {
+      continue;
+    }
+    if (is_inner && at_b.has_value()) {
+      test(edge.t_second, edge.triangle_second, 1.0, *at_b);
     }
   }
   return found;

@@ -16,8 +16,20 @@ namespace incise::inline v0 {
 /// Cost: O(near tets); each sign of a vertex and a triangle is computed once where the table of signs is small enough.
 void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out);
 
-/// The edges that the sheet crosses more than once, with the crossings more than `gap` of the edge apart: indices into
-/// `edges`, ascending. They must be bisected between the crossings, or one crossing would hide the other.
-std::vector<std::uint32_t> find_multiply_crossed(const Neighbourhood& neighbourhood, double gap);
+/// Whether the sheet passes an odd number of times between a vertex of a tet and the tet's middle. Exact.
+bool separates_from_middle(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, TetId tet);
+
+/// An edge that two parts of a sheet pass through, and a point between them.
+struct DoublyCrossed {
+  std::uint32_t edge;  ///< into `Neighbourhood::edges`
+  double t;            ///< halfway between the two crossings, from a to b
+};
+
+/// The edges that two parts of the sheet pass through more than `gap` of the edge apart, ascending. They must be bisected
+/// in between, or one crossing would hide the other. An end that coincides with the sheet counts as crossed there.
+/// A single smooth part that an edge leaves and enters again (a graze: the edge is nearly a chord) is left alone; the
+/// cut then follows the chord. Cost: O(edges), with a search of the sheet for ends of crossed edges.
+std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet& sheet,
+                                               const Neighbourhood& neighbourhood, double gap);
 
 }  // namespace incise::inline v0

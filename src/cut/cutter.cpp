@@ -107,7 +107,7 @@ class Cutter::Pipeline {
       const StageZone zone(times, Stage::kSubdivide);
       statistics.blocked_edges += plan_subdivision(mesh, rules(), templates_, near_);
       statistics.cut_tets += count_cut_tets();
-      subdivision = subdivide(transaction, templates_, near_);
+      subdivision = subdivide(transaction, sheet, templates_, near_);
       incision = is_paper() ? find_paper_incision(mesh, near_, subdivision) : std::move(subdivision.incision);
       statistics.bent_vertices += move_on_vertices(transaction, sheet, snap(), on, walker_);
       statistics.snapped_vertices += on.size();
@@ -134,20 +134,20 @@ class Cutter::Pipeline {
     const TetMesh& mesh = transaction.mesh();
     for (unsigned round = 0;; ++round) {
       find_crossings(mesh, sheet, find_near_tets(mesh, sheet), near_);
-      const std::vector<std::uint32_t> twice = find_multiply_crossed(near_, kGrazeShare);
+      const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet, near_, kGrazeShare);
       if (twice.empty() || round == kMaxBisectionRounds) {
         return;
       }
-      for (const std::uint32_t index : twice) {
-        bisect_between_crossings(transaction, near_.edges[index]);
+      for (const DoublyCrossed& crossed : twice) {
+        bisect(transaction, near_.edges[crossed.edge], crossed.t);
       }
     }
   }
-  void bisect_between_crossings(Transaction& transaction, const CutEdge& edge) {
+  void bisect(Transaction& transaction, const CutEdge& edge, double t) {
     const TetMesh& mesh = transaction.mesh();
     for (const TetId tet : walker_.star(mesh, edge.a)) {
       if (mesh.corner_of(tet, edge.b) < 4) {
-        const SplitEdgePlan plan = plan_split_edge(mesh, edge.a, edge.b, tet, 0.5 * (edge.t + edge.t_second));
+        const SplitEdgePlan plan = plan_split_edge(mesh, edge.a, edge.b, tet, t);
         if (plan) {
           apply(transaction, plan);
         }

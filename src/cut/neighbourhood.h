@@ -10,6 +10,9 @@
 
 namespace incise::inline v0 {
 
+/// Vertices closer to the blade than this share of their mean edge coincide with it: geometry given twice, not a choice.
+inline constexpr double kCoincident = 1e-6;
+
 /// A tet near the blade.
 struct NearTet {
   TetId id;

@@ -8,17 +8,27 @@ namespace incise::inline v0 {
 
 namespace {
 
-/// A vertex of a link, with whether the edge from the centre to it is flagged, for a small union-find.
+/// How a neighbour is joined to the centre of a link.
+enum class Joint : std::uint8_t {
+  kPlain,    ///< by an edge that is not flagged
+  kFlagged,  ///< by a flagged edge
+  kClose,    ///< whichever: the neighbour is close to the sheet itself, and decides nothing
+};
+
+/// A vertex of a link, for a small union-find.
 struct LinkVertex {
   VertexId vertex;
-  bool is_flagged;
+  Joint joint;
   std::uint32_t parent;
 };
 
 /// The link of a vertex: its neighbours, joined where a tet of the star joins them.
 class LinkGraph {
  public:
-  void build(const TetMesh& mesh, VertexId centre, const std::vector<TetId>& star, const Neighbourhood& near) {
+  /// `is_close(VertexId)` tells which neighbours are close to the sheet.
+  template <class IsClose>
+  void build(const TetMesh& mesh, VertexId centre, const std::vector<TetId>& star, const Neighbourhood& near,
+             IsClose&& is_close) {
     vertices_.clear();
     for (const TetId tet : star) {
       const unsigned c = mesh.corner_of(tet, centre);
@@ -26,12 +36,14 @@ class LinkGraph {
       std::array<std::uint32_t, 3> index{};
       for (unsigned k = 0; k < 3; ++k) {
         const unsigned other = kSideCorners[c][k];
-        const bool is_flagged = near_tet != nullptr && ((unsigned{near_tet->flagged} >> kEdgeOfCorners[c][other]) & 1U) != 0;
-        index[k] = find_or_add(mesh.vertices(tet)[other], is_flagged);
+        const VertexId v = mesh.vertices(tet)[other];
+        const bool is_flagged =
+            near_tet != nullptr && ((unsigned{near_tet->flagged} >> kEdgeOfCorners[c][other]) & 1U) != 0;
+        index[k] = find_or_add(v, is_close(v) ? Joint::kClose : (is_flagged ? Joint::kFlagged : Joint::kPlain));
       }
       for (unsigned k = 0; k < 3; ++k) {
         const std::uint32_t a = index[k], b = index[(k + 1) % 3];
-        if (vertices_[a].is_flagged == vertices_[b].is_flagged) {
+        if (vertices_[a].joint == vertices_[b].joint) {
           unite(a, b);
         }
       }
@@ -45,24 +57,24 @@ class LinkGraph {
     }
     return sum / static_cast<double>(vertices_.size());
   }
-  /// Whether the flagged neighbours form at most one connected part, and so do the others.
+  /// Whether the neighbours on either side of the sheet form at most one connected part each.
   [[nodiscard]] bool has_two_parts_at_most() {
-    std::array<unsigned, 2> parts{};
+    std::array<unsigned, 3> parts{};
     for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
-      parts[vertices_[i].is_flagged ? 1 : 0] += root(i) == i ? 1U : 0U;
+      parts[static_cast<std::size_t>(vertices_[i].joint)] += root(i) == i ? 1U : 0U;
     }
     return parts[0] <= 1 && parts[1] <= 1;
   }
 
  private:
-  std::uint32_t find_or_add(VertexId vertex, bool is_flagged) {
+  std::uint32_t find_or_add(VertexId vertex, Joint joint) {
     for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
       if (vertices_[i].vertex == vertex) {
         return i;
       }
     }
     const auto index = static_cast<std::uint32_t>(vertices_.size());
-    vertices_.push_back({vertex, is_flagged, index});
+    vertices_.push_back({vertex, joint, index});
     return index;
   }
   std::uint32_t root(std::uint32_t i) {
@@ -99,41 +111,76 @@ struct Candidate {
   }
 };
 
+struct ByVertex {
+  bool operator()(const Candidate& c, VertexId v) const { return c.on.vertex < v; }
+  bool operator()(VertexId v, const Candidate& c) const { return v < c.on.vertex; }
+};
+
 /// Snapping reaches a little further where an earlier cut already passes: its wall may have bent to a vertex by `snap`
 /// of edges that have become shorter since.
 constexpr double kWallReach = 1.75;
 
-std::vector<Candidate> find_candidates(const TetMesh& mesh, const Sheet& sheet, double snap, const Neighbourhood& near,
-                                       StarWalker& walker) {
-  std::vector<Candidate> candidates;
+/// The vertices of flagged edges that are within reach of the sheet, ascending.
+std::vector<Candidate> find_close_vertices(const TetMesh& mesh, const Sheet& sheet, double snap,
+                                           const Neighbourhood& near, StarWalker& walker) {
+  std::vector<Candidate> close;
   LinkGraph link;
   for (const VertexId v : vertices_of_flagged_edges(near)) {
-    link.build(mesh, v, walker.star(mesh, v), near);
+    link.build(mesh, v, walker.star(mesh, v), near, [](VertexId) { return false; });
     const double spacing = link.mean_length(mesh, v);
     const bool is_on_wall = (mesh.shape_of(v) & shape::kWall) != 0;
     const double reach = std::max(kCoincident, is_on_wall ? kWallReach * snap : snap) * spacing;
     const auto hit = sheet.tree().closest(mesh.rest(v), reach);
-    if (!hit.is_valid()) {
-      continue;
+    if (hit.is_valid()) {
+      const double distance = std::sqrt(hit.distance2);
+      close.push_back({{v, spacing, distance, hit.point, hit.triangle}, distance <= kCoincident * spacing});
     }
-    const double distance = std::sqrt(hit.distance2);
-    const bool is_coincident = distance <= kCoincident * spacing;
-    const bool is_sound = (mesh.shape_of(v) & shape::kPinched) == 0 && link.has_two_parts_at_most();
-    if (is_coincident || is_sound) {
-      candidates.push_back({{v, spacing, distance, hit.point, hit.triangle}, is_coincident});
+  }
+  return close;
+}
+
+/// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
+bool is_on_same_part(const Sheet& sheet, const OnVertex& a, const OnVertex& b) {
+  const Vec3 n = sheet.normal(a.triangle).normalized(), m = sheet.normal(b.triangle).normalized();
+  return n.dot(m) > 0.5 && std::abs(n.dot(b.target - a.target)) <= 0.3 * a.spacing;
+}
+
+/// Those of the close vertices that may take part in the cut, nearest first.
+std::vector<Candidate> find_candidates(const TetMesh& mesh, const Sheet& sheet, double snap, const Neighbourhood& near,
+                                       StarWalker& walker) {
+  const std::vector<Candidate> close = find_close_vertices(mesh, sheet, snap, near, walker);
+  std::vector<Candidate> candidates;
+  LinkGraph link;
+  for (const Candidate& candidate : close) {
+    const VertexId v = candidate.on.vertex;
+    const auto is_close = [&](VertexId neighbour) {
+      const auto found = std::lower_bound(close.begin(), close.end(), neighbour, ByVertex());
+      return found != close.end() && found->on.vertex == neighbour && is_on_same_part(sheet, candidate.on, found->on);
+    };
+    const auto is_sound = [&] {
+      link.build(mesh, v, walker.star(mesh, v), near, is_close);
+      return (mesh.shape_of(v) & shape::kPinched) == 0 && link.has_two_parts_at_most();
+    };
+    if (candidate.is_coincident || is_sound()) {
+      candidates.push_back(candidate);
     }
   }
   std::sort(candidates.begin(), candidates.end());
   return candidates;
 }
 
-bool would_flatten_a_tet(const TetMesh& mesh, VertexId vertex, const Neighbourhood& near, StarWalker& walker) {
-  for (const TetId tet : walker.star(mesh, vertex)) {
+/// Whether a fourth ON vertex would leave a tet without a side. A tet between two sheets, all of whose vertices coincide
+/// with one or the other, keeps its own.
+bool would_flatten_a_tet(const TetMesh& mesh, const Candidate& candidate, const Neighbourhood& near,
+                         const std::vector<VertexId>& coincident, StarWalker& walker) {
+  for (const TetId tet : walker.star(mesh, candidate.on.vertex)) {
     unsigned on = 0;
+    bool are_coincident = candidate.is_coincident;
     for (const VertexId v : mesh.vertices(tet)) {
       on += near.is_on[v.value];
+      are_coincident &= v == candidate.on.vertex || std::binary_search(coincident.begin(), coincident.end(), v);
     }
-    if (on == 3) {
+    if (on == 3 && !are_coincident) {
       return true;
     }
   }
@@ -291,8 +338,16 @@ MaterialPoint locate(const TetMesh& mesh, const Vec3& rest_point, const std::vec
 std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const Sheet& sheet, double snap,
                                          Neighbourhood& neighbourhood, StarWalker& walker) {
   std::vector<OnVertex> chosen;
-  for (const Candidate& candidate : find_candidates(mesh, sheet, snap, neighbourhood, walker)) {
-    if (!would_flatten_a_tet(mesh, candidate.on.vertex, neighbourhood, walker)) {
+  const std::vector<Candidate> candidates = find_candidates(mesh, sheet, snap, neighbourhood, walker);
+  std::vector<VertexId> coincident;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.is_coincident) {
+      coincident.push_back(candidate.on.vertex);
+    }
+  }
+  std::sort(coincident.begin(), coincident.end());
+  for (const Candidate& candidate : candidates) {
+    if (!would_flatten_a_tet(mesh, candidate, neighbourhood, coincident, walker)) {
       neighbourhood.mark_on(candidate.on.vertex);
       chosen.push_back(candidate.on);
     }

@@ -10,9 +10,6 @@
 
 namespace incise::inline v0 {
 
-/// Vertices closer to the blade than this share of their mean edge coincide with it: geometry given twice, not a choice.
-inline constexpr double kCoincident = 1e-6;
-
 /// A vertex that takes part in a cut, with its place on the sheet.
 struct OnVertex {
   VertexId vertex;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cut/crossing.h"
 #include "incise/geom/predicates.h"
 
 namespace incise::inline v0 {
@@ -154,8 +155,8 @@ std::uint64_t block_unsound(const TetMesh& mesh, const SubdivisionRules& rules, 
 
 class Subdivider {
  public:
-  Subdivider(Transaction& transaction, SplitTemplates& templates, Neighbourhood& near)
-      : transaction_(transaction), mesh_(transaction.mesh()), near_(near), templates_(templates) {}
+  Subdivider(Transaction& transaction, const Sheet& sheet, SplitTemplates& templates, Neighbourhood& near)
+      : transaction_(transaction), mesh_(transaction.mesh()), sheet_(sheet), near_(near), templates_(templates) {}
 
   Subdivision run() {
     make_split_points();
@@ -289,16 +290,20 @@ class Subdivider {
   }
   /// Whether the tet behind a side lies on the other side of the sheet.
   [[nodiscard]] bool lies_across(const NearTet& tet, unsigned apex, Side behind) const {
-    const unsigned corner = apex == 0 ? 1 : 0;
-    const VertexId common = mesh_.vertices(tet.id)[corner];
-    const unsigned here = (unsigned{tet.flagged} >> kEdgeOfCorners[corner][apex]) & 1U;
     const NearTet* other = near_.find(behind.tet());
-    if (other == nullptr) {
-      return here != 0;
+    if (other != nullptr && !other->is_complete) {
+      return false;
     }
-    const unsigned other_corner = mesh_.corner_of(behind.tet(), common);
-    const unsigned there = (unsigned{other->flagged} >> kEdgeOfCorners[other_corner][behind.side()]) & 1U;
-    return other->is_complete && here != there;
+    const VertexId common = mesh_.vertices(tet.id)[apex == 0 ? 1 : 0];
+    return is_beyond(common, Side(tet.id, apex), &tet) != is_beyond(common, behind, other);
+  }
+  /// Whether the sheet passes between an ON vertex and the inside of a tet that contains it, seen over one of its sides.
+  [[nodiscard]] bool is_beyond(VertexId from, Side side, const NearTet* tet) const {
+    const VertexId apex = mesh_.vertices(side.tet())[side.side()];
+    if (near_.is_on[apex.value] != 0) {  // all four vertices coincide with the sheet: ask for the tet's middle
+      return separates_from_middle(mesh_, sheet_, from, side.tet());
+    }
+    return tet != nullptr && ((unsigned{tet->flagged} >> kEdgeOfCorners[mesh_.corner_of(side.tet(), from)][side.side()]) & 1U) != 0;
   }
   void remove_parents() {
     for (const TetId parent : result_.parents) {
@@ -308,6 +313,7 @@ class Subdivider {
 
   Transaction& transaction_;
   const TetMesh& mesh_;
+  const Sheet& sheet_;
   Neighbourhood& near_;
   SplitTemplates& templates_;
   Subdivision result_;
@@ -330,8 +336,9 @@ std::uint64_t plan_subdivision(const TetMesh& mesh, const SubdivisionRules& rule
   return blocked;
 }
 
-Subdivision subdivide(Transaction& transaction, SplitTemplates& templates, Neighbourhood& neighbourhood) {
-  return Subdivider(transaction, templates, neighbourhood).run();
+Subdivision subdivide(Transaction& transaction, const Sheet& sheet, SplitTemplates& templates,
+                      Neighbourhood& neighbourhood) {
+  return Subdivider(transaction, sheet, templates, neighbourhood).run();
 }
 
 std::vector<IncisionFace> find_paper_incision(const TetMesh& mesh, const Neighbourhood& neighbourhood,

@@ -5,6 +5,7 @@
 
 #include "cut/neighbourhood.h"
 #include "cut/split_template.h"
+#include "cut/sweep.h"
 #include "incise/cut/options.h"
 #include "incise/mesh/transaction.h"
 
@@ -45,7 +46,8 @@ struct Subdivision {
 /// Finds the incision faces from the sides of the tets: between children of opposite sides, and original faces with
 /// three ON vertices whose two tets lie on opposite sides. Differs from the paper, which takes every face with three
 /// collision vertices (see `find_paper_incision`). Cost: O(near tets).
-Subdivision subdivide(Transaction& transaction, SplitTemplates& templates, Neighbourhood& neighbourhood);
+Subdivision subdivide(Transaction& transaction, const Sheet& sheet, SplitTemplates& templates,
+                      Neighbourhood& neighbourhood);
 
 /// The paper's incision faces: inner faces all of whose vertices are collision points of this stroke (§2.2).
 std::vector<IncisionFace> find_paper_incision(const TetMesh& mesh, const Neighbourhood& neighbourhood,
