@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
@@ -135,20 +136,50 @@ std::vector<std::uint32_t> last_met(const SweptSurface& surface, double slit) {
   return met;
 }
 
-/// The first triangle of the overlap before `start`: back to earlier triangles within `overlap` of travel, but not to
-/// any that later ones of the new part would meet.
-std::uint32_t overlap_start(const SweptSurface& surface, std::uint32_t start, std::uint32_t not_before,
-                            double overlap) {
-  const Vec3 origin = corners(surface, start)[0].position;
+/// Where a part must end so that its border keeps clear of the place that triangle `meeting` meets: tets around the
+/// border are left whole, and would leave a hole in a sheet that passes through them too. A loop too tight for that
+/// ends at `meeting`.
+std::uint32_t end_before(const SweptSurface& surface, std::uint32_t meeting, std::uint32_t met, std::uint32_t start,
+                         double clearance) {
+  const auto target = corners(surface, met);
+  const auto is_near = [&](std::uint32_t triangle) {
+    const auto t = corners(surface, triangle);
+    return std::any_of(t.begin(), t.end(), [&](const SosPoint& p) {
+      return closest_on_triangle(p.position, target[0].position, target[1].position, target[2].position).distance2 <
+             clearance * clearance;
+    });
+  };
+  std::uint32_t end = meeting;
+  while (end > start + 1 && is_near(end - 1)) {
+    --end;
+  }
+  return end > start + 1 && end > met + 1 ? end : meeting;
+}
+
+/// How far the blade travels in each step, at the point that travels furthest.
+std::vector<double> travel_of_steps(const SweptSurface& surface) {
+  std::vector<double> travel(surface.triangles.empty() ? 0 : surface.triangles.back().step + std::size_t{1}, 0.0);
+  for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto t = corners(surface, i);
+    double& longest = travel[surface.triangles[i].step];
+    // The corners are (a, b, e) or (a, e, d): earlier ends first, later ones last.
+    longest = std::max({longest, std::min((t[2].position - t[1].position).norm(), (t[2].position - t[0].position).norm())});
+  }
+  return travel;
+}
+
+/// The first triangle of the overlap before `start`: whole steps back over at least `overlap` of travel, but not to
+/// `not_before`.
+std::uint32_t overlap_start(const SweptSurface& surface, const std::vector<double>& travel, std::uint32_t start,
+                            std::uint32_t not_before, double overlap) {
+  double covered = 0;
   std::uint32_t first = start;
-  while (first > not_before) {
-    const auto t = corners(surface, first - 1);
-    const double distance = std::min({(t[0].position - origin).norm(), (t[1].position - origin).norm(),
-                                      (t[2].position - origin).norm()});
-    if (distance > overlap) {
-      break;
+  while (first > not_before && covered < overlap) {
+    const std::uint32_t step = surface.triangles[first - 1].step;
+    while (first > not_before && surface.triangles[first - 1].step == step) {
+      --first;
     }
-    --first;
+    covered += travel[step];
   }
   return first;
 }
@@ -177,19 +208,19 @@ std::vector<std::vector<std::uint32_t>> split_at_self_crossings(const SweptSurfa
     return parts;
   }
   const std::vector<std::uint32_t> met = last_met(surface, slit);
+  const std::vector<double> travel = travel_of_steps(surface);
   std::uint32_t start = 0;  // first triangle that only this part cuts
   std::uint32_t first = 0;  // with the overlap
   for (std::uint32_t i = 0; i <= count; ++i) {
     if (i < count && met[i] <= first) {
       continue;
     }
-    std::vector<std::uint32_t> part;
-    for (std::uint32_t k = first; k < i; ++k) part.push_back(k);
+    const std::uint32_t end = i < count ? end_before(surface, i, met[i] - 1, start, 2.0 / 3.0 * overlap) : i;
+    std::vector<std::uint32_t> part(end - first);
+    std::iota(part.begin(), part.end(), first);
     parts.push_back(std::move(part));
-    if (i < count) {
-      start = i;
-      first = std::max(met[i], overlap_start(surface, start, met[i], overlap));
-    }
+    start = end;
+    first = i < count ? overlap_start(surface, travel, start, met[i], overlap) : end;
   }
   return parts;
 }
