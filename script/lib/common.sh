@@ -2,6 +2,8 @@
 # Sourced by the scripts beside it. Sets `root`, the top of the tree.
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
 jobs=${INCISE_JOBS:-$(nproc)}
+# Lets clones in other folders share ccache's results.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
 
 say() { printf '%s\n' "$*" >&2; }
 die() {
