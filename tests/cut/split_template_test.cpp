@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+// How single tets fall apart: all patterns, all orders; and random patterns on meshes.
+#include "cut/split_template.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "cut/bodies.h"
+#include "cut/crossing.h"
+#include "cut/separate.h"
+#include "cut/strokes.h"
+#include "cut/subdivide.h"
+#include "cut/support.h"
+
+namespace incise::test {
+namespace {
+
+using Order = std::vector<std::uint8_t>;
+
+/// Calls `visit` for every order of every set of edges of a tet: 1957 in all.
+template <class Visit>
+void for_each_order(Visit&& visit) {
+  for (unsigned flags = 0; flags < 64; ++flags) {
+    Order order;
+    for (std::uint8_t e = 0; e < 6; ++e) {
+      if (((flags >> e) & 1U) != 0) order.push_back(e);
+    }
+    do {
+      visit(order);
+    } while (std::next_permutation(order.begin(), order.end()));
+  }
+}
+
+using Points = std::array<Vec3, 10>;  // by code
+
+Points points_of_a_tet(Random& random) {
+  Points p;
+  p[0] = Vec3(0, 0, 0), p[1] = Vec3(1, 0.1, 0), p[2] = Vec3(0.2, 1, -0.1), p[3] = Vec3(0.1, 0.3, 1);
+  for (unsigned e = 0; e < 6; ++e) {
+    const auto [a, b] = kEdgeCorners[e];
+    p[4 + e] = p[a] + random.real(0.02, 0.98) * (p[b] - p[a]);
+  }
+  return p;
+}
+
+double volume6(const Points& p, const SplitTemplate::Child& c) {
+  return (p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]).dot(p[c[3]] - p[c[0]]);
+}
+
+std::set<unsigned> codes(const SplitTemplate& split, SplitTemplate::ChildSide side) {
+  std::set<unsigned> result;
+  for (const unsigned corner : kSideCorners[side & 3U]) result.insert(split.children[side / 4U][corner]);
+  return result;
+}
+
+TEST(SplitTemplate, children_are_positive_and_fill_the_tet_for_every_order_of_every_pattern) {
+  Random random(1);
+  SplitTemplates templates;
+  unsigned count = 0;
+  for_each_order([&](const Order& order) {
+    const SplitTemplate& split = templates.find(order);
+    for (unsigned run = 0; run < 3; ++run) {
+      const Points p = points_of_a_tet(random);
+      double sum = 0;
+      for (const auto& child : split.children) {
+        EXPECT_GT(volume6(p, child), 0.0);
+        sum += volume6(p, child);
+      }
+      EXPECT_NEAR(sum, volume6(p, {0, 1, 2, 3}), 1e-15);
+    }
+    ++count;
+  });
+  EXPECT_EQ(count, 1957U);
+}
+
+TEST(SplitTemplate, every_side_of_a_child_meets_another_or_lies_on_the_tet) {
+  SplitTemplates templates;
+  for_each_order([&](const Order& order) {
+    const SplitTemplate& split = templates.find(order);
+    std::vector<unsigned> seen(4 * split.children.size(), 0);
+    for (const auto& [a, b] : split.inner) {
+      EXPECT_EQ(codes(split, a), codes(split, b));
+      EXPECT_NE(a / 4U, b / 4U);
+      ++seen[a];
+      ++seen[b];
+    }
+    for (unsigned s = 0; s < 4; ++s) {
+      for (const auto side : split.outer[s]) ++seen[side];
+    }
+    EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](unsigned n) { return n == 1; }));
+  });
+}
+
+TEST(SplitTemplate, the_triangles_on_a_side_fill_it) {
+  Random random(2);
+  SplitTemplates templates;
+  for_each_order([&](const Order& order) {
+    const SplitTemplate& split = templates.find(order);
+    const Points p = points_of_a_tet(random);
+    for (unsigned s = 0; s < 4; ++s) {
+      Vec3 area = Vec3::Zero();
+      for (const auto side : split.outer[s]) {
+        const auto& child = split.children[side / 4U];
+        const auto& c = kSideCorners[side & 3U];
+        const Vec3 part = (p[child[c[1]]] - p[child[c[0]]]).cross(p[child[c[2]]] - p[child[c[0]]]);
+        const Vec3 outward = (p[kSideCorners[s][1]] - p[kSideCorners[s][0]]).cross(p[kSideCorners[s][2]] - p[kSideCorners[s][0]]);
+        EXPECT_GT(part.dot(outward), 0.0);
+        area += part;
+      }
+      const Vec3 whole = (p[kSideCorners[s][1]] - p[kSideCorners[s][0]]).cross(p[kSideCorners[s][2]] - p[kSideCorners[s][0]]);
+      EXPECT_LT((area - whole).norm(), 1e-14);
+    }
+  });
+}
+
+TEST(SplitTemplate, neighbours_triangulate_their_common_face_alike) {
+  // Two tets on the face (0, 1, 2); the second numbers its corners differently. One random order of all nine edges.
+  Random random(3);
+  SplitTemplates templates;
+  for (unsigned run = 0; run < 20000; ++run) {
+    const std::array<std::array<unsigned, 4>, 2> tets = {{{0, 1, 2, 3}, {2, 4, 0, 1}}};
+    std::vector<std::array<unsigned, 2>> edges = {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}, {0, 4}, {1, 4}, {2, 4}};
+    for (std::size_t i = edges.size(); i > 1; --i) {
+      std::swap(edges[i - 1], edges[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(i) - 1))]);
+    }
+    edges.resize(static_cast<std::size_t>(random.integer(0, 9)));
+    std::array<std::set<std::set<unsigned>>, 2> faces;
+    for (unsigned t = 0; t < 2; ++t) {
+      const auto corner_of = [&](unsigned v) { return std::find(tets[t].begin(), tets[t].end(), v) - tets[t].begin(); };
+      Order order;
+      for (const auto& [a, b] : edges) {
+        const auto i = static_cast<std::size_t>(corner_of(a)), j = static_cast<std::size_t>(corner_of(b));
+        if (i < 4 && j < 4) order.push_back(kEdgeOfCorners[i][j]);
+      }
+      const SplitTemplate& split = templates.find(order);
+      const unsigned apex = static_cast<unsigned>(corner_of(t == 0 ? 3U : 4U));
+      for (const auto side : split.outer[apex]) {
+        std::set<unsigned> face;
+        for (const unsigned code : codes(split, side)) {
+          const auto name = [&](unsigned corner) { return tets[t][corner]; };
+          if (code < 4) {
+            face.insert(name(code));
+          } else {
+            const auto [a, b] = kEdgeCorners[code - 4];
+            face.insert(10 + 5 * std::min(name(a), name(b)) + std::max(name(a), name(b)));
+          }
+        }
+        faces[t].insert(face);
+      }
+    }
+    ASSERT_EQ(faces[0], faces[1]);
+  }
+}
+
+TEST(SplitTemplate, one_corner_cut_off_gives_four_children_and_two_from_two_gives_six) {
+  SplitTemplates templates;
+  Order one_from_three = {0, 1, 2}, two_from_two = {1, 2, 3, 4};
+  do {
+    EXPECT_EQ(templates.find(one_from_three).children.size(), 4U);
+  } while (std::next_permutation(one_from_three.begin(), one_from_three.end()));
+  do {
+    EXPECT_EQ(templates.find(two_from_two).children.size(), 6U);
+  } while (std::next_permutation(two_from_two.begin(), two_from_two.end()));
+}
+
+TEST(OneTet, cut_by_a_plane_opens_one_face_or_two) {
+  TetSoup soup;
+  soup.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  soup.tets = {{0, 1, 2, 3}};
+  for (const Profile profile : {Profile::kPaper, Profile::kIncise}) {
+    Engine corner = make_engine(soup, 0.2, profile);
+    const CutStatistics one = cut(corner, plane(corner, Vec3(0, 0, 1), 0.5));
+    EXPECT_EQ(corner.mesh().tet_count(), 4U);
+    EXPECT_EQ(one.incision_faces, 1U);
+    expect_pieces(corner.mesh(), {1 / 48.0, 7 / 48.0}, 1e-16);
+    Engine middle = make_engine(soup, 0.2, profile);
+    const CutStatistics two = cut(middle, plane(middle, Vec3(1, 1, 0), 0.5));
+    EXPECT_EQ(middle.mesh().tet_count(), 6U);
+    EXPECT_EQ(two.incision_faces, 2U);
+    expect_pieces(middle.mesh(), {1 / 12.0, 1 / 12.0}, 1e-16);
+  }
+}
+
+// --- T5: any flags give a valid mesh ---------------------------------------------------------------------------------------
+
+/// A sheet that misses the unit cube.
+struct FarAway {
+  SweptSurface surface = sweep(quad_stroke(Vec3(9, 9, 9), Vec3(9, 9, 10), Vec3(9, 10, 9), Vec3(9, 10, 10)));
+  Sheet sheet{surface, {0, 1}};
+};
+
+/// All tets of a mesh as the neighbourhood of a sheet that misses them, with random flags and ON vertices instead.
+void set_random_flags(const TetMesh& mesh, const Sheet& sheet, double flag_share, double on_share, Random& random,
+                      Neighbourhood& near) {
+  std::vector<TetId> all;
+  mesh.for_each_tet([&](TetId tet) { all.push_back(tet); });
+  find_crossings(mesh, sheet, all, near);
+  for (CutEdge& edge : near.edges.edges()) {
+    edge.crossings = random.real(0, 1) < flag_share ? 1 : 0;
+    edge.t = edge.t_second = random.real(0.05, 0.95);
+  }
+  mesh.for_each_vertex([&](VertexId v) {
+    if (random.real(0, 1) >= on_share) return;
+    StarWalker walker;
+    const auto& star = walker.star(mesh, v);
+    const bool would_be_fourth = std::any_of(star.begin(), star.end(), [&](TetId tet) {
+      unsigned on = 0;
+      for (const VertexId w : mesh.vertices(tet)) on += near.is_on[w.value] != 0 ? 1U : 0U;
+      return on == 3;
+    });
+    if (!would_be_fourth) near.mark_on(v);
+  });
+  for (NearTet& tet : near.tets) {
+    unsigned flagged = 0, on = 0;
+    for (unsigned e = 0; e < 6; ++e) flagged |= static_cast<unsigned>(near.edges[tet.edges[e]].is_flagged()) << e;
+    for (unsigned c = 0; c < 4; ++c) on |= static_cast<unsigned>(near.is_on[mesh.vertices(tet.id)[c].value] != 0) << c;
+    tet.flagged = static_cast<std::uint8_t>(flagged);
+    tet.on = static_cast<std::uint8_t>(on);
+    tet.is_complete = !has_odd_face(tet.flagged);
+  }
+}
+
+TEST(Subdivide, makes_a_valid_mesh_of_any_flags) {
+  Random random(4);
+  for (const double flag_share : {0.05, 0.2, 0.5, 0.8, 1.0}) {
+    for (const double on_share : {0.0, 0.2}) {
+      for (const bool splits_partial : {false, true}) {
+        for (unsigned run = 0; run < 4; ++run) {
+          SCOPED_TRACE(testing::Message() << flag_share << " " << on_share << " " << splits_partial << " " << run);
+          TetMesh mesh = build(jittered_cube(3, 40 + run));
+          const double volume = volume_of(mesh);
+          Neighbourhood near;
+          const FarAway far_away;
+          set_random_flags(mesh, far_away.sheet, flag_share, on_share, random, near);
+          SplitTemplates templates;
+          Transaction transaction(mesh);
+          plan_subdivision(mesh, {.splits_partial_tets = splits_partial, .keeps_shape_floor = false}, templates, near);
+          const Subdivision subdivision = subdivide(transaction, far_away.sheet, templates, near);
+          transaction.commit();
+          expect_valid(mesh, volume);
+          Transaction opening(mesh);
+          SeparationScratch scratch;
+          separate(opening, subdivision.incision, subdivision.children, 1, scratch);
+          opening.commit();
+          expect_valid(mesh, volume);
+        }
+      }
+    }
+  }
+}
+
+TEST(Subdivide, cuts_off_random_sets_of_vertices_whole) {
+  // Flags from a random colouring of the vertices: every tet is complete, and the pieces are those of the colours.
+  Random random(5);
+  for (unsigned run = 0; run < 20; ++run) {
+    TetMesh mesh = build(jittered_cube(4, 60 + run));
+    const double volume = volume_of(mesh);
+    std::vector<bool> colour(mesh.vertex_slots());
+    for (std::size_t v = 0; v < colour.size(); ++v) colour[v] = random.real(0, 1) < 0.3;
+    Neighbourhood near;
+    const FarAway far_away;
+    set_random_flags(mesh, far_away.sheet, 0.0, 0.0, random, near);
+    for (CutEdge& edge : near.edges.edges()) edge.crossings = colour[edge.a.value] != colour[edge.b.value] ? 1 : 0;
+    for (NearTet& tet : near.tets) {
+      unsigned flagged = 0;
+      for (unsigned e = 0; e < 6; ++e) flagged |= static_cast<unsigned>(near.edges[tet.edges[e]].is_flagged()) << e;
+      tet.flagged = static_cast<std::uint8_t>(flagged);
+      tet.is_complete = !has_odd_face(tet.flagged);
+      ASSERT_TRUE(tet.is_complete);
+    }
+    SplitTemplates templates;
+    Transaction transaction(mesh);
+    EXPECT_EQ(plan_subdivision(mesh, {.keeps_shape_floor = false}, templates, near), 0U);
+    const Subdivision subdivision = subdivide(transaction, far_away.sheet, templates, near);
+    SeparationScratch scratch;
+    separate(transaction, subdivision.incision, subdivision.children, 1, scratch);
+    transaction.commit();
+    expect_valid(mesh, volume);
+    const Components pieces = find_components(mesh);
+    std::vector<int> colour_of_piece(pieces.count(), -1);
+    mesh.for_each_tet([&](TetId tet) {
+      for (const VertexId v : mesh.vertices(tet)) {
+        if (v.value >= colour.size()) continue;
+        int& seen = colour_of_piece[pieces.label[tet.value]];
+        EXPECT_TRUE(seen == -1 || seen == static_cast<int>(colour[v.value]));
+        seen = static_cast<int>(colour[v.value]);
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace incise::test

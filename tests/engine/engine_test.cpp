@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the engine promises its callers: undo and redo bit for bit, all or nothing, tags, errors.
+#include "incise/engine/engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cut/bodies.h"
+#include "cut/random_strokes.h"
+#include "cut/strokes.h"
+#include "cut/support.h"
+#include "incise/mesh/bounds.h"
+
+namespace incise::test {
+namespace {
+
+TEST(Engine, undo_and_redo_restore_every_state_bit_for_bit) {
+  for (const Profile profile : {Profile::kIncise, Profile::kPaper}) {
+    Engine engine = make_engine(jittered_cube(5, 1), 0.2, profile);
+    std::vector<std::uint64_t> hashes = {engine.mesh().hash()};
+    Random random(2);
+    for (unsigned i = 0; i < 8; ++i) {
+      cut(engine, random_stroke(random, rest_bounds(engine.mesh())));
+      hashes.push_back(engine.mesh().hash());
+    }
+    const double volume = volume_of(engine.mesh());
+    for (std::size_t i = hashes.size() - 1; i > 0; --i) {
+      ASSERT_TRUE(engine.undo());
+      EXPECT_EQ(engine.mesh().hash(), hashes[i - 1]);
+      EXPECT_EQ(engine.stroke_count(), i - 1);
+    }
+    EXPECT_FALSE(engine.undo());
+    expect_valid(engine.mesh(), volume);
+    for (std::size_t i = 1; i < hashes.size(); ++i) {
+      ASSERT_TRUE(engine.redo());
+      EXPECT_EQ(engine.mesh().hash(), hashes[i]);
+      expect_valid(engine.mesh(), volume);
+    }
+    EXPECT_FALSE(engine.redo());
+  }
+}
+
+TEST(Engine, fifty_cuts_undone_in_turn_return_every_hash) {
+  Engine engine = make_engine(kuhn_cube(3));
+  const double volume = volume_of(engine.mesh());
+  std::vector<std::uint64_t> hashes = {engine.mesh().hash()};
+  Random random(3);
+  for (unsigned i = 0; i < 50; ++i) {
+    const Vec3 normal = random_direction(random);
+    ASSERT_TRUE(engine.cut(plane(engine, normal, normal.dot(random.point(0.1, 0.9)))).ok());
+    hashes.push_back(engine.mesh().hash());
+  }
+  expect_valid(engine.mesh(), volume);
+  for (std::size_t i = 50; i > 0; --i) {
+    ASSERT_TRUE(engine.undo());
+    ASSERT_EQ(engine.mesh().hash(), hashes[i - 1]) << "after taking cut " << i << " back";
+  }
+  expect_valid(engine.mesh(), volume);
+  for (std::size_t i = 1; i <= 50; ++i) {
+    ASSERT_TRUE(engine.redo());
+    ASSERT_EQ(engine.mesh().hash(), hashes[i]) << "after cut " << i << " again";
+  }
+  expect_valid(engine.mesh(), volume);
+}
+
+TEST(Engine, cutting_after_an_undo_gives_the_same_bits_as_without_it) {
+  const auto first = [](const Engine& e) { return plane(e, Vec3(1, 0.2, 0.1), 0.6); };
+  const auto second = [](const Engine& e) { return plane(e, Vec3(0.1, 1, -0.3), 0.4); };
+  Engine straight = make_engine(kuhn_cube(4));
+  cut(straight, second(straight));
+  Engine detour = make_engine(kuhn_cube(4));
+  cut(detour, first(detour));
+  ASSERT_TRUE(detour.undo());
+  cut(detour, second(detour));
+  EXPECT_EQ(detour.mesh().hash(), straight.mesh().hash());
+  EXPECT_FALSE(detour.redo());
+}
+
+TEST(Engine, a_cut_that_changes_nothing_can_be_undone_like_any_other) {
+  Engine engine = make_engine(kuhn_cube(3));
+  cut(engine, plane(engine, Vec3(1, 0, 0), 0.5));
+  const std::uint64_t hash = engine.mesh().hash();
+  cut(engine, plane(engine, Vec3(1, 0, 0), 7.0));
+  EXPECT_EQ(engine.stroke_count(), 2U);
+  EXPECT_TRUE(engine.undo());
+  EXPECT_EQ(engine.mesh().hash(), hash);
+  EXPECT_TRUE(engine.undo());
+  EXPECT_EQ(engine.mesh().tet_count(), 162U);
+  EXPECT_TRUE(engine.redo());
+  EXPECT_EQ(engine.mesh().hash(), hash);
+  expect_valid(engine.mesh(), 1.0);
+}
+
+TEST(Engine, walls_carry_the_number_of_their_stroke) {
+  Engine engine = make_engine(kuhn_cube(5));
+  cut(engine, plane(engine, Vec3(1, 0, 0), 0.47));
+  cut(engine, plane(engine, Vec3(0, 1, 0), 0.53));
+  EXPECT_NEAR(wall_area(engine.mesh(), 1), 1.0, 1e-12);
+  EXPECT_NEAR(wall_area(engine.mesh(), 2), 1.0, 1e-12);
+  EXPECT_EQ(wall_area(engine.mesh(), 3), 0.0);
+}
+
+TEST(Engine, regions_are_inherited_and_keep_their_volumes) {
+  TetSoup soup = kuhn_cube(4);
+  for (std::size_t t = 0; t < soup.tets.size(); ++t) {
+    const Vec3 centre = (soup.points[soup.tets[t][0]] + soup.points[soup.tets[t][3]]) / 2;
+    soup.regions.push_back(centre.z() < 0.5 ? 7 : -3);
+  }
+  for (const double snap : {0.0, 0.2}) {
+    Engine engine = make_engine(soup, snap);
+    cut(engine, plane(engine, Vec3(1, 0.4, 0), 0.63));
+    double low = 0, high = 0;
+    engine.mesh().for_each_tet([&](TetId tet) {
+      (engine.mesh().region(tet) == 7 ? low : high) += engine.mesh().rest_volume(tet);
+    });
+    EXPECT_NEAR(low + high, 1.0, 1e-12);
+    if (snap == 0) {
+      EXPECT_NEAR(low, 0.5, 1e-12);
+    }
+  }
+}
+
+TEST(Engine, reports_counts_that_the_mesh_confirms) {
+  Engine engine = make_engine(jittered_cube(4, 6));
+  const std::size_t tets = engine.mesh().tet_count(), vertices = engine.mesh().vertex_count();
+  const Result<StrokeReport> report = engine.cut(plane(engine, Vec3(0.3, 0.5, 0.9), 0.8));
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(engine.mesh().tet_count(), tets + report->cut.created_tets);
+  EXPECT_EQ(engine.mesh().vertex_count(), vertices + report->cut.new_vertices);
+  EXPECT_EQ(report->cut.steps, 1U);
+  EXPECT_EQ(report->stroke, 1U);
+  EXPECT_GT(report->cut.snapped_vertices, 0U);
+  expect_valid(engine.mesh(), 1.0);
+}
+
+// --- refusals ----------------------------------------------------------------------------------------------------------------
+
+void expect_refused(const Stroke& stroke) {
+  Engine engine = make_engine(kuhn_cube(2));
+  const std::uint64_t hash = engine.mesh().hash();
+  const Result<StrokeReport> report = engine.cut(stroke);
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.error().code, ErrorCode::kBadArgument);
+  EXPECT_NE(report.error().message.find(stroke.name), std::string::npos) << report.error().message;
+  EXPECT_EQ(engine.mesh().hash(), hash);
+  EXPECT_EQ(engine.stroke_count(), 0U);
+  expect_valid(engine.mesh(), 1.0);
+}
+
+TEST(Engine, refuses_malformed_strokes_and_names_them) {
+  const Stroke good = quad_stroke(Vec3(0.4, -1, -1), Vec3(0.4, 2, -1), Vec3(0.4, -1, 2), Vec3(0.4, 2, 2), 3);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  Stroke bad = good;
+  bad.times[2] = bad.times[1];
+  expect_refused(bad);
+  bad = good;
+  bad.times[3] = nan;
+  expect_refused(bad);
+  bad = good;
+  bad.times.pop_back();
+  expect_refused(bad);
+  bad = good;
+  bad.edges[1].pop_back();
+  expect_refused(bad);
+  bad = good;
+  bad.edges[2][1].y() = inf;
+  expect_refused(bad);
+  bad = good;
+  for (auto& edge : bad.edges) edge.resize(1);
+  expect_refused(bad);
+  bad = good;
+  bad.times.clear();
+  bad.edges.clear();
+  expect_refused(bad);
+}
+
+TEST(Engine, refuses_options_out_of_range) {
+  for (const double snap : {-0.1, 0.41, std::numeric_limits<double>::quiet_NaN()}) {
+    EngineOptions options;
+    options.cut.snap = snap;
+    EXPECT_FALSE(Engine::create(build(kuhn_cube(1)), options).ok());
+  }
+  for (const unsigned threads : {0U, 257U}) {
+    EngineOptions options;
+    options.threads = threads;
+    EXPECT_FALSE(Engine::create(build(kuhn_cube(1)), options).ok());
+  }
+}
+
+TEST(Engine, of_an_empty_mesh_cuts_nothing) {
+  Engine engine = make_engine(TetSoup{});
+  const Result<StrokeReport> report = engine.cut(quad_stroke(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(1, 1, 0)));
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->cut.created_tets, 0U);
+}
+
+TEST(PlaneStroke, refuses_planes_without_a_direction) {
+  const Box box{Vec3(0, 0, 0), Vec3(1, 1, 1)};
+  EXPECT_FALSE(plane_stroke(box, Vec3(0, 0, 0), 1).ok());
+  EXPECT_FALSE(plane_stroke(box, Vec3(std::numeric_limits<double>::infinity(), 0, 0), 1).ok());
+  EXPECT_FALSE(plane_stroke(box, Vec3(1, 0, 0), std::numeric_limits<double>::quiet_NaN()).ok());
+}
+
+}  // namespace
+}  // namespace incise::test

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// A follower that knows tets, vertices and a mass only, and keeps up with the mesh through the journal.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cut/bodies.h"
+#include "cut/random_strokes.h"
+#include "cut/strokes.h"
+#include "cut/support.h"
+#include "incise/mesh/bounds.h"
+
+namespace incise::test {
+namespace {
+
+class Mirror {
+ public:
+  explicit Mirror(const TetMesh& mesh) {
+    mesh.for_each_tet([&](TetId tet) { tets_[tet] = {mesh.vertices(tet), mesh.region(tet)}; });
+    mesh.for_each_vertex([&](VertexId v) { vertices_[v] = {mesh.rest(v), mesh.current(v), velocity_at(mesh.rest(v))}; });
+  }
+
+  void catch_up(const Journal& journal) {
+    for (; position_ < journal.position(); ++position_) apply(journal.step(position_));
+  }
+
+  void expect_equal(const TetMesh& mesh) const {
+    ASSERT_EQ(tets_.size(), mesh.tet_count());
+    ASSERT_EQ(vertices_.size(), mesh.vertex_count());
+    for (const auto& [id, tet] : tets_) {
+      ASSERT_TRUE(mesh.is_live(id));
+      EXPECT_EQ(tet.vertices, mesh.vertices(id));
+      EXPECT_EQ(tet.region, mesh.region(id));
+    }
+    for (const auto& [id, vertex] : vertices_) {
+      ASSERT_TRUE(mesh.is_live(id));
+      EXPECT_EQ(vertex.rest, mesh.rest(id));
+      EXPECT_EQ(vertex.current, mesh.current(id));
+    }
+  }
+  /// An affine velocity is known everywhere: wherever vertices were born, moved or copied it must be met.
+  void expect_affine_velocity() const {
+    for (const auto& [id, vertex] : vertices_) {
+      EXPECT_LT((vertex.velocity - velocity_at(vertex.rest)).norm(), 1e-9) << "vertex " << id.value;
+    }
+  }
+  /// A quarter of each tet's volume at each of its corners.
+  [[nodiscard]] std::map<VertexId, double> masses() const {
+    std::map<VertexId, double> mass;
+    for (const auto& [id, tet] : tets_) {
+      const auto at = [&](unsigned c) { return vertices_.at(tet.vertices[c]).rest; };
+      const double volume = (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6;
+      for (const VertexId v : tet.vertices) mass[v] += volume / 4;
+    }
+    return mass;
+  }
+  [[nodiscard]] double mass() const {
+    double sum = 0;
+    for (const auto& [v, m] : masses()) sum += m;
+    return sum;
+  }
+  [[nodiscard]] Vec3 momentum() const {
+    Vec3 sum = Vec3::Zero();
+    for (const auto& [v, m] : masses()) sum += m * vertices_.at(v).velocity;
+    return sum;
+  }
+
+ private:
+  struct Vertex {
+    Vec3 rest, current, velocity;
+  };
+  struct Tet {
+    TetVertices vertices;
+    std::int32_t region = 0;
+  };
+
+  static Vec3 velocity_at(const Vec3& p) {
+    return {0.3 + 2 * p.x() - p.y(), -1 + 0.5 * p.z(), p.x() + p.y() - 0.25 * p.z()};
+  }
+  [[nodiscard]] Vec3 interpolate(const std::array<VertexId, 4>& parents, const std::array<double, 4>& weights) const {
+    Vec3 velocity = Vec3::Zero();
+    for (unsigned i = 0; i < 4; ++i) {
+      if (parents[i].is_valid()) velocity += weights[i] * vertices_.at(parents[i]).velocity;
+    }
+    return velocity;
+  }
+  void apply(const Step& step) {
+    for (const BornVertex& born : step.born) {
+      vertices_[born.id] = {born.rest, born.current, interpolate(born.parents, born.weights)};
+    }
+    for (const MovedVertex& moved : step.moved) {
+      EXPECT_EQ(vertices_.at(moved.id).rest, moved.old_rest);
+      vertices_.at(moved.id) = {moved.rest, moved.current, interpolate(moved.basis, moved.weights)};
+    }
+    for (const CopiedVertex& copied : step.copied) vertices_[copied.id] = vertices_.at(copied.source);
+    std::map<TetId, Tet> parents;
+    for (const ConsumedTet& consumed : step.consumed) {
+      EXPECT_EQ(tets_.at(consumed.id).vertices, consumed.vertices);
+      parents[consumed.id] = tets_.at(consumed.id);
+      tets_.erase(consumed.id);
+    }
+    for (const ProducedTet& produced : step.produced) {
+      ASSERT_EQ(parents.count(produced.parent), 1U) << "a tet's parent must be consumed in the same step";
+      EXPECT_EQ(parents.at(produced.parent).region, produced.region);
+      tets_[produced.id] = {produced.vertices, produced.region};
+    }
+    for (const RewiredTet& rewired : step.rewired) {
+      EXPECT_EQ(tets_.at(rewired.id).vertices, rewired.old_vertices);
+      tets_.at(rewired.id).vertices = rewired.vertices;
+    }
+    for (const VertexId id : step.died) vertices_.erase(id);
+  }
+
+  std::map<TetId, Tet> tets_;
+  std::map<VertexId, Vertex> vertices_;
+  std::size_t position_ = 0;
+};
+
+void follow(TetSoup soup, double snap, Profile profile, const std::vector<Stroke>& strokes) {
+  Engine engine = make_engine(std::move(soup), snap, profile);
+  Mirror mirror(engine.mesh());
+  const double mass = mirror.mass();
+  const Vec3 momentum = mirror.momentum();
+  for (const Stroke& stroke : strokes) {
+    SCOPED_TRACE(stroke.name);
+    cut(engine, stroke);
+    mirror.catch_up(engine.journal());
+    mirror.expect_equal(engine.mesh());
+    mirror.expect_affine_velocity();
+    EXPECT_NEAR(mirror.mass(), mass, 1e-12 * mass);
+    EXPECT_LT((mirror.momentum() - momentum).norm(), 1e-12 * std::max(1.0, momentum.norm()));
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+std::vector<Stroke> some_strokes(std::uint64_t seed, unsigned count) {
+  Random random(seed);
+  std::vector<Stroke> strokes;
+  for (unsigned i = 0; i < count; ++i) strokes.push_back(random_stroke(random, {Vec3(0, 0, 0), Vec3(1, 1, 1)}));
+  return strokes;
+}
+
+TEST(JournalReplay, on_a_mirror_gives_the_mesh_bit_for_bit_with_mass_and_momentum_kept) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    follow(jittered_cube(4, seed), 0.2, Profile::kIncise, some_strokes(seed, 6));
+  }
+}
+TEST(JournalReplay, works_without_snapping) { follow(kuhn_cube(4), 0.0, Profile::kIncise, some_strokes(7, 5)); }
+TEST(JournalReplay, works_in_the_paper_profile) { follow(jittered_cube(4, 8), 0.0, Profile::kPaper, some_strokes(8, 5)); }
+
+TEST(JournalReplay, follows_cuts_that_cross_and_double_passes) {
+  const Box box{Vec3(0, 0, 0), Vec3(1, 1, 1)};
+  const Stroke down = quad_stroke(Vec3(0.47, -0.2, 1.2), Vec3(0.47, 1.2, 1.2), Vec3(0.47, -0.2, -0.2), Vec3(0.47, 1.2, -0.2), 7);
+  follow(kuhn_cube(5), 0.2, Profile::kIncise,
+         {*plane_stroke(box, Vec3(0, 1, 0), 0.53), followed_by(down, reversed(down)),
+          coring_stroke(Vec3(0.5, 0.5, 0), 0.3, 24, -0.2, 1.2), *plane_stroke(box, Vec3(1, 1, 1), 1.5)});
+}
+
+}  // namespace
+}  // namespace incise::test
