@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the command does when all is well.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "incise/io/mesh_file.h"
+
+namespace {
+
+using namespace incise_test;
+using nlohmann::json;
+
+TEST(Cli, cuts_the_papers_cube_with_both_profiles) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  for (const std::string profile : {"paper", "incise"}) {
+    const std::string out = folder / (profile + ".vtu");
+    const std::string report = folder / (profile + ".json");
+    const Outcome cut = run({"cut", cube, "--plane", "1,0,0,0.5", "--profile", profile, "-o", out, "--report", report});
+    EXPECT_EQ(cut.code, 0) << cut.err;
+    EXPECT_NE(cut.out.find("750 -> 1300 tets"), std::string::npos) << cut.out;
+    const json figures = json::parse(read(report));
+    EXPECT_EQ(figures["mesh"]["after"]["tets"], 1300);
+    EXPECT_EQ(figures["mesh"]["after"]["components"], 2);
+    EXPECT_EQ(figures["options"]["profile"], profile);
+    EXPECT_EQ(figures["validity"]["ok"], true);
+    const Outcome check = run({"check", out, "--json"});
+    EXPECT_EQ(check.code, 0) << check.out;
+    EXPECT_EQ(json::parse(check.out)["components"], 2);
+  }
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"cube.mesh", "incise.json", "incise.vtu", "paper.json", "paper.vtu"}));
+}
+
+TEST(Cli, takes_planes_of_any_length_and_sign) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  std::string hash;
+  for (const std::string plane : {"1,0,0,0.5", "4,0,0,2", "1e0,0.0,-0,5e-1"}) {
+    const Outcome cut = run({"cut", cube, "--plane", plane, "--report", "-"});
+    ASSERT_EQ(cut.code, 0) << plane << cut.err;
+    EXPECT_EQ(json::parse(cut.out)["mesh"]["after"]["tets"], 1300) << plane;
+  }
+  for (const std::string plane : {"--plane=-1,0,0,-0.5", "--plane=0,-3,0,-1.5"}) {
+    EXPECT_NE(run({"cut", cube, plane}).out.find("-> 1300 tets"), std::string::npos) << plane;
+  }
+  EXPECT_NE(run({"cut", cube, "--plane", "-1,0,0,-0.5"}).out.find("-> 1300 tets"), std::string::npos);
+}
+
+TEST(Cli, a_plane_or_blade_that_misses_changes_nothing) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(2));
+  const Outcome cut = run({"cut", cube, "--plane", "1,0,0,5", "--report", "-"});
+  ASSERT_EQ(cut.code, 0) << cut.err;
+  const json report = json::parse(cut.out);
+  EXPECT_EQ(report["mesh"]["after"], report["mesh"]["before"]);
+  EXPECT_TRUE(report["quality"]["after"]["incision"]["lr_max"].is_null());
+}
+
+TEST(Cli, cuts_along_every_scene_of_the_cube) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  const std::vector<std::pair<std::string, int>> scenes = {{"cube_plane", 2}, {"cube_cross", 4}, {"cube_core", 2}};
+  for (const auto& [scene, pieces] : scenes) {
+    for (const std::string profile : {"paper", "incise"}) {
+      const Outcome cut =
+          run({"cut", cube, "--blade", INCISE_SCENES "/" + scene + ".json", "--profile", profile, "--report", "-"});
+      ASSERT_EQ(cut.code, 0) << scene << profile << cut.err;
+      EXPECT_EQ(json::parse(cut.out)["mesh"]["after"]["components"], pieces) << scene << profile;
+    }
+  }
+}
+
+TEST(Cli, equal_calls_give_equal_bytes) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(4));
+  for (const std::string threads : {"1", "3"}) {
+    ASSERT_EQ(run({"cut", cube, "--plane", "1,2,3,2.9", "-q", "--threads", threads, "-o", folder / (threads + ".msh")}).code, 0);
+  }
+  EXPECT_EQ(read(folder / "1.msh"), read(folder / "3.msh"));
+  EXPECT_FALSE(read(folder / "1.msh").empty());
+}
+
+TEST(Cli, accepts_flags_that_ask_for_what_is_so) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(2));
+  const Outcome cut = run({"cut", cube, "--plane", "1,0,0,0.3", "--no-merge", "--no-improve", "--seed", "7", "--snap", "0"});
+  EXPECT_EQ(cut.code, 0) << cut.err;
+  const Outcome paper = run({"cut", cube, "--plane", "1,0,0,0.3", "--profile", "paper", "--snap", "0.1"});
+  EXPECT_EQ(paper.code, 0);
+  EXPECT_NE(paper.err.find("no effect"), std::string::npos);
+}
+
+TEST(Cli, quiet_says_nothing) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(2));
+  const Outcome cut = run({"-q", "cut", cube, "--plane", "1,0,0,0.3", "--profile", "paper", "--snap", "0.1"});
+  EXPECT_EQ(cut.code, 0);
+  EXPECT_EQ(cut.out + cut.err, "");
+}
+
+TEST(Cli, info_has_the_keys_of_the_contract) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  const Outcome info = run({"info", cube, "--json"});
+  ASSERT_EQ(info.code, 0) << info.err;
+  const json report = json::parse(info.out);
+  for (const char* key : {"format", "vertices", "tets", "regions", "bounds", "volume", "defects", "components"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  for (const char* key : {"inverted", "zero_volume", "unreferenced_vertices", "duplicate_vertices", "duplicate_tets",
+                          "overshared_faces", "nonmanifold_edges", "singleton_vertices"}) {
+    EXPECT_EQ(report["defects"].at(key), 0) << key;
+  }
+  EXPECT_EQ(report["vertices"], 216);
+  EXPECT_EQ(report["tets"], 750);
+  EXPECT_NE(run({"info", cube}).out.find("defects     none"), std::string::npos);
+}
+
+TEST(Cli, dirty_input_is_told_by_info_and_failed_by_check) {
+  const Folder folder;
+  const std::string dirty = folder.write("dirty.mesh",
+                                         "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                                         "0 0 1 0\n0 0 -1 0\n5 5 5 0\nTetrahedra\n3\n1 2 3 4 1\n1 2 3 5 1\n4 3 2 1 1\nEnd\n");
+  const Outcome info = run({"info", dirty, "--json"});
+  EXPECT_EQ(info.code, 0) << info.err;
+  const json defects = json::parse(info.out)["defects"];
+  EXPECT_EQ(defects["unreferenced_vertices"], 1);
+  EXPECT_EQ(defects["duplicate_tets"], 1);
+  EXPECT_EQ(defects["inverted"], 1);
+  EXPECT_EQ(run({"check", dirty}).code, 4);
+  const Outcome cut = run({"cut", dirty, "--plane", "1,0,0,0.5", "-o", folder / "cut.msh"});
+  EXPECT_EQ(cut.code, 0) << cut.err << cut.out;
+  EXPECT_NE(cut.err.find("duplicate"), std::string::npos);
+}
+
+TEST(Cli, converts_to_every_format_and_keeps_numbers_and_labels) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(2));
+  const std::string cut = folder / "cut.vtu";
+  ASSERT_EQ(run({"cut", cube, "--plane", "1,1,1,1.3", "-o", cut, "-q"}).code, 0);
+  for (const std::string name : {"a.msh", "a.vtk", "a.vtu", "a.veg", "a.inp", "a.node", "a.mesh", "a.msh.gz"}) {
+    const Outcome there = run({"convert", cut, folder / name});
+    ASSERT_EQ(there.code, 0) << name << there.err;
+    const Outcome back = run({"convert", folder / name, folder / "back.veg"});
+    ASSERT_EQ(back.code, 0) << name << back.err;
+  }
+  const auto first = incise::io::read_mesh(cut);
+  for (const std::string name : {"a.msh", "a.vtk", "a.msh.gz"}) {
+    const auto second = incise::io::read_mesh(folder / name);
+    ASSERT_TRUE(first.ok() && second.ok());
+    EXPECT_EQ(first->data.soup.points, second->data.soup.points) << name;
+    EXPECT_EQ(first->data.soup.tets, second->data.soup.tets) << name;
+    EXPECT_EQ(first->data.piece, second->data.piece) << name;
+    EXPECT_EQ(first->data.triangle_stroke, second->data.triangle_stroke) << name;
+    EXPECT_EQ(first->data.origin_vertex, second->data.origin_vertex) << name;
+  }
+}
+
+TEST(Cli, converts_a_mesh_to_its_boundary) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(2));
+  for (const std::string name : {"a.obj", "a.stl", "a.ply", "a.off"}) {
+    EXPECT_EQ(run({"convert", cube, folder / name}).code, 0) << name;
+    EXPECT_EQ(run({"convert", folder / name, folder / "again.obj"}).code, 0) << name;
+  }
+}
+
+TEST(Cli, helps_and_tells_its_version) {
+  EXPECT_EQ(run({"--version"}).out.substr(0, 9), "incise 0.");
+  for (const std::string command : {"info", "check", "cut", "convert"}) {
+    const Outcome help = run({command, "-h"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.out.find("Examples:"), std::string::npos) << command;
+  }
+  EXPECT_NE(run({"-h"}).out.find("Exit codes"), std::string::npos);
+}
+
+TEST(Cli, an_interrupt_leaves_no_partial_file) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(24));
+  for (const double seconds : {0.02, 0.1, 0.2, 0.3, 0.4}) {
+    const Outcome cut = run_interrupted({"cut", cube, "--plane", "1,2,3,2.9", "-o", folder / "cut.mesh"}, seconds);
+    ASSERT_TRUE(cut.code == 130 || cut.code == 0) << cut.code;
+    for (const std::string& name : folder.names()) EXPECT_TRUE(name == "cube.mesh" || name == "cut.mesh") << name;
+    if (folder.names().size() == 2) {
+      EXPECT_EQ(read(folder / "cut.mesh").substr(read(folder / "cut.mesh").size() - 4), "End\n");
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the command does when something is wrong: a code, a message that names the place, and no output file.
+#include <gtest/gtest.h>
+
+#include "cli/program.h"
+
+namespace {
+
+using namespace incise_test;
+
+const char* const kBladeHead = R"({"format":"incise-blade","version":1,"strokes":[)";
+
+class CliErrors : public testing::Test {
+ protected:
+  /// Runs a cut that must fail with `code` and a message that contains `part`, and leave nothing behind.
+  void expect_refused(std::vector<std::string> arguments, int code, const std::string& part) {
+    const auto before = folder_.names();
+    arguments.insert(arguments.end(), {"-o", folder_ / "out.vtu", "--report", folder_ / "out.json"});
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_EQ(folder_.names(), before);
+  }
+  void expect_blade_refused(const std::string& text, const std::string& part) {
+    const std::string blade = folder_.write("blade.json", text);
+    expect_refused({"cut", cube_, "--blade", blade}, 3, part);
+  }
+
+  Folder folder_;
+  std::string cube_ = folder_.write("cube.mesh", cube_mesh(2));
+};
+
+TEST_F(CliErrors, usage) {
+  expect_refused({"cut", cube_}, 2, "--blade");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--blade", "b.json"}, 2, "either");
+  for (const std::string plane : {"1,0,0", "1,0,0,0,0", "0,0,0,1", "1,0,0,x", "nan,0,0,1", "1,inf,0,0", ""}) {
+    expect_refused({"cut", cube_, "--plane=" + plane}, 2, "plane");
+  }
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--snap", "0.5"}, 2, "snap");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--snap", "nan"}, 2, "snap");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--snap=-0.1"}, 2, "snap");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--profile", "best"}, 2, "profile");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--threads", "0"}, 2, "threads");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--threads", "257"}, 2, "threads");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--unknown"}, 2, "not expected");
+  EXPECT_EQ(run({}).code, 2);
+  EXPECT_EQ(run({"carve"}).code, 2);
+  EXPECT_EQ(run({"info"}).code, 2);
+  EXPECT_EQ(run({"convert", cube_}).code, 2);
+}
+
+TEST_F(CliErrors, what_is_not_built_says_so) {
+  for (const std::string flag : {"--record=r.jsonl", "--picture=p.png", "--budget-us=10"}) {
+    expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", flag}, 2, "not built yet");
+  }
+  for (const std::string command : {"improve", "simulate", "replay"}) {
+    const Outcome outcome = run({command, cube_, "--frames", "3"});
+    EXPECT_EQ(outcome.code, 2) << command;
+    EXPECT_NE(outcome.err.find("not built yet"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(CliErrors, unknown_extensions) {
+  const Outcome cut = run({"cut", cube_, "--plane", "1,0,0,0.5", "-o", folder_ / "out.xyz"});
+  EXPECT_EQ(cut.code, 2);
+  EXPECT_NE(cut.err.find(".vtu"), std::string::npos);
+  EXPECT_EQ(run({"convert", cube_, folder_ / "out"}).code, 2);
+}
+
+TEST_F(CliErrors, meshes_that_cannot_be_read) {
+  const std::string whole = cube_mesh(1);
+  expect_refused({"cut", folder_ / "none.mesh", "--plane", "1,0,0,0.5"}, 3, "none.mesh");
+  expect_refused({"cut", folder_ / "", "--plane", "1,0,0,0.5"}, 3, "folder");
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"empty.mesh", ""},
+           {"words.mesh", "this is no mesh\n"},
+           {"half.mesh", whole.substr(0, whole.size() / 2)},
+           {"nan.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\nnan 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                        "Tetrahedra\n1\n1 2 3 4 0\nEnd\n"},
+           {"inf.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n1e999 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                        "Tetrahedra\n1\n1 2 3 4 0\nEnd\n"},
+           {"range.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                          "Tetrahedra\n1\n1 2 3 9 0\nEnd\n"},
+           {"lie.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n1000000000000\n0 0 0 0\n"},
+           {"twice.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                          "Tetrahedra\n1\n1 2 3 3 0\nEnd\n"}}) {
+    const std::string path = folder_.write(name, text);
+    expect_refused({"cut", path, "--plane", "1,0,0,0.5"}, 3, name);
+    EXPECT_EQ(run({"info", path}).code, 3) << name;
+    EXPECT_EQ(run({"check", path}).code, 3) << name;
+  }
+}
+
+TEST_F(CliErrors, meshes_truncated_anywhere) {
+  const std::string whole = cube_mesh(1);
+  for (std::size_t size = 0; size + 8 < whole.size(); size += 97) {
+    const std::string path = folder_.write("part.mesh", whole.substr(0, size));
+    const Outcome outcome = run({"convert", path, folder_ / "out.vtu"});
+    EXPECT_EQ(outcome.code, 3) << size << outcome.err;
+    EXPECT_EQ(folder_.names(), (std::vector<std::string>{"cube.mesh", "part.mesh"}));
+  }
+}
+
+TEST_F(CliErrors, blades_that_cannot_be_read) {
+  expect_refused({"cut", cube_, "--blade", folder_ / "none.json"}, 3, "none.json: no such file");
+  expect_refused({"cut", cube_, "--blade", folder_ / ""}, 3, "directory");
+  const std::string head = kBladeHead;
+  expect_blade_refused("", "blade.json:1: the file is empty");
+  expect_blade_refused(head, "blade.json:1:");
+  expect_blade_refused("{\"format\":\"incise-blade\",\n\"version\":1,\"strokes\":[{\"edges\":[],\n\"speed\":3}]}", "unknown key \"speed\"");
+  expect_blade_refused(head + R"({"edges":[{"t":0,"points":[[0,0,0]]}]}]})", "needs at least 2");
+  expect_blade_refused(head + R"({"edges":[{"t":1,"points":[[0,0,0],[1,0,0]]},{"t":0,"points":[[0,0,1],[1,0,1]]}]}]})",
+                       "strokes[0].edges[1].t must be later");
+  expect_blade_refused(head + R"({"edges":[{"t":0,"points":[[0,0,NaN],[1,0,0]]}]}]})", "not valid JSON");
+  expect_blade_refused(
+      head + R"({"edge":[[0,0,0],[1,0,0]],"poses":[{"t":0,"position":[0,1e999,0],"orientation":[1,0,0,0]}]}]})", "blade.json:1:");
+  expect_blade_refused(
+      head + R"({"edge":[[0,0,0],[1,0,0]],"poses":[{"t":0,"position":[0,0,0],"orientation":[2,0,0,0]}]}]})", "unit quaternion");
+}
+
+TEST_F(CliErrors, outputs_that_cannot_be_written) {
+  const Outcome cut = run({"cut", cube_, "--plane", "1,0,0,0.5", "-o", folder_ / "no/out.vtu"});
+  EXPECT_EQ(cut.code, 1);
+  EXPECT_NE(cut.err.find("folder does not exist"), std::string::npos) << cut.err;
+  EXPECT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.5", "--report", folder_ / "no/r.json"}).code, 1);
+  EXPECT_EQ(run({"convert", cube_, folder_ / "no/out.vtu"}).code, 1);
+}
+
+}  // namespace

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The blade parser on any bytes: an error, or strokes that keep their promises.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "incise/app/blade_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto blade = incise::app::parse_blade(text, "fuzz.json");
+  if (!blade.ok()) {
+    if (blade.error().message.rfind("fuzz.json:", 0) != 0) std::abort();
+    return 0;
+  }
+  for (const incise::Stroke& stroke : *blade) {
+    if (!incise::check(stroke).ok()) std::abort();
+  }
+  return 0;
+}
