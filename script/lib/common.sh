@@ -90,12 +90,16 @@ build_preset() {
   cmake --build --preset "$preset" -j "$jobs" -- --quiet >&2
 }
 
-# use_corpus: where the real meshes are, if anywhere.
+# use_corpus: tells the programs where the real meshes are; leaves INCISE_CORPUS unset where there are none.
 use_corpus() {
   if [ -z "${INCISE_CORPUS:-}" ] && [ -d "$root/../shared/data" ]; then
     INCISE_CORPUS=$(cd -- "$root/../shared/data" && pwd)
   fi
-  export INCISE_CORPUS=${INCISE_CORPUS:-}
+  if [ -n "${INCISE_CORPUS:-}" ]; then
+    export INCISE_CORPUS
+  else
+    unset INCISE_CORPUS
+  fi
 }
 
 # shellcheck disable=SC2034  # read by the scripts
