@@ -45,6 +45,7 @@ struct Neighbourhood {
   ZeroedArray<std::uint32_t> index_of_tet;  ///< 0 far, 1 + index into `tets`
   ZeroedArray<std::uint8_t> is_on;          ///< by vertex slot: takes part in the cut; set by `mark_on`
   std::vector<VertexId> on;                 ///< the vertices so marked
+  ZeroedArray<std::uint32_t> index_of_vertex;  ///< scratch of one stage at a time; all zero between stages
 
   void mark_on(VertexId vertex) {
     is_on.ensure(std::size_t{vertex.value} + 1);
@@ -59,6 +60,7 @@ struct Neighbourhood {
     on.clear();
     index_of_tet.ensure(mesh.tet_slots());
     is_on.ensure(mesh.vertex_slots());
+    index_of_vertex.ensure(mesh.vertex_slots());
   }
 
   [[nodiscard]] const NearTet* find(TetId tet) const {

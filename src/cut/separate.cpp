@@ -2,6 +2,7 @@
 #include "cut/separate.h"
 
 #include <algorithm>
+#include <span>
 
 #include "incise/mesh/verbs.h"
 
@@ -47,10 +48,10 @@ class Separator {
   struct Corner {
     VertexId vertex;
     TetId tet;
-    bool operator<(const Corner& other) const {
-      return vertex != other.vertex ? vertex < other.vertex : tet < other.tet;
-    }
-    bool operator==(const Corner& other) const { return vertex == other.vertex && tet == other.tet; }
+  };
+  struct SeededVertex {
+    VertexId vertex;
+    std::uint32_t seeds;
   };
 
   void find_copies() {
@@ -64,15 +65,8 @@ class Separator {
       mark(face.a);
       mark(face.b);
     }
-    const std::vector<Corner> seeds = find_seeds();
-    for (std::size_t i = 0; i < seeds.size();) {
-      std::size_t end = i + 1;
-      while (end < seeds.size() && seeds[end].vertex == seeds[i].vertex) {
-        ++end;
-      }
-      divide_star(seeds, i, end);
-      i = end;
-    }
+    collect_seeds();
+    divide_stars();
   }
   void mark(Side side) {
     std::uint8_t& bits = scratch_.incision[side.tet().value];
@@ -91,23 +85,30 @@ class Separator {
     scratch_.reached.clear();
   }
   /// Every vertex of the incision with every tet beside it; also split points at which tets meet without a face.
-  std::vector<Corner> find_seeds() {
-    std::vector<Corner> seeds;
-    seeds.reserve(incision_.size() * 6);
+  void collect_seeds() {
+    seeds_.clear();
+    vertices_.clear();
+    scratch_.index_of_vertex.ensure(mesh_.vertex_slots());
     for (const IncisionFace& face : incision_) {
       for (const VertexId v : mesh_.vertices(face.a)) {
-        seeds.push_back({v, face.a.tet()});
-        seeds.push_back({v, face.b.tet()});
+        add_seed(v, face.a.tet());
+        add_seed(v, face.b.tet());
       }
     }
-    add_singleton_seeds(seeds);
-    std::sort(seeds.begin(), seeds.end());
-    seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-    return seeds;
+    add_singleton_seeds();
+  }
+  void add_seed(VertexId v, TetId tet) {
+    std::uint32_t& index = scratch_.index_of_vertex[v.value];
+    if (index == 0) {
+      vertices_.push_back({v, 0});
+      index = static_cast<std::uint32_t>(vertices_.size());
+    }
+    ++vertices_[index - 1].seeds;
+    seeds_.push_back({v, tet});
   }
   /// Paper, Algorithm 2: a new vertex whose tets are more than can be reached from one of them is a singleton vertex.
   /// Arises only where the input's tets touch along an edge without sharing a face.
-  void add_singleton_seeds(std::vector<Corner>& seeds) {
+  void add_singleton_seeds() {
     if (!mesh_.touched_itself_at_load()) {
       return;
     }
@@ -117,27 +118,35 @@ class Separator {
       }
       for (const VertexId v : mesh_.vertices(tet)) {
         if (is_new(v)) {
-          seeds.push_back({v, tet});
+          add_seed(v, tet);
         }
       }
+    }
+  }
+  /// Sorts the seeds by vertex, in the order in which the vertices were met, and divides one star after the other.
+  void divide_stars() {
+    std::vector<std::uint32_t> next(vertices_.size() + 1, 0);
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      next[i + 1] = next[i] + vertices_[i].seeds;
+    }
+    std::vector<TetId> tets(seeds_.size());
+    for (const Corner& seed : seeds_) {
+      tets[next[scratch_.index_of_vertex[seed.vertex.value] - 1]++] = seed.tet;
+    }
+    for (std::size_t i = 0, begin = 0; i < vertices_.size(); begin = next[i++]) {
+      scratch_.index_of_vertex[vertices_[i].vertex.value] = 0;
+      divide_star(vertices_[i].vertex, {tets.data() + begin, tets.data() + next[i]});
     }
   }
   [[nodiscard]] bool is_new(VertexId v) const { return !mesh_.origin(v).is_valid(); }
 
   /// One part per face-connected group of the star; the first keeps the vertex.
-  void divide_star(const std::vector<Corner>& seeds, std::size_t begin, std::size_t end) {
-    const VertexId v = seeds[begin].vertex;
+  void divide_star(VertexId v, std::span<const TetId> seeds) {
     const std::size_t first_part = parts_.size();
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i > begin && is_in_some_part(v, seeds[i].tet)) {
-        continue;
-      }
-      const auto& flood =
-          scratch_.walker.flood(mesh_, v, seeds[i].tet, [&](Side side) { return is_incision(side); });
-      const std::uint32_t copy = parts_.size() == first_part ? 0 : ++copies_;
-      parts_.push_back({v, seeds[i].tet, copy, bits_of(v, flood)});
-      for (const TetId tet : flood) {
-        assign(tet, v, copy);
+    for (const TetId seed : seeds) {
+      if (copy_of(seed, v) == 0) {
+        const std::uint32_t copy = parts_.size() == first_part ? 0 : ++copies_;
+        parts_.push_back({v, seed, copy, flood(v, seed, copy)});
       }
     }
     const bool is_whole = parts_.size() == first_part + 1;
@@ -145,39 +154,49 @@ class Separator {
       parts_.back().bits = static_cast<std::uint8_t>(parts_.back().bits | shape::kFront);
     }
   }
-  // A corner is stored as copy + 1, so that 0 means "not reached yet".
-  void assign(TetId tet, VertexId v, std::uint32_t copy) {
-    std::array<std::uint32_t, 4>& copies = scratch_.copies[tet.value];
-    if ((copies[0] | copies[1] | copies[2] | copies[3]) == 0) {
-      scratch_.reached.push_back(tet);
-    }
-    copies[mesh_.corner_of(tet, v)] = copy + 1;
-    if (copy != 0) {
-      touched_.push_back({v, tet});
-    }
-  }
-  [[nodiscard]] bool is_in_some_part(VertexId v, TetId tet) const {
-    return scratch_.copies[tet.value][mesh_.corner_of(tet, v)] != 0;
-  }
-  [[nodiscard]] std::uint32_t copy_of(TetId tet, VertexId v) const {
-    return scratch_.copies[tet.value][mesh_.corner_of(tet, v)];
-  }
-  [[nodiscard]] std::uint8_t bits_of(VertexId v, const std::vector<TetId>& part) const {
+  /// Assigns a copy of `v` to the tets that can be reached from `seed` without crossing the incision. Returns what the
+  /// part is bounded by, as `shape` bits.
+  std::uint8_t flood(VertexId v, TetId seed, std::uint32_t copy) {
     unsigned bits = mesh_.shape_of(v) & shape::kPinched;
-    for (const TetId tet : part) {
+    part_.assign(1, seed);
+    assign(seed, mesh_.corner_of(seed, v), v, copy);
+    for (std::size_t i = 0; i < part_.size(); ++i) {
+      const TetId tet = part_[i];
+      const TetVertices& corners = mesh_.vertices(tet);
+      const TetLinks& links = mesh_.links(tet);
       for (unsigned s = 0; s < 4; ++s) {
-        if (mesh_.vertices(tet)[s] == v) {
+        if (corners[s] == v) {
           continue;
         }
-        const Link link = mesh_.links(tet)[s];
-        if (is_incision(Side(tet, s)) || (link.is_boundary() && link.tag() != 0)) {
+        if (links[s].is_boundary()) {
+          bits |= links[s].tag() == 0 ? shape::kSkin : shape::kWall;
+        } else if (is_incision(Side(tet, s))) {
           bits |= shape::kWall;
-        } else if (link.is_boundary()) {
-          bits |= shape::kSkin;
+        } else {
+          const TetId next = links[s].side().tet();
+          const unsigned corner = mesh_.corner_of(next, v);
+          if (scratch_.copies[next.value][corner] == 0) {
+            assign(next, corner, v, copy);
+            part_.push_back(next);
+          }
         }
       }
     }
     return static_cast<std::uint8_t>(bits);
+  }
+  // A corner is stored as copy + 1, so that 0 means "not reached yet".
+  void assign(TetId tet, unsigned corner, VertexId v, std::uint32_t copy) {
+    SeparationScratch::CornerCopies& copies = scratch_.copies[tet.value];
+    if ((copies[0] | copies[1] | copies[2] | copies[3]) == 0) {
+      scratch_.reached.push_back(tet);
+    }
+    copies[corner] = copy + 1;
+    if (copy != 0) {
+      touched_.push_back({v, tet});
+    }
+  }
+  [[nodiscard]] std::uint32_t copy_of(TetId tet, VertexId v) const {
+    return scratch_.copies[tet.value][mesh_.corner_of(tet, v)];
   }
 
   // --- pinched edges -------------------------------------------------------------------------------------------------
@@ -345,7 +364,9 @@ class Separator {
   const std::vector<TetId>& new_tets_;
   std::uint32_t tag_;
   SeparationScratch& scratch_;
-  std::vector<Corner> touched_;
+  std::vector<Corner> touched_, seeds_;
+  std::vector<SeededVertex> vertices_;
+  std::vector<TetId> part_;
   std::vector<Part> parts_;
   std::uint32_t copies_ = 0;
   Separation result_;

@@ -22,8 +22,8 @@ struct Separation {
 struct SeparationScratch {
   using CornerCopies = std::array<std::uint32_t, 4>;
 
-  StarWalker walker;
   EdgeTable edges;
+  ZeroedArray<std::uint32_t> index_of_vertex;
   ZeroedArray<std::uint8_t> incision;   ///< bit s: side s is an incision face
   ZeroedArray<CornerCopies> copies;     ///< 1 + the copy that each corner gets; 0 not reached
   std::vector<TetId> marked, reached;   ///< tets with a non-zero entry in either

@@ -88,20 +88,6 @@ class LinkGraph {
   std::vector<LinkVertex> vertices_;
 };
 
-/// The vertices of flagged edges, ascending, each once.
-std::vector<VertexId> vertices_of_flagged_edges(const Neighbourhood& near) {
-  std::vector<VertexId> found;
-  for (const CutEdge& edge : near.edges.edges()) {
-    if (edge.is_flagged()) {
-      found.push_back(edge.a);
-      found.push_back(edge.b);
-    }
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
-}
-
 struct Candidate {
   OnVertex on;
   bool is_coincident;
@@ -111,55 +97,133 @@ struct Candidate {
   }
 };
 
-struct ByVertex {
-  bool operator()(const Candidate& c, VertexId v) const { return c.on.vertex < v; }
-  bool operator()(VertexId v, const Candidate& c) const { return v < c.on.vertex; }
-};
-
 /// Snapping reaches a little further where an earlier cut already passes: its wall may have bent to a vertex by `snap`
 /// of edges that have become shorter since.
 constexpr double kWallReach = 1.75;
-
-/// The vertices of flagged edges that are within reach of the sheet, ascending.
-std::vector<Candidate> find_close_vertices(const TetMesh& mesh, const Sheet& sheet, double snap,
-                                           const Neighbourhood& near, StarWalker& walker) {
-  std::vector<Candidate> close;
-  LinkGraph link;
-  for (const VertexId v : vertices_of_flagged_edges(near)) {
-    link.build(mesh, v, walker.star(mesh, v), near, [](VertexId) { return false; });
-    const double spacing = link.mean_length(mesh, v);
-    const bool is_on_wall = (mesh.shape_of(v) & shape::kWall) != 0;
-    const double reach = std::max(kCoincident, is_on_wall ? kWallReach * snap : snap) * spacing;
-    const auto hit = sheet.tree().closest(mesh.rest(v), reach);
-    if (hit.is_valid()) {
-      const double distance = std::sqrt(hit.distance2);
-      close.push_back({{v, spacing, distance, hit.point, hit.triangle}, distance <= kCoincident * spacing});
+/// The vertices that snapping considers, with a way to find them by slot.
+class CloseVertices {
+ public:
+  CloseVertices(const TetMesh& mesh, const Sheet& sheet, double snap, Neighbourhood& near, StarWalker& walker)
+      : mesh_(mesh), sheet_(sheet), snap_(snap), near_(near), walker_(walker) {
+    for (const CutEdge& edge : near.edges.edges()) {
+      if (edge.is_flagged()) {
+        note(edge.a);
+        note(edge.b);
+      }
+    }
+    for (const CutEdge& edge : near.edges.edges()) {
+      measure(edge.a, edge);
+      measure(edge.b, edge);
+    }
+    for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
+      consider(i);
     }
   }
-  return close;
-}
+  CloseVertices(const CloseVertices&) = delete;
+  CloseVertices& operator=(const CloseVertices&) = delete;
+  ~CloseVertices() {
+    for (const Noted& noted : vertices_) {
+      near_.index_of_vertex[noted.vertex.value] = 0;
+    }
+  }
+  /// Those within reach.
+  [[nodiscard]] const std::vector<Candidate>& all() const { return close_; }
+  [[nodiscard]] const Candidate* find(VertexId vertex) const {
+    const std::uint32_t index = near_.index_of_vertex[vertex.value];
+    return index == 0 || vertices_[index - 1].close == 0 ? nullptr : &close_[vertices_[index - 1].close - 1];
+  }
+
+ private:
+  struct Noted {
+    VertexId vertex;
+    double longest2 = 0;      ///< squared length of the longest edge near the sheet: a bound of the mean of all
+    std::uint32_t close = 0;  ///< 1 + index into `close_`
+  };
+  void note(VertexId vertex) {
+    std::uint32_t& index = near_.index_of_vertex[vertex.value];
+    if (index == 0) {
+      vertices_.push_back({vertex});
+      index = static_cast<std::uint32_t>(vertices_.size());
+    }
+  }
+  void measure(VertexId vertex, const CutEdge& edge) {
+    if (const std::uint32_t index = near_.index_of_vertex[vertex.value]; index != 0) {
+      double& longest2 = vertices_[index - 1].longest2;
+      longest2 = std::max(longest2, (mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm());
+    }
+  }
+  /// Most vertices are too far away whatever their mean edge, which takes a walk around the vertex: asked only then.
+  void consider(std::uint32_t i) {
+    const VertexId v = vertices_[i].vertex;
+    const bool is_on_wall = (mesh_.shape_of(v) & shape::kWall) != 0;
+    const double share = std::max(kCoincident, is_on_wall ? kWallReach * snap_ : snap_);
+    const auto hit = sheet_.tree().closest(mesh_.rest(v), share * std::sqrt(vertices_[i].longest2));
+    if (!hit.is_valid()) {
+      return;
+    }
+    link_.build(mesh_, v, walker_.star(mesh_, v), near_, [](VertexId) { return false; });
+    const double spacing = link_.mean_length(mesh_, v), distance = std::sqrt(hit.distance2);
+    if (distance <= share * spacing) {
+      close_.push_back({{v, spacing, distance, hit.point, hit.triangle}, distance <= kCoincident * spacing});
+      vertices_[i].close = static_cast<std::uint32_t>(close_.size());
+    }
+  }
+
+  const TetMesh& mesh_;
+  const Sheet& sheet_;
+  double snap_;
+  Neighbourhood& near_;
+  StarWalker& walker_;
+  LinkGraph link_;
+  std::vector<Noted> vertices_;
+  std::vector<Candidate> close_;
+};
 
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
 bool is_on_same_part(const Sheet& sheet, const OnVertex& a, const OnVertex& b) {
   const Vec3 n = sheet.normal(a.triangle).normalized(), m = sheet.normal(b.triangle).normalized();
-  return n.dot(m) > 0.5 && std::abs(n.dot(b.target - a.target)) <= 0.3 * a.spacing;
+  return n.dot(m) > 0.3 && std::abs(n.dot(b.target - a.target)) <= 0.3 * a.spacing;
+}
+
+/// Whether every flagged edge of a vertex crosses the part of the sheet that the vertex would snap to.
+bool crosses_one_part(const TetMesh& mesh, const Sheet& sheet, const OnVertex& on, const std::vector<TetId>& star,
+                      const Neighbourhood& near) {
+  for (const TetId tet : star) {
+    const NearTet* near_tet = near.find(tet);
+    const unsigned c = mesh.corner_of(tet, on.vertex);
+    for (unsigned other = 0; near_tet != nullptr && other < 4; ++other) {
+      if (other == c) {
+        continue;
+      }
+      const CutEdge& edge = near.edge(*near_tet, c, other);
+      if (edge.is_flagged()) {
+        const Vec3 crossing = mesh.rest(edge.a) + edge.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
+        if (!is_on_same_part(sheet, on, {edge.a, on.spacing, 0.0, crossing, edge.triangle})) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
 }
 
 /// Those of the close vertices that may take part in the cut, nearest first.
-std::vector<Candidate> find_candidates(const TetMesh& mesh, const Sheet& sheet, double snap, const Neighbourhood& near,
+std::vector<Candidate> find_candidates(const TetMesh& mesh, const Sheet& sheet, double snap, Neighbourhood& near,
                                        StarWalker& walker) {
-  const std::vector<Candidate> close = find_close_vertices(mesh, sheet, snap, near, walker);
+  const CloseVertices close(mesh, sheet, snap, near, walker);
   std::vector<Candidate> candidates;
   LinkGraph link;
-  for (const Candidate& candidate : close) {
+  for (const Candidate& candidate : close.all()) {
     const VertexId v = candidate.on.vertex;
     const auto is_close = [&](VertexId neighbour) {
-      const auto found = std::lower_bound(close.begin(), close.end(), neighbour, ByVertex());
-      return found != close.end() && found->on.vertex == neighbour && is_on_same_part(sheet, candidate.on, found->on);
+      const Candidate* other = close.find(neighbour);
+      return other != nullptr && is_on_same_part(sheet, candidate.on, other->on);
     };
     const auto is_sound = [&] {
-      link.build(mesh, v, walker.star(mesh, v), near, is_close);
-      return (mesh.shape_of(v) & shape::kPinched) == 0 && link.has_two_parts_at_most();
+      const std::vector<TetId>& star = walker.star(mesh, v);
+      link.build(mesh, v, star, near, is_close);
+      return (mesh.shape_of(v) & shape::kPinched) == 0 && link.has_two_parts_at_most() &&
+             crosses_one_part(mesh, sheet, candidate.on, star, near);
     };
     if (candidate.is_coincident || is_sound()) {
       candidates.push_back(candidate);
