@@ -15,7 +15,9 @@ namespace {
 
 using Triangle = std::array<Vec3, 3>;
 
-double area_of(const Triangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+double area_of(const Triangle& t) {
+  return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+}
 
 TriangleTree tree_of(const std::vector<Triangle>& soup) {
   std::vector<Vec3> points;

@@ -15,10 +15,10 @@ namespace incise::bench {
 /// S is the sweep clipped to the body at rest, S_h the walls, one side counted. Every triangle of both is sampled at
 /// 28 points, its corners among them.
 struct Accuracy {
-  double hausdorff = 0;     ///< the greater of both one-sided distances
-  double mean = 0;          ///< the greater of both one-sided mean distances, weighted by area
-  double area_error = 0;    ///< |area(S_h) − area(S)| / area(S)
-  double sweep_area = 0;    ///< of S; squared length units
+  double hausdorff = 0;   ///< the greater of both one-sided distances
+  double mean = 0;        ///< the greater of both one-sided mean distances, weighted by area
+  double area_error = 0;  ///< |area(S_h) − area(S)| / area(S)
+  double sweep_area = 0;  ///< of S; squared length units
 };
 
 /// A body as it was before the cut: what sweeps are clipped to.

@@ -69,11 +69,11 @@ const std::array<Vec3, kVariants> kNormals = {Vec3(0.37, 0.53, 0.76), Vec3(-0.61
 CutCase axis_plane(const Box& bounds, unsigned variant) {
   Vec3 normal = Vec3::Zero();
   normal[variant % 3] = 1;
-  return {"axis plane", {plane(bounds, normal, kCentres[variant])}, 2, true, false};
+  return {"axis plane", {plane(bounds, normal, kCentres[variant])}, 2, 0.0, false};
 }
 
 CutCase oblique_plane(const Box& bounds, unsigned variant) {
-  return {"oblique plane", {plane(bounds, kNormals[variant], kCentres[variant])}, 2, true, true};
+  return {"oblique plane", {plane(bounds, kNormals[variant], kCentres[variant])}, 2, 0.0, true};
 }
 
 /// A saddle of curvature below 0.9 per box, tilted.
@@ -83,29 +83,30 @@ CutCase curved_sheet(const Box& bounds, unsigned variant) {
     const double u = x - c.x(), v = y - c.y();
     return Vec3(x, y, c.z() + 0.4 * u * u - 0.3 * v * v + 0.15 * n.x() * u + 0.15 * n.y() * v);
   };
-  return {"curved sheet", {sheet(UnitBox(bounds), 24, 12, height)}, 2, false, true};
+  return {"curved sheet", {sheet(UnitBox(bounds), 24, 12, height)}, 2, 0.8, true};
 }
 
 CutCase coring_cylinder(const Box& bounds, unsigned variant) {
   const Vec3 tilt(0.1 * kNormals[variant].x(), 0.1 * kNormals[variant].y(), 0);
-  return {"coring cylinder", {cylinder(UnitBox(bounds), 0.3, kCentres[variant], tilt)}, 2, false, true};
+  return {"coring cylinder", {cylinder(UnitBox(bounds), 0.3, kCentres[variant], tilt)}, 2, 1 / 0.3, true};
 }
 
 CutCase cross(const Box& bounds, unsigned variant) {
   const Vec3 first = kNormals[variant];
   const Vec3 second = first.cross(kNormals[(variant + 1) % kVariants]).normalized();
-  return {"cross",
-          {plane(bounds, first, kCentres[variant]), plane(bounds, second, kCentres[variant] + Vec3(0.01, -0.02, 0.015))},
-          4,
-          true,
-          true};
+  return {
+      "cross",
+      {plane(bounds, first, kCentres[variant]), plane(bounds, second, kCentres[variant] + Vec3(0.01, -0.02, 0.015))},
+      4,
+      0.0,
+      true};
 }
 
 /// Three gently curved sheets across x, two across y.
 CutCase lattice(const Box& bounds, unsigned variant) {
   const UnitBox box(bounds);
   const Vec3 shift = 0.2 * (kCentres[variant] - Vec3::Constant(0.5));
-  CutCase cut = {"3×2 sheets", {}, 12, false, false};
+  CutCase cut = {"3×2 sheets", {}, 12, 0.2, false};
   for (const double x : {0.25, 0.5, 0.75}) {
     cut.strokes.push_back(sheet(box, 16, 8, [=](double y, double z) {
       return Vec3(x + shift.x() + 0.1 * (y - 0.5) * (y - 0.5) + 0.05 * (z - 0.5), y, z);

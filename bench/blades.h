@@ -16,8 +16,10 @@ struct CutCase {
   std::string name;
   std::vector<Stroke> strokes;
   std::size_t pieces_of_cube = 0;  ///< pieces that a box falls into
-  bool is_planar = false;
-  bool is_accepted = false;  ///< counts in the acceptance figure for growth
+  double curvature = 0;            ///< greatest, per side of the box; 0 for planes
+  bool is_accepted = false;        ///< counts in the acceptance figure for growth
+
+  [[nodiscard]] bool is_planar() const { return curvature == 0; }
 };
 
 /// The cuts of the study, fitted to a body's box: `kVariants` of each kind, one kind after the other.

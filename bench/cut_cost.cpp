@@ -48,10 +48,10 @@ std::vector<Plane> planes_for(std::uint32_t n) {
 
 struct Measurement {
   std::uint64_t tets = 0, cut_tets = 0, created_tets = 0;
-  double cold_ms = 0;                ///< the first run, memory untouched
-  std::vector<double> ms;            ///< the others
+  double cold_ms = 0;      ///< the first run, memory untouched
+  std::vector<double> ms;  ///< the others
   std::vector<double> undo_ms;
-  std::vector<StageTimes> stages;    ///< of the others; wall time
+  std::vector<StageTimes> stages;  ///< of the others; wall time
   std::vector<double> wall_ms;
   std::vector<double> vtk_one_ms, vtk_both_ms;
 
@@ -111,7 +111,9 @@ Measurement measure(const TetMesh& mesh, const Plane& plane, unsigned runs, Betw
   return out;
 }
 
-std::string number(double value, int digits = 2) { return fmt::format("{:.{}f}", value, digits); }
+std::string number(double value, int digits = 2) {
+  return fmt::format("{:.{}f}", value, digits);
+}
 
 struct Worst {
   double us_per_cut_tet = 0;
@@ -131,9 +133,10 @@ void add_row(Table& table, const Plane& plane, const Measurement& m) {
   };
   table.add({std::to_string(m.tets), plane.name, std::to_string(m.cut_tets), std::to_string(m.created_tets),
              number(total), number(m.us_per_cut_tet(*std::min_element(m.ms.begin(), m.ms.end()))),
-             number(m.us_per_cut_tet(median(m.wall_ms))), number(m.us_per_cut_tet(m.cold_ms)), number(stages[0]), number(stages[1]), number(stages[2]), number(rest),
-             number(m.us_per_cut_tet(median(m.undo_ms))), number(median(m.ms), 1), milliseconds(m.vtk_one_ms),
-             milliseconds(m.vtk_both_ms), ratio(m.vtk_one_ms), ratio(m.vtk_both_ms)});
+             number(m.us_per_cut_tet(median(m.wall_ms))), number(m.us_per_cut_tet(m.cold_ms)), number(stages[0]),
+             number(stages[1]), number(stages[2]), number(rest), number(m.us_per_cut_tet(median(m.undo_ms))),
+             number(median(m.ms), 1), milliseconds(m.vtk_one_ms), milliseconds(m.vtk_both_ms), ratio(m.vtk_one_ms),
+             ratio(m.vtk_both_ms)});
 }
 
 void note_worst(Worst& worst, const Plane& plane, const Measurement& m, bool is_largest) {
@@ -152,8 +155,8 @@ Worst measure_time(const std::vector<Size>& sizes, const std::filesystem::path& 
   Table table("cut_cost",
               "Whole-plane cut of Kuhn cubes, adjacency and journal kept. µs per cut tet: medians; times in ms; ratio: "
               "VTK's median over ours, for one output part and for both; time on a core of one's own, wall: as it was",
-              {"tets", "plane", "cut tets", "new tets", "µs/cut", "least", "wall", "cold", "collide", "subdivide", "separate",
-               "rest", "undo", "ms", "VTK one", "VTK both", "ratio one", "ratio both"});
+              {"tets", "plane", "cut tets", "new tets", "µs/cut", "least", "wall", "cold", "collide", "subdivide",
+               "separate", "rest", "undo", "ms", "VTK one", "VTK both", "ratio one", "ratio both"});
   Worst worst;
   for (const Size& size : sizes) {
     TetSoup soup = kuhn_cube(size.cells);
@@ -189,8 +192,8 @@ std::vector<Acceptance> accept(const Worst& worst) {
   if (worst.vtk_one < 1e299) {
     lines.push_back({"VTK's time over ours at the largest size, one part made", "> 1", "≥ 3", number(worst.vtk_one),
                      worst.vtk_one > 1.0});
-    lines.push_back({"VTK's time over ours at the largest size, both parts made", "> 1", "≥ 3",
-                     number(worst.vtk_both), worst.vtk_both > 1.0});
+    lines.push_back({"VTK's time over ours at the largest size, both parts made", "> 1", "≥ 3", number(worst.vtk_both),
+                     worst.vtk_both > 1.0});
   }
   return lines;
 }
@@ -227,4 +230,6 @@ int run(int argc, char** argv) {
 
 }  // namespace incise::bench
 
-int main(int argc, char** argv) { return incise::bench::run(argc, argv); }
+int main(int argc, char** argv) {
+  return incise::bench::run(argc, argv);
+}

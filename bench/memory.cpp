@@ -19,7 +19,9 @@ namespace incise::bench {
 
 namespace {
 
-std::string number(double value) { return fmt::format("{:.1f}", value); }
+std::string number(double value) {
+  return fmt::format("{:.1f}", value);
+}
 
 /// The peak of the sources below per tet: generated in memory, and read from files.
 double measure_memory(std::uint32_t cells, const std::filesystem::path& program, const std::filesystem::path& folder) {
@@ -51,9 +53,8 @@ double measure_memory(std::uint32_t cells, const std::filesystem::path& program,
       continue;
     }
     const auto per_tet = [&](double mb) { return 1e6 * mb / static_cast<double>(m->tets); };
-    table.add({std::to_string(m->tets), name, number(per_tet(m->peak_mb)),
-               number(per_tet(m->peak_mb - m->baseline_mb)), number(per_tet(m->resident_mb)),
-               number(per_tet(m->mesh_mb))});
+    table.add({std::to_string(m->tets), name, number(per_tet(m->peak_mb)), number(per_tet(m->peak_mb - m->baseline_mb)),
+               number(per_tet(m->resident_mb)), number(per_tet(m->mesh_mb))});
     worst = std::max(worst, per_tet(m->peak_mb));
   }
   for (const std::filesystem::path& file : temporary) {
@@ -104,4 +105,6 @@ int run(int argc, char** argv) {
 
 }  // namespace incise::bench
 
-int main(int argc, char** argv) { return incise::bench::run(argc, argv); }
+int main(int argc, char** argv) {
+  return incise::bench::run(argc, argv);
+}

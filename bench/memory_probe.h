@@ -11,10 +11,10 @@ namespace incise::bench {
 /// What loading one mesh cost, measured in a process of its own.
 struct MemoryFigures {
   std::uint64_t tets = 0;
-  double baseline_mb = 0;     ///< resident before anything was loaded
-  double peak_mb = 0;         ///< most that was ever resident, loading included
-  double resident_mb = 0;     ///< resident once the mesh stands and the input is gone
-  double mesh_mb = 0;         ///< the mesh's own account of its arrays
+  double baseline_mb = 0;  ///< resident before anything was loaded
+  double peak_mb = 0;      ///< most that was ever resident, loading included
+  double resident_mb = 0;  ///< resident once the mesh stands and the input is gone
+  double mesh_mb = 0;      ///< the mesh's own account of its arrays
 };
 
 /// The entry point of the child process: makes one mesh and prints its figures.

@@ -8,8 +8,8 @@
 
 namespace incise::bench {
 
-/// Processor time of this thread in milliseconds: what a run would take on a core of its own. Wall time where the system
-/// does not tell.
+/// Processor time of this thread in milliseconds: what a run would take on a core of its own. Wall time where the
+/// system does not tell.
 double thread_ms();
 
 /// The middle value (the mean of the two middle ones); 0 where there is none.

@@ -68,7 +68,11 @@ VtkClip::~VtkClip() = default;
 double VtkClip::run_ms(const Vec3& normal, double offset, bool keeps_both) {
   return impl_->run_ms(normal, offset, keeps_both);
 }
-std::uint64_t VtkClip::output_cells() const { return impl_->output_cells(); }
-std::string VtkClip::version() { return vtkVersion::GetVTKVersion(); }
+std::uint64_t VtkClip::output_cells() const {
+  return impl_->output_cells();
+}
+std::string VtkClip::version() {
+  return vtkVersion::GetVTKVersion();
+}
 
 }  // namespace incise::bench
