@@ -109,7 +109,6 @@ class Cutter::Pipeline {
       statistics.cut_tets += count_cut_tets();
       subdivision = subdivide(transaction, sheet, templates_, near_);
       incision = is_paper() ? find_paper_incision(mesh, near_, subdivision) : std::move(subdivision.incision);
-      statistics.bent_vertices += move_on_vertices(transaction, sheet, snap(), on, walker_);
       statistics.snapped_vertices += on.size();
     }
     {
@@ -119,7 +118,9 @@ class Cutter::Pipeline {
       }
       const Separation separation =
           is_paper() ? separate_as_paper(transaction, std::move(incision), tag, walker_)
-                     : separate(transaction, std::move(incision), subdivision.children, tag, separation_);
+                     : separate(transaction, std::move(incision), subdivision.children, tag, separation_, [&] {
+                         statistics.bent_vertices += move_on_vertices(transaction, sheet, snap(), on, walker_);
+                       });
       statistics.incision_faces += separation.opened_faces;
       statistics.latent_faces += separation.latent_faces;
       statistics.copied_vertices += separation.copied_vertices;

@@ -26,13 +26,14 @@ class Separator {
   Separator& operator=(const Separator&) = delete;
   ~Separator() { clear_marks(); }
 
-  Separation run() {
+  Separation run(const std::function<void()>& before_copies) {
     for (unsigned round = 0; round <= kMaxPinchRounds; ++round) {
       find_copies();
       if (round == kMaxPinchRounds || !bisect_pinched_edges()) {
         break;
       }
     }
+    before_copies();
     apply_copies();
     open_faces();
     return result_;
@@ -215,7 +216,8 @@ class Separator {
                    [&](TetId tet) { fan.lowest = std::min(fan.lowest, tet); });
     return fan;
   }
-  /// Edges that need a look: kept by a face, or in more than two incision faces, or in two and on a surface.
+  /// Edges that need a look: kept by a face and not just the front inside the body, or in more than two incision faces,
+  /// or in two and on a surface.
   void find_suspects(std::vector<std::array<VertexId, 2>>& suspects) {
     scratch_.edges.clear();
     for (const IncisionFace& face : incision_) {
@@ -229,7 +231,8 @@ class Separator {
     }
     for (const CutEdge& edge : scratch_.edges.edges()) {
       const bool is_on_surface = (mesh_.shape_of(edge.a) & mesh_.shape_of(edge.b)) != 0;
-      if ((edge.is_blocked && edge.crossings > 1) || edge.crossings > 2 || (edge.crossings == 2 && is_on_surface)) {
+      const bool may_be_pinched = edge.is_blocked && (edge.crossings > 1 || is_on_surface);
+      if (may_be_pinched || edge.crossings > 2 || (edge.crossings == 2 && is_on_surface)) {
         suspects.push_back({edge.a, edge.b});
       }
     }
@@ -375,8 +378,8 @@ class Separator {
 }  // namespace
 
 Separation separate(Transaction& transaction, std::vector<IncisionFace> incision, const std::vector<TetId>& new_tets,
-                    std::uint32_t tag, SeparationScratch& scratch) {
-  return Separator(transaction, std::move(incision), new_tets, tag, scratch).run();
+                    std::uint32_t tag, SeparationScratch& scratch, const std::function<void()>& before_copies) {
+  return Separator(transaction, std::move(incision), new_tets, tag, scratch).run(before_copies);
 }
 
 }  // namespace incise::inline v0

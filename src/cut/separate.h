@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cut/edge_table.h"
@@ -37,8 +38,10 @@ struct SeparationScratch {
 /// whose ends stay whole although two of its fans are apart (a neck one edge wide) is bisected first, so that its
 /// midpoint comes apart. Every boundary edge that results has exactly two boundary faces.
 /// Where the input touched itself, the new vertices of `new_tets` are checked for parts that share no face as well.
+/// `before_copies` runs once all new vertices but the copies exist: vertices move then, so that twins start alike.
 /// Source: paper §2.3, §2.4; proof of equivalence in docs/paper_map.md. Cost: O(stars of the incision's vertices).
 Separation separate(Transaction& transaction, std::vector<IncisionFace> incision,
-                    const std::vector<TetId>& new_tets, std::uint32_t tag, SeparationScratch& scratch);
+                    const std::vector<TetId>& new_tets, std::uint32_t tag, SeparationScratch& scratch,
+                    const std::function<void()>& before_copies = [] {});
 
 }  // namespace incise::inline v0

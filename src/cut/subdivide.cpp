@@ -242,6 +242,7 @@ class Subdivider {
     if (link.is_boundary()) {
       for (const auto child_side : outer) {
         transaction_.set_link(side_of(parent, child_side), link);
+        note_surface(side_of(parent, child_side), link.tag() == 0 ? shape::kSkin : shape::kWall);
       }
       return;
     }
@@ -251,6 +252,14 @@ class Subdivider {
       transaction_.join(side_of(parent, outer[0]), link.side());
     } else if (parent < neighbour) {
       link_faces(parent, outer, neighbour, splits_[neighbour]->outer[link.side().side()]);
+    }
+  }
+  /// The vertices of a boundary side lie on its surface; of these the split points do not know it yet.
+  void note_surface(Side side, std::uint8_t bit) {
+    for (const VertexId v : mesh_.vertices(side)) {
+      if ((mesh_.shape_of(v) & bit) == 0) {
+        transaction_.set_shape(v, static_cast<std::uint8_t>(mesh_.shape_of(v) | bit));
+      }
     }
   }
   /// Pairs the parts of a face that two subdivided tets share.
