@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "geom/random.h"
+#include "../geom/random.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "cut/strokes.h"
-#include "geom/random.h"
+#include "../cut/strokes.h"
+#include "../geom/random.h"
 #include "incise/geom/box.h"
 
 namespace incise::test {

@@ -171,12 +171,12 @@ TEST(OneTet, cut_by_a_plane_opens_one_face_or_two) {
   soup.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
   soup.tets = {{0, 1, 2, 3}};
   for (const Profile profile : {Profile::kPaper, Profile::kIncise}) {
-    Engine corner = make_engine(soup, 0.2, profile);
+    Engine corner = make_engine(soup, 0.0, profile);
     const CutStatistics one = cut(corner, plane(corner, Vec3(0, 0, 1), 0.5));
     EXPECT_EQ(corner.mesh().tet_count(), 4U);
     EXPECT_EQ(one.incision_faces, 1U);
     expect_pieces(corner.mesh(), {1 / 48.0, 7 / 48.0}, 1e-16);
-    Engine middle = make_engine(soup, 0.2, profile);
+    Engine middle = make_engine(soup, 0.0, profile);
     const CutStatistics two = cut(middle, plane(middle, Vec3(1, 1, 0), 0.5));
     EXPECT_EQ(middle.mesh().tet_count(), 6U);
     EXPECT_EQ(two.incision_faces, 2U);

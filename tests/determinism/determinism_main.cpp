@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints one line "name hash" per scene: the state of the mesh after its strokes, and after some are taken back.
+// The lines are equal for every compiler, optimisation level and target (tests/determinism/golden.txt).
+// usage: incise_determinism [--threads N]     the result does not depend on N
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "../cut/bodies.h"
+#include "../cut/strokes.h"
+#include "incise/engine/engine.h"
+#include "incise/mesh/bounds.h"
+#include "incise/mesh/validate.h"
+
+namespace incise::test {
+namespace {
+
+/// Prints a line; false where the mesh is not valid.
+bool print(const char* scene, const char* profile, const char* state, const TetMesh& mesh) {
+  std::printf("%s.%s.%s %016llx\n", scene, profile, state, static_cast<unsigned long long>(mesh.hash()));
+  const ValidityReport report = validate(mesh, ValidateLevel::kGeometry);
+  if (!report.ok) {
+    std::fprintf(stderr, "%s.%s.%s is not valid\n", scene, profile, state);
+  }
+  return report.ok;
+}
+
+Stroke plane(double x, double y, double z, double offset) {
+  return *plane_stroke({Vec3(0, 0, 0), Vec3(1, 1, 1)}, Vec3(x, y, z), offset);
+}
+
+struct Scene {
+  const char* name;
+  TetSoup body;
+  std::vector<Stroke> strokes;
+};
+
+std::vector<Vec3> parabola(double c, double bend) {
+  std::vector<Vec3> path;
+  for (unsigned i = 0; i <= 16; ++i) {
+    const double y = -0.2 + 1.4 * i / 16;
+    path.emplace_back(c + bend * (y - 0.5) * (y - 0.5), y, 0.0);
+  }
+  return path;
+}
+
+std::vector<Scene> scenes() {
+  const double low = -0.2, high = 1.2;
+  const Stroke arc = path_stroke(parabola(0.4, 0.5), low, high);
+  return {
+      {"planar", kuhn_cube(5), {plane(0, 0, 1, 0.5)}},
+      {"on_faces", kuhn_cube(5), {plane(1, 0, 0, 0.4), plane(1, -1, 0, 0)}},
+      {"oblique", jittered_cube(6, 1), {plane(0.3, 0.5, 0.8, 0.77)}},
+      {"curved", jittered_cube(6, 2), {arc}},
+      {"coring", jittered_cube(6, 3), {coring_stroke(Vec3(0.5, 0.5, 0), 0.31, 24, low, high)}},
+      {"crossing", kuhn_cube(5), {plane(1, 0.1, 0, 0.52), plane(0, 1, 0.1, 0.55), plane(0.1, 0, 1, 0.57)}},
+      {"self_crossing",
+       jittered_cube(5, 4),
+       {path_stroke({Vec3(0.47, low, 0), Vec3(0.47, high, 0), Vec3(1.4, high, 0), Vec3(1.4, 0.53, 0), Vec3(low, 0.53, 0)},
+                    low, high)}},
+      {"bent", kuhn_cube(5), {profile_stroke({Vec3(0.33, high, 0), Vec3(0.33, low, 0), Vec3(0.37, low, 0), Vec3(0.37, high, 0)}, low, high)}},
+      {"partial",
+       jittered_cube(6, 5),
+       {quad_stroke(Vec3(0.47, low, high), Vec3(0.51, high, high), Vec3(0.47, low, 0.43), Vec3(0.51, high, 0.4), 5)}},
+      {"twice", jittered_cube(5, 6), {followed_by(arc, reversed(arc)), arc}},
+      {"ball", ball(6), {plane(0.3, 0.5, 0.8, 0.11), plane(-0.7, 0.4, 0.2, -0.05)}},
+  };
+}
+
+bool run(const Scene& scene, Profile profile, unsigned threads) {
+  const char* name = profile == Profile::kPaper ? "paper" : "incise";
+  EngineOptions options;
+  options.cut.profile = profile;
+  options.threads = threads;
+  Result<TetMesh> mesh = TetMesh::build(scene.body);
+  Result<Engine> engine = Engine::create(std::move(mesh).value(), options);
+  bool is_sound = true;
+  for (const Stroke& stroke : scene.strokes) is_sound &= engine->cut(stroke).ok();
+  is_sound &= print(scene.name, name, "cut", engine->mesh());
+  engine->undo();
+  is_sound &= print(scene.name, name, "undone", engine->mesh());
+  engine->redo();
+  is_sound &= print(scene.name, name, "redone", engine->mesh());
+  return is_sound;
+}
+
+}  // namespace
+}  // namespace incise::test
+
+int main(int argc, char** argv) {
+  using namespace incise::test;
+  unsigned threads = 1;
+  if (argc == 3 && std::strcmp(argv[1], "--threads") == 0) {
+    threads = static_cast<unsigned>(std::atoi(argv[2]));
+  } else if (argc != 1) {
+    std::fprintf(stderr, "usage: incise_determinism [--threads N]\n");
+    return 2;
+  }
+  bool is_sound = true;
+  for (const Scene& scene : scenes()) {
+    is_sound &= run(scene, incise::Profile::kIncise, threads);
+    is_sound &= run(scene, incise::Profile::kPaper, threads);
+  }
+  return is_sound ? 0 : 1;
+}

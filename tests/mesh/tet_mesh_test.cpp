@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/mesh/tet_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "cut/bodies.h"
+#include "cut/support.h"
+#include "incise/mesh/defects.h"
+#include "incise/mesh/star.h"
+
+namespace incise::test {
+namespace {
+
+TetSoup one_tet() {
+  TetSoup soup;
+  soup.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  soup.tets = {{0, 1, 2, 3}};
+  return soup;
+}
+
+TEST(TetMesh, of_one_tet_is_all_boundary) {
+  const TetMesh mesh = build(one_tet());
+  EXPECT_EQ(mesh.tet_count(), 1U);
+  EXPECT_EQ(mesh.vertex_count(), 4U);
+  for (unsigned s = 0; s < 4; ++s) EXPECT_EQ(mesh.link(Side(TetId(0), s)), Link::boundary(0));
+  for (std::uint32_t v = 0; v < 4; ++v) {
+    EXPECT_EQ(mesh.tet_of(VertexId(v)), TetId(0));
+    EXPECT_EQ(mesh.shape_of(VertexId(v)), shape::kSkin);
+    EXPECT_EQ(mesh.origin(VertexId(v)), VertexId(v));
+  }
+  EXPECT_EQ(mesh.rest_volume(TetId(0)), 1 / 6.0);
+  expect_valid(mesh, 1 / 6.0);
+}
+
+TEST(TetMesh, sides_turn_counter_clockwise_seen_from_outside) {
+  const TetMesh mesh = build(one_tet());
+  for (unsigned s = 0; s < 4; ++s) {
+    const auto v = mesh.vertices(Side(TetId(0), s));
+    const Vec3 normal = (mesh.rest(v[1]) - mesh.rest(v[0])).cross(mesh.rest(v[2]) - mesh.rest(v[0]));
+    EXPECT_LT(normal.dot(mesh.rest(mesh.vertices(TetId(0))[s]) - mesh.rest(v[0])), 0.0);
+  }
+  expect_valid(mesh, 1 / 6.0);
+}
+
+TEST(TetMesh, links_equal_those_found_by_comparing_all_faces) {
+  const TetMesh mesh = build(kuhn_cube(3));
+  std::map<std::set<std::uint32_t>, std::vector<Side>> faces;
+  mesh.for_each_tet([&](TetId tet) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const auto v = mesh.vertices(Side(tet, s));
+      faces[{v[0].value, v[1].value, v[2].value}].push_back(Side(tet, s));
+    }
+  });
+  for (const auto& [vertices, sides] : faces) {
+    if (sides.size() == 1) {
+      EXPECT_TRUE(mesh.link(sides[0]).is_boundary());
+    } else {
+      ASSERT_EQ(sides.size(), 2U);
+      EXPECT_EQ(mesh.link(sides[0]), Link(sides[1]));
+      EXPECT_EQ(mesh.link(sides[1]), Link(sides[0]));
+    }
+  }
+  expect_valid(mesh, 1.0);
+}
+
+TEST(TetMesh, tells_skin_from_inner_vertices) {
+  const TetMesh mesh = build(kuhn_cube(4));
+  mesh.for_each_vertex([&](VertexId v) {
+    const Vec3& p = mesh.rest(v);
+    const bool is_on_skin = (p.array() == 0).any() || (p.array() == 1).any();
+    EXPECT_EQ(mesh.shape_of(v), is_on_skin ? shape::kSkin : 0);
+  });
+  EXPECT_FALSE(mesh.touched_itself_at_load());
+  expect_valid(mesh, 1.0);
+}
+
+TEST(TetMesh, of_two_tets_that_touch_at_a_vertex_marks_it_pinched) {
+  TetSoup soup = one_tet();
+  soup.points.insert(soup.points.end(), {Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, -1)});
+  soup.tets.push_back({0, 5, 4, 6});
+  normalise(soup);
+  const TetMesh mesh = build(soup);
+  EXPECT_NE(mesh.shape_of(VertexId(0)) & shape::kPinched, 0);
+  EXPECT_EQ(mesh.shape_of(VertexId(1)) & shape::kPinched, 0);
+  EXPECT_TRUE(mesh.touched_itself_at_load());
+  EXPECT_EQ(validate(mesh, ValidateLevel::kGeometry).count(ViolationKind::kSingletonVertex), 1U);
+}
+
+TEST(TetMesh, of_three_tets_on_one_face_links_none_of_them_there) {
+  TetSoup soup = one_tet();
+  soup.points.insert(soup.points.end(), {Vec3(0.2, 0.2, -1), Vec3(0.1, 0.1, 2)});
+  soup.tets.push_back({0, 2, 1, 4});
+  soup.tets.push_back({0, 1, 2, 5});
+  const TetMesh mesh = build(soup);
+  for (std::uint32_t t = 0; t < 3; ++t) EXPECT_EQ(mesh.link(Side(TetId(t), 3)), Link::boundary(0));
+  EXPECT_EQ(validate(mesh, ValidateLevel::kGeometry).count(ViolationKind::kOversharedFace), 1U);
+}
+
+TEST(TetMesh, keeps_points_without_tets) {
+  TetSoup soup = one_tet();
+  soup.points.emplace_back(5, 5, 5);
+  const TetMesh mesh = build(soup);
+  EXPECT_EQ(mesh.vertex_count(), 5U);
+  EXPECT_FALSE(mesh.tet_of(VertexId(4)).is_valid());
+  StarWalker walker;
+  EXPECT_TRUE(walker.star(mesh, VertexId(4)).empty());
+}
+
+TEST(TetMesh, refuses_soups_that_break_its_promises) {
+  TetSoup soup = one_tet();
+  soup.tets.push_back({0, 1, 2, 9});
+  EXPECT_EQ(TetMesh::build(soup).error().code, ErrorCode::kBadArgument);
+  soup = one_tet();
+  soup.points[2].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(TetMesh::build(soup).error().code, ErrorCode::kBadArgument);
+  soup = one_tet();
+  soup.points[2].y() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(TetMesh::build(soup).error().code, ErrorCode::kBadArgument);
+}
+
+TEST(TetMesh, remembers_flat_tets_of_its_input) {
+  TetSoup soup = one_tet();
+  soup.points.emplace_back(0.25, 0.25, 0);
+  soup.tets.push_back({0, 1, 2, 4});
+  const TetMesh mesh = build(soup);
+  EXPECT_EQ(mesh.flat_at_load(), std::vector<TetId>{TetId(1)});
+}
+
+TEST(TetMesh, hash_depends_on_places_connectivity_and_regions) {
+  const std::uint64_t base = build(kuhn_cube(2)).hash();
+  EXPECT_EQ(build(kuhn_cube(2)).hash(), base);
+  TetSoup soup = kuhn_cube(2);
+  soup.points[13].x() = std::nextafter(soup.points[13].x(), 1.0);
+  EXPECT_NE(build(soup).hash(), base);
+  soup = kuhn_cube(2);
+  std::swap(soup.tets[0], soup.tets[1]);
+  EXPECT_NE(build(soup).hash(), base);
+  soup = kuhn_cube(2);
+  soup.regions.assign(soup.tets.size(), 0);
+  EXPECT_EQ(build(soup).hash(), base);
+  soup.regions[3] = 1;
+  EXPECT_NE(build(soup).hash(), base);
+}
+
+TEST(StarWalker, finds_all_tets_of_every_vertex) {
+  const TetMesh mesh = build(kuhn_cube(3));
+  std::map<VertexId, std::set<TetId>> incident;
+  mesh.for_each_tet([&](TetId tet) {
+    for (const VertexId v : mesh.vertices(tet)) incident[v].insert(tet);
+  });
+  StarWalker walker;
+  mesh.for_each_vertex([&](VertexId v) {
+    const auto& star = walker.star(mesh, v);
+    EXPECT_EQ(star.size(), incident[v].size());
+    for (const TetId tet : star) {
+      EXPECT_EQ(incident[v].count(tet), 1U);
+      EXPECT_TRUE(walker.is_seen(tet));
+    }
+  });
+  expect_valid(mesh, 1.0);
+}
+
+TEST(StarWalker, stops_at_blocked_sides) {
+  const TetMesh mesh = build(kuhn_cube(2));
+  StarWalker walker;
+  const VertexId centre(13);
+  const std::size_t all = walker.star(mesh, centre).size();
+  // The plane x = ½ blocks: half of the star remains.
+  const auto is_blocked = [&](Side side) {
+    const auto v = mesh.vertices(side);
+    return mesh.rest(v[0]).x() == 0.5 && mesh.rest(v[1]).x() == 0.5 && mesh.rest(v[2]).x() == 0.5;
+  };
+  const auto& half = walker.flood(mesh, centre, mesh.tet_of(centre), is_blocked);
+  EXPECT_EQ(half.size(), all / 2);
+  EXPECT_EQ(walker.flood(mesh, centre, mesh.tet_of(centre), [](Side) { return true; }).size(), 1U);
+}
+
+TEST(EdgeRing, closes_around_inner_edges_only) {
+  const TetMesh mesh = build(kuhn_cube(3));
+  std::map<std::set<std::uint32_t>, std::set<TetId>> rings;
+  mesh.for_each_tet([&](TetId tet) {
+    for (const auto& [a, b] : kEdgeCorners) rings[{mesh.vertices(tet)[a].value, mesh.vertices(tet)[b].value}].insert(tet);
+  });
+  for (const auto& [edge, tets] : rings) {
+    const VertexId a(*edge.begin()), b(*edge.rbegin());
+    std::set<TetId> walked;
+    const bool is_closed =
+        walk_edge_ring(mesh, a, b, *tets.begin(), [](Side) { return false; }, [&](TetId tet) { walked.insert(tet); });
+    EXPECT_EQ(walked, tets);
+    const Vec3 middle = 0.5 * (mesh.rest(a) + mesh.rest(b));
+    EXPECT_EQ(is_closed, (middle.array() > 1e-9).all() && (middle.array() < 1 - 1e-9).all());
+  }
+}
+
+}  // namespace
+}  // namespace incise::test
