@@ -2,7 +2,11 @@
 #include "incise/mesh/verbs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
+#include "incise/geom/predicates.h"
 #include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
@@ -138,6 +142,10 @@ SplitEdgeResult apply(Transaction& transaction, const SplitEdgePlan& plan) {
 
 DuplicateVertexPlan plan_duplicate_vertex(const TetMesh& mesh, VertexId vertex, std::vector<TetId> group) {
   DuplicateVertexPlan plan{Refusal::kNone, vertex, std::move(group)};
+  if (!mesh.is_live(vertex)) {
+    plan.refusal = Refusal::kDead;
+    return plan;
+  }
   for (const TetId tet : plan.group) {
     if (!mesh.is_live(tet)) {
       plan.refusal = Refusal::kDead;
@@ -184,6 +192,213 @@ VertexId apply(Transaction& transaction, const DuplicateVertexPlan& plan, std::u
     transaction.set_tet_of(plan.vertex, *rest);
   }
   return twin;
+}
+
+namespace {
+
+using Corners = std::array<Vec3, 4>;
+
+Corners rest_corners(const TetMesh& mesh, const TetVertices& v) {
+  return {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
+}
+
+double volume6(const Corners& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); }
+
+/// Whether a tet is positive, by exact sign, with one corner elsewhere.
+bool is_exactly_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& moved) {
+  Corners p = rest_corners(mesh, mesh.vertices(tet));
+  p[corner] = moved;
+  return orient3d(p[0], p[1], p[2], p[3]) > 0;
+}
+
+template <std::size_t n>
+bool are_inner_weights(const std::array<double, n>& weights) {
+  double sum = 0;
+  for (const double weight : weights) {
+    if (!(weight > 0 && weight < 1)) {
+      return false;
+    }
+    sum += weight;
+  }
+  return std::abs(sum - 1.0) <= 1e-12;
+}
+
+/// Replaces a tet by its parts around a new vertex: one per corner of `corners`, a bit mask. The parts know each other
+/// and what was behind the tet's sides, except behind the side that the vertex lies in.
+SplitParts split_around(Transaction& transaction, TetId tet, unsigned corners, VertexId vertex) {
+  const TetMesh& mesh = transaction.mesh();
+  const TetVertices old_vertices = mesh.vertices(tet);
+  const TetLinks links = mesh.links(tet);
+  SplitParts parts{tet, {}};
+  for (unsigned c = 0; c < 4; ++c) {
+    if (((corners >> c) & 1U) == 0) {
+      continue;
+    }
+    TetVertices vertices = old_vertices;
+    vertices[c] = vertex;
+    parts.children[c] = transaction.add_tet(vertices, tet);
+    for (const VertexId v : vertices) {
+      transaction.set_tet_of(v, parts.children[c]);
+    }
+    if (links[c].is_boundary()) {
+      transaction.set_link({parts.children[c], c}, links[c]);
+    } else {
+      transaction.join({parts.children[c], c}, links[c].side());
+    }
+    for (unsigned d = 0; d < c; ++d) {
+      if (parts.children[d].is_valid()) {
+        transaction.join({parts.children[c], d}, {parts.children[d], c});
+      }
+    }
+  }
+  transaction.remove_tet(tet);
+  return parts;
+}
+
+/// The tet of the star that holds a rest point best, with the point's coordinates there. Where all are flat: no motion.
+void locate(const TetMesh& mesh, const std::vector<TetId>& star, MoveVertexPlan& plan) {
+  plan.basis = mesh.vertices(star.front());
+  plan.weights = {};
+  plan.weights[mesh.corner_of(star.front(), plan.vertex)] = 1.0;
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (const TetId tet : star) {
+    Corners p = rest_corners(mesh, mesh.vertices(tet));
+    const double whole = volume6(p);
+    if (!(whole > 0)) {
+      continue;
+    }
+    std::array<double, 4> weights{};
+    for (unsigned c = 0; c < 4; ++c) {
+      std::swap(p[c], plan.rest);
+      weights[c] = volume6(p) / whole;
+      std::swap(p[c], plan.rest);
+    }
+    const double least = *std::min_element(weights.begin(), weights.end());
+    if (least > greatest) {
+      greatest = least;
+      plan.basis = mesh.vertices(tet);
+      plan.weights = weights;
+    }
+  }
+}
+
+}  // namespace
+
+SplitFacePlan plan_split_face(const TetMesh& mesh, Side face, const std::array<double, 3>& weights) {
+  SplitFacePlan plan{Refusal::kNone, face, weights};
+  if (!mesh.is_live(face.tet())) {
+    plan.refusal = Refusal::kDead;
+  } else if (!are_inner_weights(weights)) {
+    plan.refusal = Refusal::kOutOfRange;
+  }
+  if (!plan) {
+    return plan;
+  }
+  const std::array<VertexId, 3> vertices = mesh.vertices(face);
+  for (unsigned k = 0; k < 3; ++k) {
+    plan.rest += weights[k] * mesh.rest(vertices[k]);
+    plan.current += weights[k] * mesh.current(vertices[k]);
+  }
+  const Link behind = mesh.link(face);
+  for (const VertexId v : vertices) {
+    const bool is_sound = is_exactly_positive_with(mesh, face.tet(), mesh.corner_of(face.tet(), v), plan.rest);
+    if (!is_sound || (!behind.is_boundary() &&
+                      !is_exactly_positive_with(mesh, behind.side().tet(),
+                                                mesh.corner_of(behind.side().tet(), v), plan.rest))) {
+      plan.refusal = Refusal::kWouldInvert;
+    }
+  }
+  return plan;
+}
+
+SplitFaceResult apply(Transaction& transaction, const SplitFacePlan& plan) {
+  const TetMesh& mesh = transaction.mesh();
+  const std::array<VertexId, 3> vertices = mesh.vertices(plan.face);
+  const Link behind = mesh.link(plan.face);
+  SplitFaceResult result;
+  result.vertex = transaction.add_vertex(vertices, plan.weights, plan.rest, plan.current);
+  const unsigned front_side = plan.face.side();
+  if (behind.is_boundary()) {
+    transaction.set_shape(result.vertex, behind.tag() == 0 ? shape::kSkin : shape::kWall);
+    result.parts[0] = split_around(transaction, plan.face.tet(), 15U & ~(1U << front_side), result.vertex);
+    for (const TetId child : result.parts[0].children) {
+      if (child.is_valid()) {
+        transaction.set_link({child, front_side}, behind);
+      }
+    }
+    return result;
+  }
+  const unsigned back_side = behind.side().side();
+  std::array<std::array<unsigned, 2>, 3> corners{};  // of each vertex of the face, in front and behind
+  for (unsigned k = 0; k < 3; ++k) {
+    corners[k] = {mesh.corner_of(plan.face.tet(), vertices[k]), mesh.corner_of(behind.side().tet(), vertices[k])};
+  }
+  result.parts[0] = split_around(transaction, plan.face.tet(), 15U & ~(1U << front_side), result.vertex);
+  result.parts[1] = split_around(transaction, behind.side().tet(), 15U & ~(1U << back_side), result.vertex);
+  for (const auto& [front, back] : corners) {
+    transaction.join({result.parts[0].children[front], front_side}, {result.parts[1].children[back], back_side});
+  }
+  return result;
+}
+
+SplitTetPlan plan_split_tet(const TetMesh& mesh, TetId tet, const std::array<double, 4>& weights) {
+  SplitTetPlan plan{Refusal::kNone, tet, weights};
+  if (!mesh.is_live(tet)) {
+    plan.refusal = Refusal::kDead;
+  } else if (!are_inner_weights(weights)) {
+    plan.refusal = Refusal::kOutOfRange;
+  }
+  if (!plan) {
+    return plan;
+  }
+  for (unsigned c = 0; c < 4; ++c) {
+    plan.rest += weights[c] * mesh.rest(mesh.vertices(tet)[c]);
+    plan.current += weights[c] * mesh.current(mesh.vertices(tet)[c]);
+  }
+  for (unsigned c = 0; c < 4; ++c) {
+    if (!is_exactly_positive_with(mesh, tet, c, plan.rest)) {
+      plan.refusal = Refusal::kWouldInvert;
+    }
+  }
+  return plan;
+}
+
+SplitTetResult apply(Transaction& transaction, const SplitTetPlan& plan) {
+  const TetVertices vertices = transaction.mesh().vertices(plan.tet);
+  SplitTetResult result;
+  result.vertex = transaction.add_vertex(vertices, plan.weights, plan.rest, plan.current);
+  result.parts = split_around(transaction, plan.tet, 15U, result.vertex);
+  return result;
+}
+
+MoveVertexPlan plan_move_vertex(const TetMesh& mesh, VertexId vertex, const Vec3& rest) {
+  MoveVertexPlan plan{Refusal::kNone, vertex, rest, {}, {}};
+  if (!mesh.is_live(vertex)) {
+    plan.refusal = Refusal::kDead;
+  } else if (!rest.allFinite()) {
+    plan.refusal = Refusal::kOutOfRange;
+  } else if (!mesh.tet_of(vertex).is_valid() || (mesh.shape_of(vertex) & shape::kPinched) != 0) {
+    plan.refusal = Refusal::kNoStar;
+  }
+  if (!plan) {
+    return plan;
+  }
+  StarWalker walker;
+  const std::vector<TetId>& star = walker.star(mesh, vertex);
+  for (const TetId tet : star) {
+    const unsigned corner = mesh.corner_of(tet, vertex);
+    if (!is_exactly_positive_with(mesh, tet, corner, rest) &&
+        is_exactly_positive_with(mesh, tet, corner, mesh.rest(vertex))) {
+      plan.refusal = Refusal::kWouldInvert;
+      return plan;
+    }
+  }
+  locate(mesh, star, plan);
+  return plan;
+}
+
+void apply(Transaction& transaction, const MoveVertexPlan& plan) {
+  transaction.move(plan.vertex, plan.rest, plan.basis, plan.weights);
 }
 
 }  // namespace incise::inline v0

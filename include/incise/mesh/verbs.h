@@ -15,6 +15,7 @@ enum class Refusal : std::uint8_t {
   kOutOfRange,    ///< a parameter is outside its range
   kWouldInvert,   ///< a tet would lose its positive volume
   kStarIsWhole,   ///< nothing separates the star
+  kNoStar,        ///< the vertex has no tets, or they were not face-connected at load: its star cannot be walked
 };
 
 /// One tet that a split replaces, with its two halves.
@@ -60,5 +61,72 @@ DuplicateVertexPlan plan_duplicate_vertex(const TetMesh& mesh, VertexId vertex, 
 /// Carries the plan out: the group gets a twin of the vertex, and the faces between group and rest become boundary with
 /// `tag`. Returns the twin. Paper §2.3 (subdivision of a vertex). Cost: O(star).
 VertexId apply(Transaction& transaction, const DuplicateVertexPlan& plan, std::uint32_t tag);
+
+/// The plan of putting a vertex into a face.
+struct SplitFacePlan {
+  Refusal refusal = Refusal::kNone;
+  Side face;                                ///< as one of its tets sees it
+  std::array<double, 3> weights{};          ///< of the vertices of `face`, in the order of `TetMesh::vertices(Side)`
+  Vec3 rest = Vec3::Zero(), current = Vec3::Zero();
+
+  explicit operator bool() const { return refusal == Refusal::kNone; }
+};
+
+/// Plans the split of a face at Σ weights · vertices: two tets become six, on the boundary one becomes three.
+/// `weights` in (0, 1), in the order of `mesh.vertices(face)`; their sum may miss 1 by 1e-12. Cost: O(1).
+SplitFacePlan plan_split_face(const TetMesh& mesh, Side face, const std::array<double, 3>& weights);
+
+/// One tet that a split replaces. Child c is the tet with the new vertex in place of its corner c; corner numbers stay.
+struct SplitParts {
+  TetId tet;
+  std::array<TetId, 4> children;  ///< by corner; invalid where the split leaves no such part
+};
+
+struct SplitFaceResult {
+  VertexId vertex;
+  std::array<SplitParts, 2> parts;  ///< the plan's tet, then the one behind its face; invalid where there is none
+};
+
+/// Carries a plan out; cannot fail. On the boundary the vertex is kSkin or kWall, as the face's tag says.
+SplitFaceResult apply(Transaction& transaction, const SplitFacePlan& plan);
+
+/// The plan of putting a vertex into a tet.
+struct SplitTetPlan {
+  Refusal refusal = Refusal::kNone;
+  TetId tet;
+  std::array<double, 4> weights{};  ///< of its corners
+  Vec3 rest = Vec3::Zero(), current = Vec3::Zero();
+
+  explicit operator bool() const { return refusal == Refusal::kNone; }
+};
+
+/// Plans the split of a tet into four at Σ weights · corners. `weights` as for `plan_split_face`. Cost: O(1).
+SplitTetPlan plan_split_tet(const TetMesh& mesh, TetId tet, const std::array<double, 4>& weights);
+
+struct SplitTetResult {
+  VertexId vertex;
+  SplitParts parts;
+};
+
+/// Carries a plan out; cannot fail. The vertex is interior.
+SplitTetResult apply(Transaction& transaction, const SplitTetPlan& plan);
+
+/// The plan of moving a vertex.
+struct MoveVertexPlan {
+  Refusal refusal = Refusal::kNone;
+  VertexId vertex;
+  Vec3 rest = Vec3::Zero();          ///< where to, in the mesh's length unit
+  TetVertices basis;                 ///< the tet of the star that holds the place, or is nearest to holding it
+  std::array<double, 4> weights{};   ///< barycentric coordinates of the place in it
+
+  explicit operator bool() const { return refusal == Refusal::kNone; }
+};
+
+/// Plans a move in the rest shape. Refuses where a tet of positive volume would lose it, by exact sign; keeping a boundary
+/// vertex on its surface is up to the caller. Refuses pinched vertices (kNoStar). Cost: O(star).
+MoveVertexPlan plan_move_vertex(const TetMesh& mesh, VertexId vertex, const Vec3& rest);
+
+/// Carries a plan out; cannot fail. Links, slots and shape bits stay.
+void apply(Transaction& transaction, const MoveVertexPlan& plan);
 
 }  // namespace incise::inline v0

@@ -1,0 +1,704 @@
+// SPDX-License-Identifier: Apache-2.0
+// Attributes follow the journal with a copy of the tets' vertices and rest positions of their own, so that every step is
+// seen as it was however far the mesh has gone on. What a step overwrites is swapped with its record: undo and redo are
+// the same exchange.
+#include "incise/mesh/attributes.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "incise/core/hash.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+constexpr TetVertices kNoVertices{};
+constexpr std::uint32_t kMaxWidth = 64;
+
+void add(StateHash& hash, const Vec3& point) {
+  for (int axis = 0; axis < 3; ++axis) {
+    hash.add(point[axis]);
+  }
+}
+
+void add(StateHash& hash, const TetVertices& vertices) {
+  hash.add((std::uint64_t{vertices[0].value} << 32U) | vertices[1].value);
+  hash.add((std::uint64_t{vertices[2].value} << 32U) | vertices[3].value);
+}
+
+/// Tells a step from one that took its place in the journal.
+std::uint64_t fingerprint_of(const Step& step) {
+  StateHash hash;
+  for (const BornVertex& v : step.born) {
+    hash.add(std::uint64_t{v.id.value});
+    add(hash, v.rest);
+  }
+  for (const MovedVertex& v : step.moved) {
+    hash.add(std::uint64_t{v.id.value});
+    add(hash, v.rest);
+  }
+  for (const CopiedVertex& v : step.copied) hash.add((std::uint64_t{v.id.value} << 32U) | v.source.value);
+  for (const ConsumedTet& t : step.consumed) hash.add(std::uint64_t{t.id.value});
+  for (const ProducedTet& t : step.produced) {
+    hash.add((std::uint64_t{t.id.value} << 32U) | t.parent.value);
+    add(hash, t.vertices);
+  }
+  for (const RewiredTet& t : step.rewired) {
+    hash.add(std::uint64_t{t.id.value});
+    add(hash, t.vertices);
+  }
+  for (const VertexId v : step.died) hash.add(std::uint64_t{v.value});
+  return hash.value();
+}
+
+/// A sorted table of the elements that a step names; find() in O(log n).
+template <class IdType, class T>
+class StepTable {
+ public:
+  void add(IdType id, T value) { entries_.push_back({id, value}); }
+  void sort() {
+    std::stable_sort(entries_.begin(), entries_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  }
+  [[nodiscard]] const T* find(IdType id) const {
+    const auto at = first(id);
+    return at != entries_.end() && at->first == id ? &at->second : nullptr;
+  }
+  /// Calls `visit(value)` for every entry of `id`, in the order of addition.
+  template <class Visit>
+  void for_each(IdType id, Visit&& visit) const {
+    for (auto at = first(id); at != entries_.end() && at->first == id; ++at) {
+      visit(at->second);
+    }
+  }
+
+ private:
+  [[nodiscard]] auto first(IdType id) const {
+    return std::lower_bound(entries_.begin(), entries_.end(), id, [](const auto& e, IdType i) { return e.first < i; });
+  }
+  std::vector<std::pair<IdType, T>> entries_;
+};
+
+}  // namespace
+
+/// Applies one step that has not been applied before.
+class Attributes::Stepper {
+ public:
+  Stepper(Attributes& all, const Step& step, Record& record) : all_(all), step_(step), record_(record) {}
+
+  void run() {
+    tabulate();
+    touch_all();
+    for (Attribute& attribute : all_.attributes_) {
+      if (attribute.spec.domain == Domain::kVertex) give_vertex_values(attribute);
+    }
+    measure();
+    for (Attribute& attribute : all_.attributes_) {
+      if (attribute.spec.domain == Domain::kTet) {
+        give_tet_values(attribute);
+      } else if (attribute.spec.transfer == Transfer::kConserve) {
+        hand_on(attribute);
+      }
+    }
+    rebuild();
+    for (const MovedVertex& moved : step_.moved) {
+      exchange(moved);
+    }
+    retire();
+  }
+
+ private:
+  using Weights = std::array<double, 4>;
+
+  static double* at(Attribute& attribute, std::uint32_t slot) {
+    return attribute.values.data() + std::size_t{slot} * attribute.spec.width;
+  }
+  /// The vertex whose value a vertex has so far: a copy of this step has none of its own before `copied` is applied.
+  [[nodiscard]] VertexId resolve(VertexId vertex) const {
+    const VertexId* root = roots_.find(vertex);
+    return root == nullptr ? vertex : *root;
+  }
+
+  void tabulate() {
+    std::vector<std::pair<VertexId, VertexId>> chain;
+    for (const CopiedVertex& copy : step_.copied) {
+      roots_.add(copy.id, copy.source);
+    }
+    roots_.sort();
+    for (const CopiedVertex& copy : step_.copied) {
+      VertexId root = copy.source;
+      for (const VertexId* next = roots_.find(root); next != nullptr; next = roots_.find(root)) {
+        root = *next;
+      }
+      chain.emplace_back(copy.id, root);
+    }
+    roots_ = {};
+    for (const auto& [copy, root] : chain) {
+      roots_.add(copy, root);
+      copies_.add(root, copy);
+    }
+    roots_.sort();
+    copies_.sort();
+    for (const VertexId vertex : step_.died) died_.add(vertex, true);
+    died_.sort();
+    for (std::uint32_t i = 0; i < step_.consumed.size(); ++i) parents_.add(step_.consumed[i].id, i);
+    parents_.sort();
+  }
+
+  void touch_all() {
+    const auto touch = [&](TetId tet, const TetVertices& vertices) {
+      all_.touch(record_, tet);
+      for (const VertexId v : vertices) all_.touch(record_, v);
+    };
+    for (const BornVertex& born : step_.born) all_.touch(record_, born.id);
+    for (const MovedVertex& moved : step_.moved) all_.touch(record_, moved.id);
+    for (const CopiedVertex& copied : step_.copied) all_.touch(record_, copied.id);
+    for (const ConsumedTet& tet : step_.consumed) touch(tet.id, tet.vertices);
+    for (const ProducedTet& tet : step_.produced) touch(tet.id, tet.vertices);
+    for (const RewiredTet& tet : step_.rewired) {
+      touch(tet.id, tet.old_vertices);
+      touch(tet.id, tet.vertices);
+    }
+    for (const VertexId vertex : step_.died) all_.touch(record_, vertex);
+    // All volumes up to `exchange` are those before the moves: there the children of a tet fill it.
+    for (const BornVertex& born : step_.born) all_.rest_[born.id] = born.rest;
+    for (const CopiedVertex& copied : step_.copied) all_.rest_[copied.id] = all_.rest_[resolve(copied.id)];
+  }
+
+  void give_vertex_values(Attribute& attribute) {
+    const std::uint32_t width = attribute.spec.width;
+    for (const BornVertex& born : step_.born) {
+      give_birth(attribute, born);
+    }
+    if (attribute.spec.transfer == Transfer::kInterpolate) {
+      for (const MovedVertex& moved : step_.moved) {
+        mix(attribute, moved.id, moved.basis, moved.weights);
+      }
+    }
+    for (const CopiedVertex& copied : step_.copied) {
+      if (is_field(attribute)) {
+        std::copy_n(at(attribute, copied.source.value), width, at(attribute, copied.id.value));
+      } else {
+        start(attribute, copied.id.value);
+      }
+    }
+  }
+  static bool is_field(const Attribute& attribute) {
+    return attribute.spec.transfer == Transfer::kInterpolate || attribute.spec.transfer == Transfer::kInherit;
+  }
+  /// A new element of an attribute that is not handed down: nothing yet to conserve, or soon computed.
+  static void start(Attribute& attribute, std::uint32_t slot) {
+    if (attribute.spec.transfer == Transfer::kRecompute) {
+      fill_initial(attribute, slot);
+    } else {
+      std::fill_n(at(attribute, slot), attribute.spec.width, 0.0);
+    }
+  }
+  void give_birth(Attribute& attribute, const BornVertex& born) {
+    if (attribute.spec.transfer == Transfer::kInterpolate) {
+      mix(attribute, born.id, born.parents, born.weights);
+    } else if (attribute.spec.transfer == Transfer::kInherit) {
+      unsigned best = 0;
+      for (unsigned p = 1; p < 4; ++p) {
+        if (born.parents[p].is_valid() && born.weights[p] > born.weights[best]) best = p;
+      }
+      std::copy_n(at(attribute, resolve(born.parents[best]).value), attribute.spec.width, at(attribute, born.id.value));
+    } else {
+      start(attribute, born.id.value);
+    }
+  }
+  void mix(Attribute& attribute, VertexId to, const TetVertices& from, const Weights& weights) {
+    std::array<double, kMaxWidth> sum{};
+    for (unsigned p = 0; p < 4; ++p) {
+      if (!from[p].is_valid()) continue;
+      const double* value = at(attribute, resolve(from[p]).value);
+      for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
+        sum[k] += weights[p] * value[k];
+      }
+    }
+    std::copy_n(sum.begin(), attribute.spec.width, at(attribute, to.value));
+  }
+
+  void measure() {
+    families_.resize(step_.consumed.size());
+    for (std::size_t i = 0; i < families_.size(); ++i) {
+      families_[i].volume = all_.volume(step_.consumed[i].vertices);
+    }
+    for (const ProducedTet& child : step_.produced) {
+      volumes_.push_back(all_.volume(child.vertices));
+      if (const std::uint32_t* parent = parents_.find(child.parent)) {
+        families_[*parent].children_volume += volumes_.back();
+        ++families_[*parent].children;
+      }
+    }
+  }
+  /// The part of its parent that a produced tet gets.
+  [[nodiscard]] double share_of(std::size_t produced) const {
+    const std::uint32_t* parent = parents_.find(step_.produced[produced].parent);
+    if (parent == nullptr) {
+      return 0;
+    }
+    const Family& family = families_[*parent];
+    return family.children_volume > 0 ? volumes_[produced] / family.children_volume : 1.0 / family.children;
+  }
+
+  void give_tet_values(Attribute& attribute) {
+    for (std::size_t i = 0; i < step_.produced.size(); ++i) {
+      const ProducedTet& child = step_.produced[i];
+      const double* from = at(attribute, child.parent.value);
+      double* to = at(attribute, child.id.value);
+      if (is_field(attribute)) {
+        std::copy_n(from, attribute.spec.width, to);
+        continue;
+      }
+      start(attribute, child.id.value);
+      for (std::uint32_t k = 0; attribute.spec.transfer == Transfer::kConserve && k < attribute.spec.width; ++k) {
+        to[k] = from[k] * share_of(i);
+      }
+    }
+  }
+
+  [[nodiscard]] double density(Attribute& attribute, VertexId vertex, std::uint32_t k) const {
+    const double lumped = all_.lumped_[vertex];
+    return lumped > 0 ? at(attribute, vertex.value)[k] / lumped : 0.0;
+  }
+  /// Material goes from the corners of consumed tets to those of their children, from old vertices to their copies.
+  void hand_on(Attribute& attribute) {
+    for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
+      take_quarters(attribute, k);
+      for (std::size_t i = 0; i < step_.consumed.size(); ++i) {
+        if (families_[i].children == 0) {
+          leave_behind(attribute, k, i);
+          continue;
+        }
+        for (unsigned c = 0; c < 4; ++c) {
+          at(attribute, step_.consumed[i].vertices[c].value)[k] -= quarters_[i][c];
+        }
+      }
+      for (std::size_t i = 0; i < step_.produced.size(); ++i) {
+        if (const std::uint32_t* parent = parents_.find(step_.produced[i].parent)) {
+          const Weights& q = quarters_[*parent];
+          const double quarter = (q[0] + q[1] + q[2] + q[3]) * share_of(i) * 0.25;
+          for (const VertexId v : step_.produced[i].vertices) at(attribute, v.value)[k] += quarter;
+        }
+      }
+      for (std::size_t i = 0; i < step_.rewired.size(); ++i) {
+        const RewiredTet& tet = step_.rewired[i];
+        for (unsigned c = 0; c < 4; ++c) {
+          if (tet.old_vertices[c] == tet.vertices[c]) continue;
+          at(attribute, tet.old_vertices[c].value)[k] -= rewired_quarters_[i][c];
+          at(attribute, tet.vertices[c].value)[k] += rewired_quarters_[i][c];
+        }
+      }
+    }
+  }
+  /// What the tets hold of each of their corners' values, all at the densities before the step.
+  void take_quarters(Attribute& attribute, std::uint32_t k) {
+    quarters_.resize(step_.consumed.size());
+    rewired_quarters_.resize(step_.rewired.size());
+    for (std::size_t i = 0; i < quarters_.size(); ++i) {
+      for (unsigned c = 0; c < 4; ++c) {
+        quarters_[i][c] = 0.25 * families_[i].volume * density(attribute, step_.consumed[i].vertices[c], k);
+      }
+    }
+    for (std::size_t i = 0; i < rewired_quarters_.size(); ++i) {
+      const TetVertices& old_vertices = step_.rewired[i].old_vertices;
+      const double volume = all_.volume(old_vertices);
+      for (unsigned c = 0; c < 4; ++c) {
+        rewired_quarters_[i][c] = 0.25 * volume * density(attribute, old_vertices[c], k);
+      }
+    }
+  }
+  /// A consumed tet without children: dead corners leave their quarters to the living ones.
+  void leave_behind(Attribute& attribute, std::uint32_t k, std::size_t consumed) {
+    const TetVertices& vertices = step_.consumed[consumed].vertices;
+    double orphaned = 0;
+    unsigned living = 0;
+    for (unsigned c = 0; c < 4; ++c) {
+      if (died_.find(vertices[c]) == nullptr) {
+        ++living;
+      } else {
+        at(attribute, vertices[c].value)[k] -= quarters_[consumed][c];
+        orphaned += quarters_[consumed][c];
+      }
+    }
+    for (unsigned c = 0; c < 4 && living > 0; ++c) {
+      if (died_.find(vertices[c]) == nullptr) at(attribute, vertices[c].value)[k] += orphaned / living;
+    }
+  }
+
+  /// Brings the connectivity and the lumped volumes up to date.
+  void rebuild() {
+    const auto lump = [&](const TetVertices& vertices, double volume) {
+      for (const VertexId v : vertices) all_.lumped_[v] += 0.25 * volume;
+    };
+    for (std::size_t i = 0; i < step_.consumed.size(); ++i) {
+      all_.unlink(step_.consumed[i].id);
+      lump(step_.consumed[i].vertices, -families_[i].volume);
+    }
+    for (std::size_t i = 0; i < step_.produced.size(); ++i) {
+      all_.link(step_.produced[i].id, step_.produced[i].vertices);
+      lump(step_.produced[i].vertices, volumes_[i]);
+    }
+    for (const RewiredTet& tet : step_.rewired) {
+      const double volume = all_.volume(tet.old_vertices);
+      all_.unlink(tet.id);
+      all_.link(tet.id, tet.vertices);
+      lump(tet.old_vertices, -volume);
+      lump(tet.vertices, volume);
+    }
+  }
+
+  /// Moves a vertex with its copies; shrinking tets around it hand material to growing ones.
+  void exchange(const MovedVertex& moved) {
+    group_.assign(1, moved.id);
+    copies_.for_each(moved.id, [&](VertexId copy) { group_.push_back(copy); });
+    find_star();
+    before_.clear();
+    for (const TetId tet : star_) before_.push_back(all_.volume(all_.tets_[tet]));
+    for (const VertexId v : group_) all_.rest_[v] = moved.rest;
+    after_.clear();
+    double lost = 0, won = 0;
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      after_.push_back(all_.volume(all_.tets_[star_[i]]));
+      lost += std::max(0.0, before_[i] - after_[i]);
+      won += std::max(0.0, after_[i] - before_[i]);
+    }
+    if (lost > 0 && won > 0) {
+      for (Attribute& attribute : all_.attributes_) {
+        if (attribute.spec.transfer == Transfer::kConserve) flow(attribute, std::min(1.0, won / lost), won);
+      }
+    }
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      for (const VertexId v : all_.tets_[star_[i]]) all_.lumped_[v] += 0.25 * (after_[i] - before_[i]);
+    }
+  }
+  /// The tets around the group, ascending, whatever the order of the lists.
+  void find_star() {
+    star_.clear();
+    for (const VertexId v : group_) {
+      for (std::uint32_t i = all_.first_corner_[v]; i != kInvalidIndex; i = all_.next_corner_[i]) {
+        star_.push_back(TetId(i >> 2U));
+      }
+    }
+    std::sort(star_.begin(), star_.end());
+    star_.erase(std::unique(star_.begin(), star_.end()), star_.end());
+    for (const TetId tet : star_) {
+      all_.touch(record_, tet);
+      for (const VertexId v : all_.tets_[tet]) all_.touch(record_, v);
+    }
+  }
+  /// `scale`: the part of the lost volume that is won elsewhere; a star that shrinks as a whole keeps the rest.
+  void flow(Attribute& attribute, double scale, double won) {
+    const bool is_lumped = attribute.spec.domain == Domain::kVertex;
+    for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
+      double pool = 0;
+      quarters_.assign(star_.size(), Weights{});
+      for (std::size_t i = 0; i < star_.size(); ++i) {
+        const double part = scale * std::max(0.0, before_[i] - after_[i]);
+        for (unsigned c = 0; c < (is_lumped ? 4U : 1U) && part > 0; ++c) {
+          quarters_[i][c] = is_lumped ? 0.25 * part * density(attribute, all_.tets_[star_[i]][c], k)
+                                      : at(attribute, star_[i].value)[k] * (part / before_[i]);
+          pool += quarters_[i][c];
+        }
+      }
+      for (std::size_t i = 0; i < star_.size(); ++i) {
+        const double gain = pool * (std::max(0.0, after_[i] - before_[i]) / won);
+        if (!is_lumped) {
+          at(attribute, star_[i].value)[k] += gain - quarters_[i][0];
+          continue;
+        }
+        for (unsigned c = 0; c < 4; ++c) {
+          at(attribute, all_.tets_[star_[i]][c].value)[k] += 0.25 * gain - quarters_[i][c];
+        }
+      }
+    }
+  }
+
+  void retire() {
+    for (Attribute& attribute : all_.attributes_) {
+      if (attribute.spec.domain == Domain::kTet) {
+        for (const ConsumedTet& tet : step_.consumed) clear(attribute, tet.id.value);
+      } else {
+        for (const VertexId v : step_.died) clear(attribute, v.value);
+      }
+    }
+    for (const VertexId v : step_.died) all_.lumped_[v] = 0;
+  }
+  static void clear(Attribute& attribute, std::uint32_t slot) {
+    std::fill_n(at(attribute, slot), attribute.spec.width, 0.0);
+  }
+
+  /// A consumed tet and its children.
+  struct Family {
+    double volume = 0, children_volume = 0;
+    std::uint32_t children = 0;
+  };
+
+  Attributes& all_;
+  const Step& step_;
+  Record& record_;
+  StepTable<VertexId, VertexId> roots_;   // of copies: the vertex that was there before the copies
+  StepTable<VertexId, VertexId> copies_;  // of roots
+  StepTable<VertexId, bool> died_;
+  StepTable<TetId, std::uint32_t> parents_;  // index into consumed
+  std::vector<Family> families_;             // by consumed
+  std::vector<double> volumes_;              // by produced
+  std::vector<Weights> quarters_, rewired_quarters_;
+  std::vector<VertexId> group_;
+  std::vector<TetId> star_;
+  std::vector<double> before_, after_;  // volumes, by star
+};
+
+Attributes::Attributes(const TetMesh& mesh, std::size_t position) : base_(position) {
+  resize(mesh.vertex_slots(), mesh.tet_slots());
+  mesh.for_each_vertex([&](VertexId v) { rest_[v] = mesh.rest(v); });
+  mesh.for_each_tet([&](TetId tet) {
+    link(tet, mesh.vertices(tet));
+    const double quarter = 0.25 * volume(mesh.vertices(tet));
+    for (const VertexId v : mesh.vertices(tet)) lumped_[v] += quarter;
+  });
+}
+
+Result<AttributeId> Attributes::add(const TetMesh& mesh, AttributeSpec spec) {
+  const auto refuse = [&](const std::string& what) {
+    return Error{ErrorCode::kBadArgument, "attribute '" + spec.name + "': " + what, {}};
+  };
+  if (spec.name.empty()) return refuse("needs a name");
+  if (find(spec.name).is_valid()) return refuse("the name is taken");
+  if (spec.width < 1 || spec.width > kMaxWidth) return refuse("the width must lie in [1, 64]");
+  if ((spec.transfer == Transfer::kRecompute) != static_cast<bool>(spec.recompute)) {
+    return refuse("a function belongs to the policy recompute, and to no other");
+  }
+  if (!spec.initial.empty() && spec.initial.size() != spec.width) return refuse("needs `width` initial values");
+  if (mesh.vertex_slots() != rest_.size() || mesh.tet_slots() != tets_.size()) {
+    return refuse("the mesh has changed: call follow() first");
+  }
+  spec.initial.resize(spec.width, 0.0);
+  attributes_.push_back({std::move(spec), {}});
+  Attribute& attribute = attributes_.back();
+  const auto id = AttributeId(static_cast<std::uint32_t>(attributes_.size() - 1));
+  const auto start = [&](std::uint32_t slot) {
+    fill_initial(attribute, slot);
+    if (attribute.spec.recompute) attribute.spec.recompute(mesh, slot, value(id, slot));
+  };
+  if (attribute.spec.domain == Domain::kVertex) {
+    attribute.values.resize(rest_.size() * attribute.spec.width, 0.0);
+    mesh.for_each_vertex([&](VertexId v) { start(v.value); });
+  } else {
+    attribute.values.resize(tets_.size() * attribute.spec.width, 0.0);
+    mesh.for_each_tet([&](TetId t) { start(t.value); });
+  }
+  return id;
+}
+
+AttributeId Attributes::find(const std::string& name) const {
+  for (std::uint32_t i = 0; i < attributes_.size(); ++i) {
+    if (attributes_[i].spec.name == name) return AttributeId(i);
+  }
+  return {};
+}
+
+Status Attributes::follow(const Journal& journal, const TetMesh& mesh) {
+  if (journal.position() < base_) {
+    return Error{ErrorCode::kBadArgument,
+                 "the journal stands at step " + std::to_string(journal.position()) +
+                     ", before the attributes began at step " + std::to_string(base_) + ": construct them anew",
+                 {journal.position(), base_}};
+  }
+  const std::size_t target = journal.position() - base_;
+  std::size_t common = std::min(target, applied_);
+  while (common > 0 && fingerprint_of(journal.step(base_ + common - 1)) != records_[common - 1].fingerprint) {
+    --common;
+  }
+  while (applied_ > common) {
+    swap_with(records_[--applied_]);
+  }
+  while (applied_ < target) {
+    const Step& step = journal.step(base_ + applied_);
+    const std::uint64_t fingerprint = fingerprint_of(step);
+    if (applied_ < records_.size() && records_[applied_].fingerprint == fingerprint) {
+      swap_with(records_[applied_++]);
+      continue;
+    }
+    records_.resize(applied_);
+    Record& record = records_.emplace_back();
+    record.fingerprint = fingerprint;
+    record.vertex_slots = static_cast<std::uint32_t>(rest_.size());
+    record.tet_slots = static_cast<std::uint32_t>(tets_.size());
+    record.values.resize(attributes_.size());
+    std::uint32_t vertex_slots = record.vertex_slots, tet_slots = record.tet_slots;
+    for (const VertexId v : step.new_vertices) vertex_slots = std::max(vertex_slots, v.value + 1);
+    for (const TetId t : step.new_tets) tet_slots = std::max(tet_slots, t.value + 1);
+    resize(vertex_slots, tet_slots);
+    Stepper(*this, step, record).run();
+    mark(record, false);
+    ++applied_;
+  }
+  recompute_last(mesh);
+  return {};
+}
+
+void Attributes::resize(std::uint32_t vertex_slots, std::uint32_t tet_slots) {
+  rest_.resize(vertex_slots, Vec3::Zero());
+  lumped_.resize(vertex_slots, 0.0);
+  first_corner_.resize(vertex_slots, kInvalidIndex);
+  tets_.resize(tet_slots, kNoVertices);
+  next_corner_.resize(std::size_t{tet_slots} * 4, kInvalidIndex);
+  is_touched_vertex_.ensure(vertex_slots);
+  is_touched_tet_.ensure(tet_slots);
+  for (Attribute& attribute : attributes_) {
+    const std::size_t slots = attribute.spec.domain == Domain::kVertex ? vertex_slots : tet_slots;
+    attribute.values.resize(slots * attribute.spec.width, 0.0);
+  }
+}
+
+void Attributes::fill_initial(Attribute& attribute, std::uint32_t slot) {
+  std::copy(attribute.spec.initial.begin(), attribute.spec.initial.end(),
+            attribute.values.begin() + std::size_t{slot} * attribute.spec.width);
+}
+
+void Attributes::link(TetId tet, const TetVertices& vertices) {
+  tets_[tet] = vertices;
+  for (unsigned c = 0; c < 4; ++c) {
+    const std::uint32_t corner = tet.value * 4 + c;
+    next_corner_[corner] = first_corner_[vertices[c]];
+    first_corner_[vertices[c]] = corner;
+  }
+}
+
+void Attributes::unlink(TetId tet) {
+  for (unsigned c = 0; c < 4; ++c) {
+    const std::uint32_t corner = tet.value * 4 + c;
+    std::uint32_t* at = &first_corner_[tets_[tet][c]];
+    while (*at != corner) {
+      at = &next_corner_[*at];
+    }
+    *at = next_corner_[corner];
+  }
+  tets_[tet] = kNoVertices;
+}
+
+/// The rest volume; 0 for the flat or inverted tets of dirty input.
+double Attributes::volume(const TetVertices& v) const {
+  const Vec3& a = rest_[v[0]];
+  const double volume6 = (rest_[v[1]] - a).cross(rest_[v[2]] - a).dot(rest_[v[3]] - a);
+  return volume6 > 0 ? volume6 / 6.0 : 0.0;
+}
+
+void Attributes::touch(Record& record, VertexId vertex) {
+  if (is_touched_vertex_[vertex.value] != 0) {
+    return;
+  }
+  is_touched_vertex_[vertex.value] = 1;
+  record.vertices.push_back({vertex, rest_[vertex], lumped_[vertex]});
+  for (std::uint32_t a = 0; a < record.values.size(); ++a) {
+    if (attributes_[a].spec.domain == Domain::kVertex) {
+      const std::span<const double> old = value(AttributeId(a), vertex.value);
+      record.values[a].insert(record.values[a].end(), old.begin(), old.end());
+    }
+  }
+}
+
+void Attributes::touch(Record& record, TetId tet) {
+  if (is_touched_tet_[tet.value] != 0) {
+    return;
+  }
+  is_touched_tet_[tet.value] = 1;
+  record.tets.push_back({tet, tets_[tet]});
+  for (std::uint32_t a = 0; a < record.values.size(); ++a) {
+    if (attributes_[a].spec.domain == Domain::kTet) {
+      const std::span<const double> old = value(AttributeId(a), tet.value);
+      record.values[a].insert(record.values[a].end(), old.begin(), old.end());
+    }
+  }
+}
+
+void Attributes::mark(const Record& record, bool is_touched) {
+  const std::uint8_t bit = is_touched ? 1 : 0;
+  for (const SavedVertex& saved : record.vertices) is_touched_vertex_[saved.id.value] = bit;
+  for (const SavedTet& saved : record.tets) is_touched_tet_[saved.id.value] = bit;
+}
+
+void Attributes::swap_with(Record& record) {
+  const auto vertex_slots = static_cast<std::uint32_t>(rest_.size());
+  const auto tet_slots = static_cast<std::uint32_t>(tets_.size());
+  resize(std::max(vertex_slots, record.vertex_slots), std::max(tet_slots, record.tet_slots));
+  std::vector<bool> is_revived_tet, is_revived_vertex;
+  for (SavedTet& saved : record.tets) {
+    is_revived_tet.push_back(!tets_[saved.id][0].is_valid());
+    const TetVertices now = tets_[saved.id];
+    if (now[0].is_valid()) unlink(saved.id);
+    if (saved.vertices[0].is_valid()) link(saved.id, saved.vertices);
+    saved.vertices = now;
+  }
+  for (SavedVertex& saved : record.vertices) {
+    is_revived_vertex.push_back(lumped_[saved.id] == 0 && saved.lumped > 0);
+    std::swap(rest_[saved.id], saved.rest);
+    std::swap(lumped_[saved.id], saved.lumped);
+  }
+  for (std::size_t a = 0; a < attributes_.size(); ++a) {
+    swap_values(record, a, attributes_[a].spec.domain == Domain::kVertex ? is_revived_vertex : is_revived_tet);
+  }
+  resize(record.vertex_slots, record.tet_slots);
+  record.vertex_slots = vertex_slots;
+  record.tet_slots = tet_slots;
+}
+
+void Attributes::swap_values(Record& record, std::size_t attribute, const std::vector<bool>& is_revived) {
+  Attribute& a = attributes_[attribute];
+  const std::uint32_t width = a.spec.width;
+  for (std::size_t i = 0; i < is_revived.size(); ++i) {
+    const std::uint32_t slot =
+        a.spec.domain == Domain::kVertex ? record.vertices[i].id.value : record.tets[i].id.value;
+    if (attribute < record.values.size()) {
+      double* now = a.values.data() + std::size_t{slot} * width;
+      std::swap_ranges(now, now + width, record.values[attribute].data() + i * width);
+    } else if (is_revived[i]) {  // the attribute is younger than the step
+      fill_initial(a, slot);
+    }
+  }
+}
+
+/// Evaluates functions for what was touched since the mesh was last seen. Steps that were passed in between get their
+/// values when an undo stops at them.
+void Attributes::recompute_last(const TetMesh& mesh) {
+  if (applied_ == 0 || records_[applied_ - 1].is_recomputed) {
+    return;
+  }
+  Record& last = records_[applied_ - 1];
+  last.is_recomputed = true;
+  const bool has_functions = std::any_of(attributes_.begin(), attributes_.end(), [](const Attribute& a) {
+    return a.spec.transfer == Transfer::kRecompute;
+  });
+  if (!has_functions) {
+    return;
+  }
+  mark(last, true);
+  for (std::size_t i = applied_ - 1; i-- > 0 && !records_[i].is_recomputed;) {
+    for (const SavedVertex& saved : records_[i].vertices) {
+      if (saved.id.value < rest_.size()) touch(last, saved.id);
+    }
+    for (const SavedTet& saved : records_[i].tets) {
+      if (saved.id.value < tets_.size()) touch(last, saved.id);
+    }
+  }
+  mark(last, false);
+  for (const SavedVertex& saved : last.vertices) {
+    if (mesh.is_live(saved.id)) recompute(mesh, Domain::kVertex, saved.id.value);
+  }
+  for (const SavedTet& saved : last.tets) {
+    if (mesh.is_live(saved.id)) recompute(mesh, Domain::kTet, saved.id.value);
+  }
+}
+
+void Attributes::recompute(const TetMesh& mesh, Domain domain, std::uint32_t slot) {
+  for (std::uint32_t a = 0; a < attributes_.size(); ++a) {
+    const AttributeSpec& spec = attributes_[a].spec;
+    if (spec.domain == domain && spec.recompute) spec.recompute(mesh, slot, value(AttributeId(a), slot));
+  }
+}
+
+}  // namespace incise::inline v0
