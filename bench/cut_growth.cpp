@@ -92,7 +92,7 @@ Outcome run_cut(const TetMesh& mesh, const Body& body, const CutCase& cut, doubl
 
 /// All cuts of one kind with one snapping distance.
 struct Tally {
-  std::uint64_t runs = 0, pieces_right = 0, new_tets = 0, cut_tets = 0, inverted = 0, bent = 0;
+  std::uint64_t runs = 0, pieces_right = 0, new_tets = 0, cut_tets = 0, inverted = 0, snapped = 0, bent = 0, crumbs = 0;
   double lr_mean_sum = 0, lr_max = 0, over_200_sum = 0, drift = 0, cpu_ms = 0;
   double hausdorff = 0, hausdorff_sum = 0, mean = 0, mean_sum = 0, area_error = 0, area_error_sum = 0;
   double hausdorff_unbent = 0;  ///< where every snapped vertex could be moved onto the sweep
@@ -103,7 +103,9 @@ struct Tally {
     new_tets += o.cut.created_tets;
     cut_tets += o.cut.cut_tets;
     inverted += o.inverted;
+    snapped += o.cut.snapped_vertices;
     bent += o.cut.bent_vertices;
+    crumbs += o.cut.crumbs_kept;
     lr_mean_sum += o.quality.lr_mean;
     lr_max = std::max(lr_max, o.quality.lr_max);
     over_200_sum += o.quality.lr_over_200_pct;
@@ -160,11 +162,25 @@ std::size_t expected_pieces(const NamedMesh& body, bool is_box, const CutCase& c
 
 void add_run(Table& runs, const NamedMesh& body, const CutCase& cut, double snap, const Outcome& o,
              std::size_t expected) {
-  runs.add({body.name, std::to_string(body.mesh.tet_count()), cut.name, number(snap, 1), std::to_string(o.cut.cut_tets),
-            std::to_string(o.cut.created_tets), std::to_string(expected), std::to_string(o.pieces),
-            figure(o.quality.lr_mean), figure(o.quality.lr_max), figure(o.quality.lr_over_200_pct),
-            std::to_string(o.inverted), figure(o.drift), figure(o.accuracy.hausdorff), figure(o.accuracy.mean),
-            figure(o.accuracy.area_error), std::to_string(o.cut.snapped_vertices), std::to_string(o.cut.bent_vertices),
+  runs.add({body.name,
+            std::to_string(body.mesh.tet_count()),
+            cut.name,
+            number(snap, 1),
+            std::to_string(o.cut.cut_tets),
+            std::to_string(o.cut.created_tets),
+            std::to_string(expected),
+            std::to_string(o.pieces),
+            figure(o.quality.lr_mean),
+            figure(o.quality.lr_max),
+            figure(o.quality.lr_over_200_pct),
+            std::to_string(o.inverted),
+            figure(o.drift),
+            figure(o.accuracy.hausdorff),
+            figure(o.accuracy.mean),
+            figure(o.accuracy.area_error),
+            std::to_string(o.cut.snapped_vertices),
+            std::to_string(o.cut.bent_vertices),
+            std::to_string(o.cut.crumbs_kept),
             figure(o.cpu_ms)});
 }
 
@@ -234,15 +250,15 @@ void print_accuracy(const std::vector<KindOfCut>& kinds, const std::string& name
                     const std::filesystem::path& folder) {
   Table table("accuracy_" + name,
               "Accuracy: " + what + ". Two-sided Hausdorff and mean distance in mean edge lengths h, area error in %",
-              {"cut", "snap", "Hausdorff/h max", "avg", "mean/h max", "avg", "area error max", "avg", "bent",
-               "Hausdorff/h where none bent"});
+              {"cut", "snap", "Hausdorff/h max", "avg", "mean/h max", "avg", "area error max", "avg", "snapped", "bent",
+               "crumbs kept", "Hausdorff/h where none bent"});
   for (const KindOfCut& kind : kinds) {
     for (const bool is_snapped : {false, true}) {
       const Tally& t = is_snapped ? kind.with : kind.without;
       table.add({kind.name, is_snapped ? number(CutOptions{}.snap, 1) : "0", figure(t.hausdorff),
                  figure(t.per_run(t.hausdorff_sum)), figure(t.mean), figure(t.per_run(t.mean_sum)),
-                 figure(100 * t.area_error), figure(100 * t.per_run(t.area_error_sum)), std::to_string(t.bent),
-                 figure(t.hausdorff_unbent)});
+                 figure(100 * t.area_error), figure(100 * t.per_run(t.area_error_sum)), std::to_string(t.snapped),
+                 std::to_string(t.bent), std::to_string(t.crumbs), figure(t.hausdorff_unbent)});
     }
   }
   table.print();
@@ -360,8 +376,9 @@ int run(int argc, char** argv) {
     }
   }
   Table runs("growth_runs", "",
-             {"mesh", "tets", "cut", "snap", "cut tets", "new tets", "expected pieces", "pieces", "L/r mean", "L/r max",
-              "% > 200", "inverted", "drift", "Hausdorff/h", "mean/h", "area error", "snapped", "bent", "ms"});
+             {"mesh",   "tets",       "cut",     "snap",    "cut tets",    "new tets", "expected pieces",
+              "pieces", "L/r mean",   "L/r max", "% > 200", "inverted",    "drift",    "Hausdorff/h",
+              "mean/h", "area error", "snapped", "bent",    "crumbs kept", "ms"});
   const std::vector<KindOfCut> of_boxes = run_study(boxes, true, runs);
   std::string names;
   for (const NamedMesh& mesh : boxes) {
