@@ -111,6 +111,6 @@ build_packages=(
 # shellcheck disable=SC2034
 quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags python3:python3)
 # shellcheck disable=SC2034
-model_packages=(tetgen python3:python3:python3)
+model_packages=(tetgen python3:python3)
 # shellcheck disable=SC2034
 wasm_packages=(emscripten node:nodejs clang-14)
