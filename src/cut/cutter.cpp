@@ -23,6 +23,10 @@ namespace {
 constexpr double kSplitClamp = 0.02;
 /// Two crossings of one edge closer than this share of it are one graze, not two sheets.
 constexpr double kGrazeShare = 0.02;
+/// A blade within this share of the mesh's spacing from what it swept before is in its own slit.
+constexpr double kSlitShare = 0.02;
+/// Consecutive parts of a sweep that meets itself overlap by so many spacings.
+constexpr double kOverlapShare = 3.0;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
@@ -72,9 +76,9 @@ class Cutter::Pipeline {
     }
     CutStatistics statistics;
     statistics.steps = stroke.times.size() - 1;
-    const SweptSurface surface = sweep(stroke);
     const double spacing = typical_spacing(mesh);
-    for (const auto& part : split_at_self_crossings(surface, 3.0 * spacing, 1e-6 * spacing)) {
+    const SweptSurface surface = sweep(stroke, kSlitShare * spacing);
+    for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
       const Sheet sheet(surface, part);
       Transaction transaction(mesh);
       cut_sheet(transaction, sheet, tag, statistics, times);

@@ -216,11 +216,26 @@ class Separator {
                    [&](TetId tet) { fan.lowest = std::min(fan.lowest, tet); });
     return fan;
   }
+  /// Whether a face stays joined: none of its vertices comes apart.
+  [[nodiscard]] bool is_latent(const IncisionFace& face) const {
+    const auto v = mesh_.vertices(face.a);
+    return std::all_of(v.begin(), v.end(),
+                       [&](VertexId x) { return copy_of(face.a.tet(), x) == copy_of(face.b.tet(), x); });
+  }
+  void unmark(Side side) {
+    std::uint8_t& bits = scratch_.incision[side.tet().value];
+    bits = static_cast<std::uint8_t>(bits & ~(1U << side.side()));
+  }
   /// Edges that need a look: kept by a face and not just the front inside the body, or in more than two incision faces,
   /// or in two and on a surface.
   void find_suspects(std::vector<std::array<VertexId, 2>>& suspects) {
     scratch_.edges.clear();
     for (const IncisionFace& face : incision_) {
+      if (is_latent(face)) {
+        unmark(face.a);
+        unmark(face.b);
+        continue;
+      }
       const auto v = mesh_.vertices(face.a);
       for (unsigned k = 0; k < 3; ++k) {
         const VertexId a = std::min(v[k], v[(k + 1) % 3]), b = std::max(v[k], v[(k + 1) % 3]);
@@ -266,6 +281,9 @@ class Separator {
                        std::vector<std::array<VertexId, 2>>& pinched) {
     std::vector<std::vector<Fan>> fans(suspects.size());
     for (const IncisionFace& face : incision_) {
+      if (!is_incision(face.a)) {
+        continue;
+      }
       const auto v = mesh_.vertices(face.a);
       for (unsigned k = 0; k < 3; ++k) {
         const std::array<VertexId, 2> key = {std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3])};

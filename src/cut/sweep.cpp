@@ -63,18 +63,89 @@ class PointGrid {
   bool is_closed_ = false;
 };
 
-void add_triangle(SweptSurface& surface, std::array<std::uint32_t, 3> points, std::size_t step, std::size_t column) {
-  if (points[0] != points[1] && points[1] != points[2] && points[2] != points[0]) {
-    surface.triangles.push_back({points, static_cast<std::uint32_t>(step), static_cast<std::uint32_t>(column)});
-  }
-}
-
-// --- self-crossing ---------------------------------------------------------------------------------------------------
-
 std::array<SosPoint, 3> corners(const SweptSurface& surface, std::uint32_t triangle) {
   const auto& p = surface.triangles[triangle].points;
   return {surface.points[p[0]], surface.points[p[1]], surface.points[p[2]]};
 }
+
+double distance2_to(const SweptSurface& surface, std::uint32_t triangle, const Vec3& point) {
+  const auto t = corners(surface, triangle);
+  return closest_on_triangle(point, t[0].position, t[1].position, t[2].position).distance2;
+}
+
+/// Lays the strips of a stroke one after the other.
+class Sweeper {
+ public:
+  Sweeper(const Stroke& stroke, double slit, SweptSurface& surface)
+      : stroke_(stroke), slit2_(slit * slit), surface_(surface), grid_(stroke, surface.points) {}
+
+  void run() {
+    std::size_t front = 0;   // the row that the last strip ended at
+    bool is_held = false;    // the blade has been in its own slit since
+    for (std::size_t row = 1; row < stroke_.edges.size(); ++row) {
+      if ((is_held || turns_back(row)) && is_in_slit(row)) {
+        is_held = true;
+        continue;
+      }
+      const bool leaves_elsewhere = is_held && would_cover(front, row);
+      lay_strip(leaves_elsewhere ? row - 1 : front, row);
+      front = row;
+      is_held = false;
+    }
+  }
+
+ private:
+  [[nodiscard]] const Vec3& place(std::size_t row, std::size_t column) const { return stroke_.edges[row][column]; }
+  /// Whether some point moves against its last motion.
+  [[nodiscard]] bool turns_back(std::size_t row) const {
+    for (std::size_t c = 0; row >= 2 && c < stroke_.edges[row].size(); ++c) {
+      if ((place(row, c) - place(row - 1, c)).dot(place(row - 1, c) - place(row - 2, c)) < 0) {
+        return true;
+      }
+    }
+    return false;
+  }
+  [[nodiscard]] bool is_swept(const Vec3& point) const {
+    for (auto t = static_cast<std::uint32_t>(surface_.triangles.size()); t-- > 0;) {
+      if (distance2_to(surface_, t, point) <= slit2_) {
+        return true;
+      }
+    }
+    return false;
+  }
+  [[nodiscard]] bool is_in_slit(std::size_t row) const {
+    return std::all_of(stroke_.edges[row].begin(), stroke_.edges[row].end(),
+                       [&](const Vec3& point) { return is_swept(point); });
+  }
+  /// Whether the strip between two rows would lie on what was swept already.
+  [[nodiscard]] bool would_cover(std::size_t from, std::size_t to) const {
+    for (std::size_t c = 0; c + 1 < stroke_.edges[to].size(); ++c) {
+      if (is_swept(0.25 * (place(from, c) + place(from, c + 1) + place(to, c) + place(to, c + 1)))) {
+        return true;
+      }
+    }
+    return false;
+  }
+  void lay_strip(std::size_t from, std::size_t to) {
+    for (std::size_t c = 0; c + 1 < stroke_.edges[to].size(); ++c) {
+      const std::uint32_t a = grid_.at(from, c), b = grid_.at(from, c + 1), d = grid_.at(to, c), e = grid_.at(to, c + 1);
+      add_triangle({a, b, e}, to - 1, c);
+      add_triangle({a, e, d}, to - 1, c);
+    }
+  }
+  void add_triangle(const std::array<std::uint32_t, 3>& points, std::size_t step, std::size_t column) {
+    if (points[0] != points[1] && points[1] != points[2] && points[2] != points[0]) {
+      surface_.triangles.push_back({points, static_cast<std::uint32_t>(step), static_cast<std::uint32_t>(column)});
+    }
+  }
+
+  const Stroke& stroke_;
+  double slit2_;
+  SweptSurface& surface_;
+  PointGrid grid_;
+};
+
+// --- self-crossing ---------------------------------------------------------------------------------------------------
 
 unsigned shared_points(const SweptTriangle& a, const SweptTriangle& b) {
   unsigned count = 0;
@@ -186,17 +257,9 @@ std::uint32_t overlap_start(const SweptSurface& surface, const std::vector<doubl
 
 }  // namespace
 
-SweptSurface sweep(const Stroke& stroke) {
+SweptSurface sweep(const Stroke& stroke, double slit) {
   SweptSurface surface;
-  const PointGrid grid(stroke, surface.points);
-  const std::size_t columns = stroke.edges[0].size();
-  for (std::size_t r = 0; r + 1 < stroke.edges.size(); ++r) {
-    for (std::size_t c = 0; c + 1 < columns; ++c) {
-      const std::uint32_t a = grid.at(r, c), b = grid.at(r, c + 1), d = grid.at(r + 1, c), e = grid.at(r + 1, c + 1);
-      add_triangle(surface, {a, b, e}, r, c);
-      add_triangle(surface, {a, e, d}, r, c);
-    }
-  }
+  Sweeper(stroke, slit, surface).run();
   return surface;
 }
 

@@ -53,7 +53,7 @@ class AbaqusReader {
       if (line.empty() || line.substr(0, 2) == "**" || line[0] != '*') continue;
       if (!card(parse_card(card_text(here)))) return false;
     }
-    return check_end() && resolve();
+    return resolve();
   }
 
  private:
@@ -86,10 +86,6 @@ class AbaqusReader {
       return rest[0] != '*';
     }
     return false;
-  }
-
-  bool check_end() {
-    return job_.bytes.back() == '\n' || in_.fail("the last line has no line end, so that the file may be cut short");
   }
 
   bool nodes() {

@@ -95,7 +95,6 @@ bool obj_index(std::string_view word, std::size_t n, std::uint32_t& out) {
 
 bool read_obj(Cursor& in, SurfaceSoup& out) {
   in.set_comment('#');
-  in.set_whole();
   while (in.skip_space()) {
     const std::string_view word = in.word_in_line();
     if (word == "v") {
@@ -124,7 +123,6 @@ bool read_off(Cursor& in, SurfaceSoup& out) {
   std::int64_t n_faces = 0;
   std::int64_t n_edges = 0;
   in.set_comment('#');
-  in.set_whole();
   const std::string_view word = in.word();
   if (word != "OFF") return in.fail("only plain OFF is read, not " + in_quotes(word));
   if (!in.integer(n_points, "number of vertices") || !in.count(n_faces, 1, "number of faces") ||

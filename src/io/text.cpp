@@ -214,10 +214,10 @@ bool Cursor::read_integer(std::string_view token, std::int64_t& out, const char*
 }
 
 bool Cursor::real(double& out, const char* what) {
-  return read_real(word(), out, what) && check_not_cut();
+  return read_real(word(), out, what);
 }
 bool Cursor::integer(std::int64_t& out, const char* what) {
-  return read_integer(word(), out, what) && check_not_cut();
+  return read_integer(word(), out, what);
 }
 bool Cursor::real_in_line(double& out, const char* what) {
   return read_real(word_in_line(), out, what);
@@ -226,13 +226,8 @@ bool Cursor::integer_in_line(std::int64_t& out, const char* what) {
   return read_integer(word_in_line(), out, what);
 }
 
-bool Cursor::check_not_cut() {
-  if (pos_ < bytes_.size() || whole_) return true;
-  return fail("the last line has no line end, so that the file may be cut short; add one if it is whole");
-}
-
 bool Cursor::end_line(const char* what) {
-  if (at_line_end()) return check_not_cut();
+  if (at_line_end()) return true;
   return fail(std::string(what) + " has more fields than it should: " + in_quotes(peek()));
 }
 

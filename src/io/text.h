@@ -45,9 +45,6 @@ class Cursor {
   /// A word that begins with this character hides the rest of its line.
   void set_comment(char c) { comment_ = c; }
 
-  /// The text is known to be whole: its last number may touch the end.
-  void set_whole() { whole_ = true; }
-
   /// The bytes are no text: errors name a byte offset instead of a line.
   void set_binary() { binary_ = true; }
 
@@ -74,7 +71,7 @@ class Cursor {
   bool integer(std::int64_t& out, const char* what);
   bool real_in_line(double& out, const char* what);
   bool integer_in_line(std::int64_t& out, const char* what);
-  /// Fails unless the line ends here, with a line end.
+  /// Fails unless the line, or the file, ends here.
   bool end_line(const char* what);
   /// A count of rows that the remaining bytes can hold: at least `fields` numbers each.
   bool count(std::int64_t& out, std::size_t fields, const char* what);
@@ -85,8 +82,6 @@ class Cursor {
 
  private:
   [[nodiscard]] bool is_separator(char c) const;
-  // A number that touches the end of the file may have lost digits.
-  bool check_not_cut();
   bool read_real(std::string_view token, double& out, const char* what);
   bool read_integer(std::string_view token, std::int64_t& out, const char* what);
 
@@ -96,7 +91,6 @@ class Cursor {
   std::size_t pos_ = 0;
   char comment_ = '\0';
   bool comma_ = false;
-  bool whole_ = false;
   bool binary_ = false;
 };
 

@@ -238,7 +238,6 @@ class VtuReader {
     if (n > (text.size() + 1) / 2) return fail_size(array, n);
     Error error;
     Cursor in(text, job_.name, error);
-    in.set_whole();
     out.resize(n);
     for (T& value : out) {
       const std::string_view word = in.word();
