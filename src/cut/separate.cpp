@@ -179,6 +179,7 @@ class Separator {
           if (scratch_.copies[next.value][corner] == 0) {
             assign(next, corner, v, copy);
             part_.push_back(next);
+            __builtin_prefetch(&mesh_.links(next));
           }
         }
       }

@@ -290,7 +290,7 @@ Constraint constraint_of(const TetMesh& mesh, VertexId vertex, const std::vector
         continue;
       }
       const Link link = mesh.links(tet)[s];
-      if (link.is_boundary() || mesh.region(link.side().tet()) != mesh.region(tet)) {
+      if (link.is_boundary() || (mesh.has_regions() && mesh.region(link.side().tet()) != mesh.region(tet))) {
         const auto face = mesh.vertices(Side(tet, s));
         const Vec3 normal =
             (mesh.rest(face[1]) - mesh.rest(face[0])).cross(mesh.rest(face[2]) - mesh.rest(face[0]));

@@ -100,6 +100,7 @@ Status TetMesh::take_tets(const TetSoup& soup) {
     }
     tet_vertices_.push_back(corners);
     tet_region_.push_back(soup.regions.empty() ? 0 : soup.regions[t]);
+    has_regions_ |= tet_region_.back() != tet_region_[TetId(0)];
   }
   tet_links_.resize(count);
   tet_generation_.resize(count, 0);

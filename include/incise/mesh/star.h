@@ -26,6 +26,7 @@ class StarWalker {
         const Link link = mesh.links(tet)[s];
         if (corners[s] != vertex && !link.is_boundary() && !is_seen(link.side().tet()) && !is_blocked(Side(tet, s))) {
           push(link.side().tet());
+          prefetch(mesh, link.side().tet());
         }
       }
     }
@@ -48,6 +49,11 @@ class StarWalker {
     marks_.ensure(std::size_t{tet.value} + 1);
     marks_[tet.value] = epoch_;
     star_.push_back(tet);
+  }
+  /// Asks for the memory that the search will look at when it comes to `tet`.
+  static void prefetch(const TetMesh& mesh, TetId tet) {
+    __builtin_prefetch(&mesh.vertices(tet));
+    __builtin_prefetch(&mesh.links(tet));
   }
 
   std::vector<TetId> star_;

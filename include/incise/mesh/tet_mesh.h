@@ -108,6 +108,8 @@ class TetMesh {
   [[nodiscard]] const TetLinks& links(TetId tet) const { return tet_links_[tet]; }
   [[nodiscard]] Link link(Side side) const { return tet_links_[side.tet()][side.side()]; }
   [[nodiscard]] std::int32_t region(TetId tet) const { return tet_region_[tet]; }
+  /// Whether the input named more than one region.
+  [[nodiscard]] bool has_regions() const { return has_regions_; }
   /// The three vertices of a side, counter-clockwise seen from outside.
   [[nodiscard]] std::array<VertexId, 3> vertices(Side side) const {
     const TetVertices& corners = tet_vertices_[side.tet()];
@@ -196,6 +198,7 @@ class TetMesh {
   ZeroedArray<std::uint32_t> edit_vertex_marks_;  // likewise
   std::vector<TetId> flat_at_load_;
   bool touched_itself_at_load_ = false;
+  bool has_regions_ = false;
   std::size_t live_tets_ = 0;
   std::size_t live_vertices_ = 0;
 };
