@@ -88,6 +88,106 @@ class LinkGraph {
   std::vector<LinkVertex> vertices_;
 };
 
+// --- where a vertex may go ---------------------------------------------------------------------------------------------
+
+/// What holds a vertex in place: the planes of the surfaces and material borders that it lies on.
+struct Constraint {
+  unsigned planes = 0;  ///< 0 free, 1 within a plane, 2 along a line, 3 not at all
+  Vec3 first = Vec3::Zero(), second = Vec3::Zero();  ///< unit normals
+};
+
+/// Normals this close are one plane; a vertex that slides in it changes no volume beyond rounding.
+constexpr double kFlat = 1e-9;
+
+void add_plane(Constraint& constraint, const Vec3& normal) {
+  const auto is_same = [&](const Vec3& n) { return n.cross(normal).squaredNorm() <= kFlat * kFlat; };
+  if (constraint.planes >= 1 && is_same(constraint.first)) return;
+  if (constraint.planes >= 2 && is_same(constraint.second)) return;
+  if (constraint.planes == 0) constraint.first = normal;
+  if (constraint.planes == 1) constraint.second = normal;
+  constraint.planes = std::min(3U, constraint.planes + 1);
+}
+
+/// The unit normal of a side, or zero for one without area.
+Vec3 unit_normal_of(const TetMesh& mesh, Side side) {
+  const auto face = mesh.vertices(side);
+  const Vec3 normal = (mesh.rest(face[1]) - mesh.rest(face[0])).cross(mesh.rest(face[2]) - mesh.rest(face[0]));
+  const double length = normal.norm();
+  return length > 0 ? Vec3(normal / length) : Vec3(Vec3::Zero());
+}
+
+Constraint constraint_of(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star) {
+  Constraint constraint;
+  if ((mesh.shape_of(vertex) & shape::kPinched) != 0) {
+    constraint.planes = 3;
+  }
+  for (const TetId tet : star) {
+    for (unsigned s = 0; s < 4 && constraint.planes < 3; ++s) {
+      if (mesh.vertices(tet)[s] == vertex) {
+        continue;
+      }
+      const Link link = mesh.links(tet)[s];
+      if (link.is_boundary() || (mesh.has_regions() && mesh.region(link.side().tet()) != mesh.region(tet))) {
+        const Vec3 normal = unit_normal_of(mesh, Side(tet, s));
+        if (!normal.isZero(0.0)) {
+          add_plane(constraint, normal);
+        }
+      }
+    }
+  }
+  return constraint;
+}
+
+/// The direction in which a constrained vertex may approach a plane with the given normal; zero for none.
+Vec3 direction_towards(const Vec3& normal, const Constraint& constraint) {
+  switch (constraint.planes) {
+    case 0:
+      return normal;
+    case 1:
+      return normal - constraint.first.dot(normal) * constraint.first;
+    case 2:
+      return constraint.first.cross(constraint.second);
+    default:
+      return Vec3::Zero();
+  }
+}
+
+struct Landing {
+  Vec3 point;
+  double distance;  ///< left between the point and the sheet
+};
+
+bool has_landed(const Landing& landing, const OnVertex& on) { return landing.distance <= 1e-9 * on.spacing; }
+
+/// Newton steps from the vertex to the sheet within its constraint; one step lands exactly on a plane.
+Landing land_on_sheet(const Vec3& start, const OnVertex& on, const Sheet& sheet, const Constraint& constraint) {
+  if (constraint.planes == 0) {
+    return {on.target, 0.0};
+  }
+  Landing landing{start, on.distance};
+  Vec3 target = on.target;
+  std::uint32_t triangle = on.triangle;
+  for (unsigned round = 0; round < 4 && landing.distance > 1e-13 * on.spacing; ++round) {
+    const Vec3 normal = sheet.normal(triangle).normalized();
+    const Vec3 direction = direction_towards(normal, constraint);
+    const double slope = direction.dot(normal);
+    if (!(std::abs(slope) > 0.1)) {
+      break;
+    }
+    const Vec3 next = landing.point + (normal.dot(target - landing.point) / slope) * direction;
+    const auto hit = sheet.tree().closest(next, on.spacing);
+    if (!hit.is_valid() || !(hit.distance2 < landing.distance * landing.distance)) {
+      break;
+    }
+    landing = {next, std::sqrt(hit.distance2)};
+    target = hit.point;
+    triangle = hit.triangle;
+  }
+  return landing;
+}
+
+// --- which vertices are close -------------------------------------------------------------------------------------------
+
 struct Candidate {
   OnVertex on;
   bool is_coincident;
@@ -97,9 +197,13 @@ struct Candidate {
   }
 };
 
-/// Snapping reaches a little further where an earlier cut already passes: its wall may have bent to a vertex by `snap`
-/// of edges that have become shorter since.
+/// Snapping reaches a little further along a wall that an earlier cut left at the same place: it may have bent to a vertex
+/// by `snap` of edges that have become shorter since.
 constexpr double kWallReach = 1.75;
+/// It reaches less far for vertices that cannot be moved onto the sheet, since the wall then bends to them.
+constexpr double kBentReach = 0.5;
+/// A wall whose normal has this cosine with the sheet's lies along it.
+constexpr double kAlong = 0.9;
 /// The vertices that snapping considers, with a way to find them by slot.
 class CloseVertices {
  public:
@@ -161,12 +265,38 @@ class CloseVertices {
     if (!hit.is_valid()) {
       return;
     }
-    link_.build(mesh_, v, walker_.star(mesh_, v), near_, [](VertexId) { return false; });
+    const std::vector<TetId>& star = walker_.star(mesh_, v);
+    link_.build(mesh_, v, star, near_, [](VertexId) { return false; });
     const double spacing = link_.mean_length(mesh_, v), distance = std::sqrt(hit.distance2);
-    if (distance <= share * spacing) {
-      close_.push_back({{v, spacing, distance, hit.point, hit.triangle}, distance <= kCoincident * spacing});
+    const OnVertex on{v, spacing, distance, hit.point, hit.triangle};
+    if (distance <= share * spacing && distance <= std::max(kCoincident, snap_ * reach_of(on, star)) * spacing) {
+      close_.push_back({on, distance <= kCoincident * spacing});
       vertices_[i].close = static_cast<std::uint32_t>(close_.size());
     }
+  }
+  /// How far snapping reaches for a vertex, as a multiple of `snap`.
+  [[nodiscard]] double reach_of(const OnVertex& on, const std::vector<TetId>& star) const {
+    if (on.distance <= kBentReach * snap_ * on.spacing) {
+      return 1.0;
+    }
+    const Constraint constraint = constraint_of(mesh_, on.vertex, star);
+    if (has_landed(land_on_sheet(mesh_.rest(on.vertex), on, sheet_, constraint), on)) {
+      return 1.0;
+    }
+    return lies_along_wall(on, star) ? kWallReach : kBentReach;
+  }
+  [[nodiscard]] bool lies_along_wall(const OnVertex& on, const std::vector<TetId>& star) const {
+    const Vec3 normal = sheet_.normal(on.triangle).normalized();
+    for (const TetId tet : star) {
+      for (unsigned s = 0; s < 4; ++s) {
+        const Link link = mesh_.links(tet)[s];
+        if (mesh_.vertices(tet)[s] != on.vertex && link.is_boundary() && link.tag() != 0 &&
+            std::abs(unit_normal_of(mesh_, Side(tet, s)).dot(normal)) > kAlong) {
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   const TetMesh& mesh_;
@@ -261,95 +391,6 @@ void mark_tets(const TetMesh& mesh, Neighbourhood& near) {
 
 // --- moving ----------------------------------------------------------------------------------------------------------
 
-/// What holds a vertex in place: the planes of the surfaces and material borders that it lies on.
-struct Constraint {
-  unsigned planes = 0;  ///< 0 free, 1 within a plane, 2 along a line, 3 not at all
-  Vec3 first = Vec3::Zero(), second = Vec3::Zero();  ///< unit normals
-};
-
-/// Normals this close are one plane; a vertex that slides in it changes no volume beyond rounding.
-constexpr double kFlat = 1e-9;
-
-void add_plane(Constraint& constraint, const Vec3& normal) {
-  const auto is_same = [&](const Vec3& n) { return n.cross(normal).squaredNorm() <= kFlat * kFlat; };
-  if (constraint.planes >= 1 && is_same(constraint.first)) return;
-  if (constraint.planes >= 2 && is_same(constraint.second)) return;
-  if (constraint.planes == 0) constraint.first = normal;
-  if (constraint.planes == 1) constraint.second = normal;
-  constraint.planes = std::min(3U, constraint.planes + 1);
-}
-
-Constraint constraint_of(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star) {
-  Constraint constraint;
-  if ((mesh.shape_of(vertex) & shape::kPinched) != 0) {
-    constraint.planes = 3;
-  }
-  for (const TetId tet : star) {
-    for (unsigned s = 0; s < 4 && constraint.planes < 3; ++s) {
-      if (mesh.vertices(tet)[s] == vertex) {
-        continue;
-      }
-      const Link link = mesh.links(tet)[s];
-      if (link.is_boundary() || (mesh.has_regions() && mesh.region(link.side().tet()) != mesh.region(tet))) {
-        const auto face = mesh.vertices(Side(tet, s));
-        const Vec3 normal =
-            (mesh.rest(face[1]) - mesh.rest(face[0])).cross(mesh.rest(face[2]) - mesh.rest(face[0]));
-        const double length = normal.norm();
-        if (length > 0) {
-          add_plane(constraint, normal / length);
-        }
-      }
-    }
-  }
-  return constraint;
-}
-
-/// The direction in which a constrained vertex may approach a plane with the given normal; zero for none.
-Vec3 direction_towards(const Vec3& normal, const Constraint& constraint) {
-  switch (constraint.planes) {
-    case 0:
-      return normal;
-    case 1:
-      return normal - constraint.first.dot(normal) * constraint.first;
-    case 2:
-      return constraint.first.cross(constraint.second);
-    default:
-      return Vec3::Zero();
-  }
-}
-
-struct Landing {
-  Vec3 point;
-  double distance;  ///< left between the point and the sheet
-};
-
-/// Newton steps from the vertex to the sheet within its constraint; one step lands exactly on a plane.
-Landing land_on_sheet(const Vec3& start, const OnVertex& on, const Sheet& sheet, const Constraint& constraint) {
-  if (constraint.planes == 0) {
-    return {on.target, 0.0};
-  }
-  Landing landing{start, on.distance};
-  Vec3 target = on.target;
-  std::uint32_t triangle = on.triangle;
-  for (unsigned round = 0; round < 4 && landing.distance > 1e-13 * on.spacing; ++round) {
-    const Vec3 normal = sheet.normal(triangle).normalized();
-    const Vec3 direction = direction_towards(normal, constraint);
-    const double slope = direction.dot(normal);
-    if (!(std::abs(slope) > 0.1)) {
-      break;
-    }
-    const Vec3 next = landing.point + (normal.dot(target - landing.point) / slope) * direction;
-    const auto hit = sheet.tree().closest(next, on.spacing);
-    if (!hit.is_valid() || !(hit.distance2 < landing.distance * landing.distance)) {
-      break;
-    }
-    landing = {next, std::sqrt(hit.distance2)};
-    target = hit.point;
-    triangle = hit.triangle;
-  }
-  return landing;
-}
-
 double volume6(const std::array<Vec3, 4>& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); }
 
 /// Whether every tet of the star keeps a quarter of its volume with the vertex moved.
@@ -431,9 +472,8 @@ std::uint64_t move_on_vertices(Transaction& transaction, const Sheet& sheet, dou
     const std::vector<TetId>& star = walker.star(mesh, on.vertex);
     const Vec3 start = mesh.rest(on.vertex);
     const Landing landing = land_on_sheet(start, on, sheet, constraint_of(mesh, on.vertex, star));
-    const bool has_landed = landing.distance <= 1e-9 * on.spacing;
     const bool is_short = (landing.point - start).norm() <= 1.5 * snap * on.spacing;
-    if (has_landed && is_short && keeps_volumes(mesh, on.vertex, landing.point, star)) {
+    if (has_landed(landing, on) && is_short && keeps_volumes(mesh, on.vertex, landing.point, star)) {
       const MaterialPoint place = locate(mesh, landing.point, star);
       transaction.move(on.vertex, landing.point, place.basis, place.weights);
     } else {

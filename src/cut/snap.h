@@ -21,8 +21,8 @@ struct OnVertex {
 
 /// Chooses the vertices that take part in the cut themselves, instead of being split beside.
 ///
-/// A vertex with a flagged edge is chosen where its distance to the sheet is at most `snap` times its mean edge length,
-/// nearest first, unless (i) a tet would get four such vertices, (ii) its flagged or unflagged neighbours are not
+/// A vertex with a flagged edge is chosen where its distance to the sheet is at most `snap` times its mean edge length
+/// (half of that where it cannot be moved onto the sheet), nearest first, unless (i) a tet would get four such vertices, (ii) its flagged or unflagged neighbours are not
 /// connected in its link (two sheets pass near it, or a bubble), or its star was not face-connected at load.
 /// Vertices within `kCoincident` are chosen regardless of (ii). Marks them in `neighbourhood`.
 /// Source: snapping before splitting as in Labelle & Shewchuk 2007 and level-set discretisation in Mmg; not in the

@@ -259,7 +259,8 @@ class Validator {
       const TetId seed = mesh_.tet_of(v);
       if (!mesh_.is_live(seed) || mesh_.corner_of(seed, v) == 4) return;
       if (walker.star(mesh_, v).size() == incident_[v.value]) return;
-      const bool is_cut = (mesh_.shape_of(v) & shape::kWall) != 0;
+      // One that the input was pinched at stays the input's, also where a cut has passed since.
+      const bool is_cut = (mesh_.shape_of(v) & shape::kWall) != 0 && (mesh_.shape_of(v) & shape::kPinched) == 0;
       note(is_cut ? ViolationKind::kSingletonCutVertex : ViolationKind::kSingletonVertex, v.value);
     });
   }
