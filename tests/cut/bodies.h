@@ -48,6 +48,18 @@ inline TetSoup needle(std::uint32_t count) {
   return soup;
 }
 
+/// A Kuhn cube and its mirror image on the same points: every place is filled twice, and faces have up to four tets.
+inline TetSoup doubled_cube(std::uint32_t n) {
+  TetSoup soup = kuhn_cube(n);
+  const std::size_t count = soup.tets.size();
+  const auto mirrored = [n](std::uint32_t v) { return v - v % (n + 1) + (n - v % (n + 1)); };
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto [a, b, c, d] = soup.tets[t];
+    soup.tets.push_back({mirrored(a), mirrored(b), mirrored(d), mirrored(c)});
+  }
+  return soup;
+}
+
 /// The same body with its points in another order.
 inline TetSoup renumbered(const TetSoup& soup, std::uint64_t seed) {
   Random random(seed);

@@ -176,5 +176,26 @@ TEST(StrokeFuzz, is_valid_in_the_paper_profile) {
   cut_with_random_strokes(jittered_cube(4, 3), {Profile::kPaper, 0.0}, 6, runs());
 }
 
+TEST(StrokeFuzz, does_not_make_overlapping_bodies_worse) {
+  for (const double snap : {0.0, 0.2}) {
+    for (unsigned run = 0; run < 2 * runs(); ++run) {
+      Random random(run + 77);
+      TetSoup soup = doubled_cube(static_cast<std::uint32_t>(random.integer(1, 4)));
+      normalise(soup);
+      Engine engine = make_engine(soup, snap);
+      const ValidityReport before = validate(engine.mesh(), ValidateLevel::kGeometry);
+      for (unsigned i = 0; i < 4; ++i) {
+        const Stroke stroke = random_stroke(random, rest_bounds(engine.mesh()));
+        SCOPED_TRACE(testing::Message() << "snap " << snap << ", run " << run << ", stroke " << i << ", " << stroke.name);
+        ASSERT_TRUE(engine.cut(stroke).ok());
+        const ValidityReport after = validate(engine.mesh(), ValidateLevel::kGeometry);
+        EXPECT_TRUE(compare_with_input(before, after).ok) << describe(after);
+        EXPECT_NEAR(after.volume, before.volume, 1e-12 * before.volume);
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace incise::test

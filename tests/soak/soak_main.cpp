@@ -2,7 +2,7 @@
 // Random strokes without end: on made meshes, or on every readable mesh of $INCISE_CORPUS/tets.
 // After each stroke: the validity contract, the input's own defects not grown in number, no drift of volume; after
 // each few strokes they are taken back and the hash must be that of the input.
-// usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME]
+// usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
 // INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given.
 #include <algorithm>
 #include <chrono>
@@ -39,7 +39,7 @@ struct Settings {
   unsigned rounds = 0;  // of made meshes
   unsigned strokes = 20;
   std::size_t max_tets = SIZE_MAX;
-  std::string only;
+  std::string only, skip;  // parts of file names
 };
 
 class Clock {
@@ -146,8 +146,9 @@ void soak(const TetMesh& mesh, const std::string& name, CutOptions options, std:
 TetSoup random_body(Random& random) {
   const auto n = static_cast<std::uint32_t>(random.integer(2, 6));
   const auto seed = static_cast<std::uint64_t>(random.integer(1, 1000));
-  switch (random.integer(0, 4)) {
+  switch (random.integer(0, 5)) {
     case 0: return kuhn_cube(n);
+    case 4: return doubled_cube(std::min(n, 4U));
     case 1: return ball(2 * std::max(2U, n / 2));
     case 2: return kuhn_box(Vec3(-3, -2, 5), Vec3(-3 + 2.0 * n, 2, 5.5), {4 * n, 8, 1});
     case 3: return renumbered(jittered_cube(n, seed), seed);
@@ -169,7 +170,9 @@ int soak_made_meshes(const Settings& settings) {
   for (unsigned round = 0; round < rounds && !clock.is_over(); ++round) {
     const std::uint64_t seed = settings.seed + round;
     Random random(seed);
-    Result<TetMesh> mesh = TetMesh::build(random_body(random));
+    TetSoup body = random_body(random);
+    normalise(body);
+    Result<TetMesh> mesh = TetMesh::build(std::move(body));
     const CutOptions options = random_options(random);
     soak(*mesh, "made mesh", options, seed, std::min(settings.strokes, 8U), clock, tally);
   }
@@ -202,7 +205,8 @@ int soak_corpus(const Settings& settings) {
   do {
     for (const fs::path& path : corpus_files(fs::path(root) / "tets")) {
       const std::string name = path.filename().string();
-      if (clock.is_over() || (!settings.only.empty() && name.find(settings.only) == std::string::npos)) continue;
+      const auto is_named = [&](const std::string& part) { return !part.empty() && name.find(part) != std::string::npos; };
+      if (clock.is_over() || (!settings.only.empty() && !is_named(settings.only)) || is_named(settings.skip)) continue;
       const Result<app::LoadedMesh> loaded = app::load_mesh(path);
       if (!loaded.ok()) continue;  // refusals are the readers' tests
       if (loaded->mesh.tet_count() == 0 || loaded->mesh.tet_count() > settings.max_tets) continue;
@@ -224,7 +228,7 @@ int soak_corpus(const Settings& settings) {
 }
 
 int usage() {
-  std::fprintf(stderr, "usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME]\n");
+  std::fprintf(stderr, "usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n");
   return 2;
 }
 
@@ -243,6 +247,8 @@ int run(int argc, char** argv) {
       settings.max_tets = number;
     } else if (key == "--only") {
       settings.only = argv[i + 1];
+    } else if (key == "--skip") {
+      settings.skip = argv[i + 1];
     } else {
       return usage();
     }
