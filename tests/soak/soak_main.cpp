@@ -77,8 +77,14 @@ struct State {
 
 State examine(const TetMesh& mesh) { return {validate(mesh, ValidateLevel::kGeometry), find_defects(to_soup(mesh))}; }
 
-/// What a cut made worse, in words; empty where nothing. The two lips of a cut coincide: duplicate vertices may grow.
-std::string what_grew(const State& before, const State& after) {
+/// Whether a cut may add to a defect: the two lips of a cut coincide, and without snapping nothing keeps a plane from
+/// shaving slivers off that are flat by their shape (though positive).
+bool may_grow(std::string_view name, const CutOptions& options) {
+  return name == "duplicate_vertices" || (name == "zero_volume" && options.snap == 0);
+}
+
+/// What a cut made worse, in words; empty where nothing.
+std::string what_grew(const State& before, const State& after, const CutOptions& options) {
   std::string text;
   const ValidityChange change = compare_with_input(before.validity, after.validity);
   for (std::size_t kind = 0; kind < kViolationKinds; ++kind) {
@@ -90,7 +96,7 @@ std::string what_grew(const State& before, const State& after) {
   if (!(drift <= kDrift)) text += " drift " + std::to_string(drift * 1e12) + "e-12";
   const std::vector<NamedDefect> old_list = list_defects(before.defects), list = list_defects(after.defects);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (list[i].name != "duplicate_vertices" && list[i].count > old_list[i].count) {
+    if (!may_grow(list[i].name, options) && list[i].count > old_list[i].count) {
       text += " " + std::string(list[i].name) + " " + std::to_string(old_list[i].count) + " → " + std::to_string(list[i].count);
     }
   }
@@ -126,7 +132,7 @@ void soak(const TetMesh& mesh, const std::string& name, CutOptions options, std:
     if (const Result<StrokeReport> report = engine->cut(stroke); !report.ok()) {
       fail(i, stroke, " " + report.error().message);
       is_broken = true;
-    } else if (const std::string grown = what_grew(before, examine(engine->mesh())); !grown.empty()) {
+    } else if (const std::string grown = what_grew(before, examine(engine->mesh()), options); !grown.empty()) {
       fail(i, stroke, grown);
       is_broken = true;
     }
@@ -146,9 +152,8 @@ void soak(const TetMesh& mesh, const std::string& name, CutOptions options, std:
 TetSoup random_body(Random& random) {
   const auto n = static_cast<std::uint32_t>(random.integer(2, 6));
   const auto seed = static_cast<std::uint64_t>(random.integer(1, 1000));
-  switch (random.integer(0, 5)) {
+  switch (random.integer(0, 4)) {
     case 0: return kuhn_cube(n);
-    case 4: return doubled_cube(std::min(n, 4U));
     case 1: return ball(2 * std::max(2U, n / 2));
     case 2: return kuhn_box(Vec3(-3, -2, 5), Vec3(-3 + 2.0 * n, 2, 5.5), {4 * n, 8, 1});
     case 3: return renumbered(jittered_cube(n, seed), seed);
@@ -170,9 +175,7 @@ int soak_made_meshes(const Settings& settings) {
   for (unsigned round = 0; round < rounds && !clock.is_over(); ++round) {
     const std::uint64_t seed = settings.seed + round;
     Random random(seed);
-    TetSoup body = random_body(random);
-    normalise(body);
-    Result<TetMesh> mesh = TetMesh::build(std::move(body));
+    Result<TetMesh> mesh = TetMesh::build(random_body(random));
     const CutOptions options = random_options(random);
     soak(*mesh, "made mesh", options, seed, std::min(settings.strokes, 8U), clock, tally);
   }
