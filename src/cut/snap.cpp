@@ -393,19 +393,26 @@ void mark_tets(const TetMesh& mesh, Neighbourhood& near) {
 
 double volume6(const std::array<Vec3, 4>& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); }
 
-/// Whether every tet of the star keeps a quarter of its volume with the vertex moved.
+/// A move changes the volume of a star by rounding alone, or not at all: overlapping input tets would not obey.
+constexpr double kVolumeTolerance = 1e-11;
+
+/// Whether every tet of the star keeps a quarter of its volume with the vertex moved, and the star all of it.
 bool keeps_volumes(const TetMesh& mesh, VertexId vertex, const Vec3& moved, const std::vector<TetId>& star) {
+  double before = 0, after = 0;
   for (const TetId tet : star) {
     std::array<Vec3, 4> p;
     for (unsigned c = 0; c < 4; ++c) {
       const VertexId v = mesh.vertices(tet)[c];
       p[c] = v == vertex ? moved : mesh.rest(v);
     }
-    if (!(volume6(p) >= 0.25 * mesh.rest_volume6(tet)) || !(volume6(p) > 0)) {
+    const double volume = volume6(p), old_volume = mesh.rest_volume6(tet);
+    if (!(volume >= 0.25 * old_volume) || !(volume > 0)) {
       return false;
     }
+    before += old_volume;
+    after += volume;
   }
-  return true;
+  return std::abs(after - before) <= kVolumeTolerance * before;
 }
 
 /// A rest point in the barycentric coordinates of a tet.

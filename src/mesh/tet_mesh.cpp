@@ -49,8 +49,8 @@ Result<TetMesh> TetMesh::build(TetSoup soup) {
   }
   soup = {};
   mesh.link_faces();
-  mesh.mark_shapes();
   mesh.find_loose_edges();
+  mesh.mark_shapes();
   return mesh;
 }
 
@@ -149,7 +149,9 @@ void TetMesh::link_faces() {
       while (next < faces.size() && faces[next].key == faces[i].key) {
         ++next;
       }
-      if (next - i == 2) {  // more than two tets on a face: a defect of the input; all its sides stay boundary
+      // More than two tets on a face are a defect of the input; all its sides stay boundary.
+      touched_itself_at_load_ |= next - i > 2;
+      if (next - i == 2) {
         const Side a = faces[i].side, b = faces[i + 1].side;
         tet_links_[a.tet()][a.side()] = Link(b);
         tet_links_[b.tet()][b.side()] = Link(a);
@@ -175,10 +177,11 @@ void TetMesh::mark_shapes() {
   StarWalker walker;
   for (std::uint32_t slot = 0; slot < vertex_slots(); ++slot) {
     const VertexId v(slot);
-    if (!is_skin[slot]) {
-      continue;  // a vertex without boundary sides has a closed star
+    // A vertex inside has one closed star, unless the input's parts overlap.
+    if (!is_skin[slot] && !touched_itself_at_load_) {
+      continue;
     }
-    vertex_shape_[v] = shape::kSkin;
+    vertex_shape_[v] = is_skin[slot] ? shape::kSkin : 0;
     if (walker.star(*this, v).size() != incident[slot]) {
       vertex_shape_[v] |= shape::kPinched;
       touched_itself_at_load_ = true;
