@@ -5,22 +5,22 @@ namespace incise::inline v0 {
 namespace io {
 namespace {
 
-bool is_tet(std::int64_t type) {
+bool is_tet(CellInt type) {
   return type == kVtkTet || type == kVtkTet10;
 }
 
-std::int64_t nodes_of(std::int64_t type) {
+CellInt nodes_of(CellInt type) {
   return type == kVtkTriangle ? 3 : type == kVtkTet ? 4 : type == kVtkTet10 ? 10 : 0;
 }
 
 }  // namespace
 
-bool CellSorter::fail_index(std::int64_t vertex, std::size_t n) {
+bool CellSorter::fail_index(CellInt vertex, std::size_t n) {
   return job_.fail("a cell names vertex " + std::to_string(vertex) + " (from 0) of " + std::to_string(n) +
                    "; export the mesh again");
 }
 
-bool CellSorter::add_tet(const std::int64_t* nodes, std::size_t n_nodes, std::size_t first_vertex,
+bool CellSorter::add_tet(const CellInt* nodes, std::size_t n_nodes, std::size_t first_vertex,
                          std::size_t n_vertices) {
   std::array<std::uint32_t, 10> row = {};
   for (std::size_t k = 0; k < n_nodes; ++k) {
@@ -34,8 +34,8 @@ bool CellSorter::add_tet(const std::int64_t* nodes, std::size_t n_nodes, std::si
   return true;
 }
 
-bool CellSorter::add(const std::vector<std::int64_t>& types, const std::vector<std::int64_t>& offsets,
-                     const std::vector<std::int64_t>& connectivity, std::size_t first_vertex, std::size_t n_vertices) {
+bool CellSorter::add(const std::vector<CellInt>& types, const std::vector<CellInt>& offsets,
+                     const std::vector<CellInt>& connectivity, std::size_t first_vertex, std::size_t n_vertices) {
   auto& data = job_.out.data;
   if (offsets.size() != types.size() + 1) return job_.fail("the numbers of cells and of cell types differ");
   types_ = types;
@@ -44,18 +44,18 @@ bool CellSorter::add(const std::vector<std::int64_t>& types, const std::vector<s
   region_rank_ = 0;
   data.soup.tets.reserve(data.soup.tets.size() + types.size());
   for (std::size_t c = 0; c < types.size(); ++c) {
-    const std::int64_t begin = offsets[c];
-    const std::int64_t end = offsets[c + 1];
+    const CellInt begin = offsets[c];
+    const CellInt end = offsets[c + 1];
     if (begin < 0 || end < begin || static_cast<std::uint64_t>(end) > connectivity.size()) {
       return job_.fail("cell " + std::to_string(c) + " has offsets " + std::to_string(begin) + " to " +
                        std::to_string(end) + " outside the connectivity; export the mesh again");
     }
-    const std::int64_t expected = nodes_of(types[c]);
+    const CellInt expected = nodes_of(types[c]);
     if (expected != 0 && end - begin != expected) {
       return job_.fail("cell " + std::to_string(c) + " of type " + std::to_string(types[c]) + " has " +
                        std::to_string(end - begin) + " vertices; export the mesh again");
     }
-    const std::int64_t* nodes = connectivity.data() + begin;
+    const CellInt* nodes = connectivity.data() + begin;
     if (is_tet(types[c])) {
       if (!add_tet(nodes, static_cast<std::size_t>(expected), first_vertex, n_vertices)) return false;
     } else if (types[c] == kVtkTriangle) {

@@ -12,9 +12,13 @@
 namespace incise::inline v0 {
 namespace io {
 
-inline constexpr std::int64_t kVtkTriangle = 5;
-inline constexpr std::int64_t kVtkTet = 10;
-inline constexpr std::int64_t kVtkTet10 = 24;
+/// Numbers of cells as files hold them; those that do not fit become -1, which no cell may hold.
+using CellInt = std::int32_t;
+constexpr CellInt to_cell_int(std::int64_t n) { return n == static_cast<CellInt>(n) ? static_cast<CellInt>(n) : -1; }
+
+inline constexpr CellInt kVtkTriangle = 5;
+inline constexpr CellInt kVtkTet = 10;
+inline constexpr CellInt kVtkTet10 = 24;
 
 /// Sorts cells into tets and triangles, and the labels of cells likewise.
 class CellSorter {
@@ -22,8 +26,8 @@ class CellSorter {
   explicit CellSorter(Job& job) : job_(job) {}
 
   /// Append cells: `offsets` has one entry more than `types`; vertex numbers count from `first_vertex`.
-  bool add(const std::vector<std::int64_t>& types, const std::vector<std::int64_t>& offsets,
-           const std::vector<std::int64_t>& connectivity, std::size_t first_vertex, std::size_t n_vertices);
+  bool add(const std::vector<CellInt>& types, const std::vector<CellInt>& offsets,
+           const std::vector<CellInt>& connectivity, std::size_t first_vertex, std::size_t n_vertices);
 
   /// Whether an array of this name is of use.
   [[nodiscard]] static bool wants_cell_array(std::string_view name);
@@ -37,13 +41,13 @@ class CellSorter {
   void finish_notes();
 
  private:
-  bool fail_index(std::int64_t vertex, std::size_t n);
-  bool add_tet(const std::int64_t* nodes, std::size_t n_nodes, std::size_t first_vertex, std::size_t n_vertices);
+  bool fail_index(CellInt vertex, std::size_t n);
+  bool add_tet(const CellInt* nodes, std::size_t n_nodes, std::size_t first_vertex, std::size_t n_vertices);
   void put(std::vector<std::int32_t>& labels, std::size_t i, double value);
 
   Job& job_;
   std::vector<std::uint32_t> slot_;  // per cell of the last block: position among the tets or the triangles
-  std::vector<std::int64_t> types_;
+  std::vector<CellInt> types_;
   int region_rank_ = 0;
   std::uint64_t skipped_ = 0;
   std::uint64_t fractions_ = 0;

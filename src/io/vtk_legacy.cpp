@@ -52,9 +52,14 @@ T decode(const char* p, const TypeInfo& type) {
     std::memcpy(&value, &bits, sizeof value);
     return static_cast<T>(value);
   }
-  if (type.kind == Kind::kUnsigned || type.bytes == 8) return static_cast<T>(static_cast<std::int64_t>(bits));
   const std::uint64_t sign = std::uint64_t{1} << (8 * type.bytes - 1);
-  return static_cast<T>(static_cast<std::int64_t>((bits ^ sign) - sign));
+  const bool is_signed = type.kind != Kind::kUnsigned && type.bytes < 8;
+  const auto number = static_cast<std::int64_t>(is_signed ? (bits ^ sign) - sign : bits);
+  if constexpr (std::is_same_v<T, CellInt>) {
+    return to_cell_int(number);
+  } else {
+    return static_cast<T>(number);
+  }
 }
 
 class VtkReader {
@@ -149,7 +154,12 @@ class VtkReader {
     return true;
   }
   bool ascii_value(double& out) { return in_.real(out, "number"); }
-  bool ascii_value(std::int64_t& out) { return in_.integer(out, "integer"); }
+  bool ascii_value(CellInt& out) {
+    std::int64_t wide = 0;
+    const bool is_number = in_.integer(wide, "integer");
+    out = to_cell_int(wide);
+    return is_number;
+  }
 
   // Arrays of no use here may hold anything, NaN included.
   bool skip_values(std::size_t n, const TypeInfo& type) {
@@ -201,7 +211,7 @@ class VtkReader {
     const bool split = same_word(in_.peek().substr(0, 7), "OFFSETS");
     if (split) return split_cells(static_cast<std::size_t>(n), static_cast<std::size_t>(total));
     in_.seek(here);
-    std::vector<std::int64_t> flat;
+    std::vector<CellInt> flat;
     if (!values(static_cast<std::size_t>(total), kTypes[6], flat)) return false;
     return unpack_cells(static_cast<std::size_t>(n), flat);
   }
@@ -217,18 +227,18 @@ class VtkReader {
   }
 
   // Before version 5: a count and that many indices per cell. The counts are squeezed out in place.
-  bool unpack_cells(std::size_t n, std::vector<std::int64_t>& flat) {
+  bool unpack_cells(std::size_t n, std::vector<CellInt>& flat) {
     std::size_t from = 0;
     std::size_t to = 0;
     offsets_.reserve(n + 1);
     offsets_.push_back(0);
     for (std::size_t c = 0; c < n; ++c) {
-      const std::int64_t nodes = from < flat.size() ? flat[from++] : -1;
+      const CellInt nodes = from < flat.size() ? flat[from++] : -1;
       if (nodes < 0 || static_cast<std::uint64_t>(nodes) > flat.size() - from) {
         return in_.fail("cell " + std::to_string(c) + " runs past the end of CELLS: the size in its header is wrong");
       }
-      for (std::int64_t k = 0; k < nodes; ++k) flat[to++] = flat[from++];
-      offsets_.push_back(static_cast<std::int64_t>(to));
+      for (CellInt k = 0; k < nodes; ++k) flat[to++] = flat[from++];
+      offsets_.push_back(static_cast<CellInt>(to));
     }
     if (from != flat.size()) return in_.fail("CELLS holds more numbers than its cells use");
     flat.resize(to);
@@ -359,9 +369,9 @@ class VtkReader {
   bool of_cells_ = false;
   bool sorted_ = false;
   std::size_t n_data_ = 0;
-  std::vector<std::int64_t> types_;
-  std::vector<std::int64_t> offsets_;
-  std::vector<std::int64_t> connectivity_;
+  std::vector<CellInt> types_;
+  std::vector<CellInt> offsets_;
+  std::vector<CellInt> connectivity_;
 };
 
 }  // namespace

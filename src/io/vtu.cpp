@@ -58,9 +58,14 @@ T decode(const char* p, const ScalarType& type, bool big) {
     std::memcpy(&value, &bits, sizeof value);
     return static_cast<T>(value);
   }
-  if (type.kind == 'u' || type.bytes == 8) return static_cast<T>(static_cast<std::int64_t>(bits));
   const std::uint64_t sign = std::uint64_t{1} << (8 * type.bytes - 1);
-  return static_cast<T>(static_cast<std::int64_t>((bits ^ sign) - sign));
+  const bool is_signed = type.kind != 'u' && type.bytes < 8;
+  const auto number = static_cast<std::int64_t>(is_signed ? (bits ^ sign) - sign : bits);
+  if constexpr (std::is_same_v<T, CellInt>) {
+    return to_cell_int(number);
+  } else {
+    return static_cast<T>(number);
+  }
 }
 
 // Where the appended section is, if there is one.
@@ -180,9 +185,9 @@ class VtuReader {
       // A piece of points only has nothing to cut; other pieces may.
       return n_cells == 0 || fail(piece, "Cells must hold connectivity, offsets and types");
     }
-    std::vector<std::int64_t> type_of;
-    std::vector<std::int64_t> begin;
-    std::vector<std::int64_t> vertex;
+    std::vector<CellInt> type_of;
+    std::vector<CellInt> begin;
+    std::vector<CellInt> vertex;
     if (!read_array(types, n_cells, type_of) || !read_array(offsets, n_cells, begin)) return false;
     begin.insert(begin.begin(), 0);
     if (begin.back() < 0) return fail(offsets, "the last offset is negative");
@@ -250,7 +255,12 @@ class VtuReader {
     return !in.skip_space() || fail_size(array, n);
   }
   static bool parse_value(std::string_view word, double& out) { return parse_double(word, out); }
-  static bool parse_value(std::string_view word, std::int64_t& out) { return parse_int(word, out); }
+  static bool parse_value(std::string_view word, CellInt& out) {
+    std::int64_t wide = 0;
+    const bool is_number = parse_int(word, wide);
+    out = to_cell_int(wide);
+    return is_number;
+  }
 
   bool fail_size(const pugi::xml_node& array, std::size_t n) {
     return fail(array, "DataArray " + in_quotes(array.attribute("Name").value()) + " must hold " + std::to_string(n) +
