@@ -333,5 +333,19 @@ TEST_P(Strokes, fifty_partial_and_curved_ones_after_another_stay_valid) {
   expect_valid(engine.mesh(), volume);
 }
 
+// --- defects of the input --------------------------------------------------------------------------------------------------------------
+
+TEST(FlatTets, stay_whole_where_a_blade_crosses_them_once_or_twice) {
+  TetSoup soup;
+  soup.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 1e-13)};
+  soup.tets = {{0, 1, 2, 3}};
+  const std::vector<Vec3> path = {Vec3(0.3, kHigh, 0), Vec3(0.3, kLow, 0), Vec3(0.6, kLow, 0), Vec3(0.6, kHigh, 0)};
+  for (const Stroke& stroke : {profile_stroke(path, kLow, kHigh), path_stroke({path[0], path[1]}, kLow, kHigh)}) {
+    Engine engine = make_engine(soup);
+    ASSERT_TRUE(engine.cut(stroke).ok());
+    EXPECT_EQ(engine.mesh().tet_count(), 1U);
+  }
+}
+
 }  // namespace
 }  // namespace incise::test
