@@ -312,8 +312,9 @@ class Separator {
       return false;
     }
     const SplitEdgePlan plan = plan_split_edge(mesh_, a, b, face->a.tet(), 0.5);
-    if (!plan) {
-      return false;
+    if (!plan) {  // a flat tet at the edge cannot be divided: the incision leaves the edge out
+      std::erase_if(incision_, contains);
+      return true;
     }
     std::vector<IncisionFace> halved;
     std::vector<IncisionFace> kept;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "incise/geom/quality.h"
+
 namespace incise::inline v0 {
 
 namespace {
@@ -406,7 +408,7 @@ bool keeps_volumes(const TetMesh& mesh, VertexId vertex, const Vec3& moved, cons
       p[c] = v == vertex ? moved : mesh.rest(v);
     }
     const double volume = volume6(p), old_volume = mesh.rest_volume6(tet);
-    if (!(volume >= 0.25 * old_volume) || !(volume > 0)) {
+    if (!(volume >= 0.25 * old_volume) || is_flat(p[0], p[1], p[2], p[3])) {
       return false;
     }
     before += old_volume;

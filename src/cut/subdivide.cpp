@@ -2,34 +2,22 @@
 #include "cut/subdivide.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cut/crossing.h"
 #include "incise/geom/predicates.h"
+#include "incise/geom/quality.h"
 
 namespace incise::inline v0 {
 
 namespace {
 
 constexpr unsigned kFirstSplitCode = 4;
-/// A tet with |volume| at most this share of its longest edge cubed counts as flat (the definition of `find_defects`).
-constexpr double kFlatShare = 1e-12;
-
 using Corners = std::array<Vec3, 4>;
 
 int orientation(const Corners& p) { return orient3d(p[0], p[1], p[2], p[3]); }
 
-bool is_flat(const Corners& p) {
-  double longest2 = 0;
-  for (const auto& [a, b] : kEdgeCorners) {
-    longest2 = std::max(longest2, (p[b] - p[a]).squaredNorm());
-  }
-  const double volume6 = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
-  return !(volume6 > 6.0 * kFlatShare * longest2 * std::sqrt(longest2));
-}
-
 bool is_sound(const Corners& p, bool keeps_shape_floor) {
-  return orientation(p) > 0 && !(keeps_shape_floor && is_flat(p));
+  return orientation(p) > 0 && !(keeps_shape_floor && is_flat(p[0], p[1], p[2], p[3]));
 }
 
 /// Whether a flagged edge needs a split point: neither end takes part in the cut itself.

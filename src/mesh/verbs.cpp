@@ -7,19 +7,20 @@
 #include <utility>
 
 #include "incise/geom/predicates.h"
+#include "incise/geom/quality.h"
 #include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
 
 namespace {
 
-/// Positions of a tet with one corner replaced have positive volume.
-bool is_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& moved) {
+/// Whether a tet has a volume to speak of with one corner moved.
+bool is_sound_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& moved) {
   std::array<Vec3, 4> p;
   for (unsigned c = 0; c < 4; ++c) {
     p[c] = c == corner ? moved : mesh.rest(mesh.vertices(tet)[c]);
   }
-  return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]) > 0;
+  return !is_flat(p[0], p[1], p[2], p[3]);
 }
 
 /// The boundary bits that a point of an edge inherits: those of the surfaces that both ends of the fan lie on.
@@ -128,8 +129,8 @@ SplitEdgePlan plan_split_edge(const TetMesh& mesh, VertexId a, VertexId b, TetId
   const Vec3 point = mesh.rest(a) + t * (mesh.rest(b) - mesh.rest(a));
   walk_edge_ring(mesh, a, b, seed, [](Side) { return false; }, [&](TetId tet) {
     plan.ring.push_back(tet);
-    if (!is_positive_with(mesh, tet, mesh.corner_of(tet, a), point) ||
-        !is_positive_with(mesh, tet, mesh.corner_of(tet, b), point)) {
+    if (!is_sound_with(mesh, tet, mesh.corner_of(tet, a), point) ||
+        !is_sound_with(mesh, tet, mesh.corner_of(tet, b), point)) {
       plan.refusal = Refusal::kWouldInvert;
     }
   });
