@@ -24,6 +24,22 @@ struct LinkVertex {
   std::uint32_t parent;
 };
 
+/// Mean distance from a vertex to its neighbours. `scratch` is overwritten.
+double mean_edge_length(const TetMesh& mesh, VertexId centre, const std::vector<TetId>& star,
+                        std::vector<VertexId>& scratch) {
+  scratch.clear();
+  double sum = 0;
+  for (const TetId tet : star) {
+    for (const VertexId v : mesh.vertices(tet)) {
+      if (v != centre && std::find(scratch.begin(), scratch.end(), v) == scratch.end()) {
+        scratch.push_back(v);
+        sum += (mesh.rest(v) - mesh.rest(centre)).norm();
+      }
+    }
+  }
+  return sum / static_cast<double>(scratch.size());
+}
+
 /// The link of a vertex: its neighbours, joined where a tet of the star joins them.
 class LinkGraph {
  public:
@@ -50,14 +66,6 @@ class LinkGraph {
         }
       }
     }
-  }
-  /// Mean distance from the centre to its neighbours.
-  [[nodiscard]] double mean_length(const TetMesh& mesh, VertexId centre) const {
-    double sum = 0;
-    for (const LinkVertex& v : vertices_) {
-      sum += (mesh.rest(v.vertex) - mesh.rest(centre)).norm();
-    }
-    return sum / static_cast<double>(vertices_.size());
   }
   /// Whether the neighbours on either side of the sheet form at most one connected part each.
   [[nodiscard]] bool has_two_parts_at_most() {
@@ -268,8 +276,7 @@ class CloseVertices {
       return;
     }
     const std::vector<TetId>& star = walker_.star(mesh_, v);
-    link_.build(mesh_, v, star, near_, [](VertexId) { return false; });
-    const double spacing = link_.mean_length(mesh_, v), distance = std::sqrt(hit.distance2);
+    const double spacing = mean_edge_length(mesh_, v, star, neighbours_), distance = std::sqrt(hit.distance2);
     const OnVertex on{v, spacing, distance, hit.point, hit.triangle};
     if (distance <= share * spacing && distance <= std::max(kCoincident, snap_ * reach_of(on, star)) * spacing) {
       close_.push_back({on, distance <= kCoincident * spacing});
@@ -306,13 +313,16 @@ class CloseVertices {
   double snap_;
   Neighbourhood& near_;
   StarWalker& walker_;
-  LinkGraph link_;
+  std::vector<VertexId> neighbours_;
   std::vector<Noted> vertices_;
   std::vector<Candidate> close_;
 };
 
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
 bool is_on_same_part(const Sheet& sheet, const OnVertex& a, const OnVertex& b) {
+  if (a.triangle == b.triangle) {
+    return true;
+  }
   const Vec3 n = sheet.normal(a.triangle).normalized(), m = sheet.normal(b.triangle).normalized();
   return n.dot(m) > 0.3 && std::abs(n.dot(b.target - a.target)) <= 0.3 * a.spacing;
 }
@@ -442,6 +452,9 @@ MaterialPoint locate(const TetMesh& mesh, const Vec3& rest_point, const std::vec
     if (least > greatest) {
       greatest = least;
       best = {v, weights};
+    }
+    if (least >= 0) {
+      break;
     }
   }
   return best;

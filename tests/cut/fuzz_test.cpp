@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random planes against convex clipping, and random strokes against the validity contract.
-// INCISE_FUZZ_RUNS is the number of runs per case: 5 unless told, 100 for the whole campaign.
+// INCISE_FUZZ_RUNS is the number of runs per case: 10 unless told, 100 for the whole campaign.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 unsigned runs() {
   const char* text = std::getenv("INCISE_FUZZ_RUNS");
-  return text == nullptr ? 5U : static_cast<unsigned>(std::atoi(text));
+  return text == nullptr ? 10U : static_cast<unsigned>(std::atoi(text));
 }
 
 /// The bunny takes longer; the whole campaign gives it as many.
