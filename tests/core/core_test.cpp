@@ -87,7 +87,9 @@ TEST(ZeroedArray, is_zero_wherever_nothing_was_written) {
 }
 
 template <class Array, class Index>
-constexpr bool kIsIndexable = requires(Array& array, Index index) { array[index]; };
+constexpr bool kIsIndexable = requires(Array& array, Index index) {
+  array[index];
+};
 
 TEST(IdArray, is_indexed_by_its_own_id) {
   IdArray<TetId, int> array;

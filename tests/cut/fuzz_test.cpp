@@ -25,7 +25,9 @@ unsigned runs() {
 }
 
 /// The bunny takes longer; the whole campaign gives it as many.
-unsigned bunny_runs() { return runs() >= 100 ? runs() : std::max(1U, runs() / 3); }
+unsigned bunny_runs() {
+  return runs() >= 100 ? runs() : std::max(1U, runs() / 3);
+}
 
 std::vector<oracle::Plane> random_planes(Random& random, const Box& box, std::size_t count) {
   std::vector<oracle::Plane> planes;
@@ -98,13 +100,15 @@ void cut_at_the_default(const TetSoup& soup, std::uint64_t seed, unsigned n_runs
 
 std::filesystem::path bunny_path() {
   const char* corpus = std::getenv("INCISE_CORPUS");
-  const std::filesystem::path real = std::filesystem::path(corpus == nullptr ? "" : corpus) / "tets/paper_bunny_10668.ele";
+  const std::filesystem::path real =
+      std::filesystem::path(corpus == nullptr ? "" : corpus) / "tets/paper_bunny_10668.ele";
   return corpus != nullptr && std::filesystem::exists(real) ? real : std::filesystem::path("models/bunny.mesh");
 }
 
 /// The bunny where there is one, else nothing.
 TetSoup bunny() {
-  for (const std::filesystem::path& path : {bunny_path(), std::filesystem::path(INCISE_SOURCE_DIR) / "models/bunny.mesh"}) {
+  for (const std::filesystem::path& path :
+       {bunny_path(), std::filesystem::path(INCISE_SOURCE_DIR) / "models/bunny.mesh"}) {
     if (!std::filesystem::exists(path)) continue;
     Result<io::MeshFile> file = io::read_mesh(path);
     if (!file.ok()) continue;
@@ -114,7 +118,9 @@ TetSoup bunny() {
   return {};
 }
 
-TEST(PlaneFuzz, on_a_kuhn_cube_gives_the_oracles_pieces_without_snapping) { compare_with_oracle(kuhn_cube(5), 1, runs()); }
+TEST(PlaneFuzz, on_a_kuhn_cube_gives_the_oracles_pieces_without_snapping) {
+  compare_with_oracle(kuhn_cube(5), 1, runs());
+}
 TEST(PlaneFuzz, on_an_unstructured_cube_gives_the_oracles_pieces_without_snapping) {
   compare_with_oracle(jittered_cube(5, 7), 2, runs());
 }
@@ -123,8 +129,12 @@ TEST(PlaneFuzz, on_the_bunny_gives_the_oracles_pieces_without_snapping) {
   if (soup.tets.empty()) GTEST_SKIP() << "no models/bunny.mesh and no INCISE_CORPUS: the bunny is not cut";
   compare_with_oracle(soup, 3, bunny_runs());
 }
-TEST(PlaneFuzz, on_a_kuhn_cube_is_valid_at_the_default) { cut_at_the_default(kuhn_cube(5), 1, runs()); }
-TEST(PlaneFuzz, on_an_unstructured_cube_is_valid_at_the_default) { cut_at_the_default(jittered_cube(5, 7), 2, runs()); }
+TEST(PlaneFuzz, on_a_kuhn_cube_is_valid_at_the_default) {
+  cut_at_the_default(kuhn_cube(5), 1, runs());
+}
+TEST(PlaneFuzz, on_an_unstructured_cube_is_valid_at_the_default) {
+  cut_at_the_default(jittered_cube(5, 7), 2, runs());
+}
 TEST(PlaneFuzz, on_the_bunny_is_valid_at_the_default) {
   const TetSoup soup = bunny();
   if (soup.tets.empty()) GTEST_SKIP() << "no models/bunny.mesh and no INCISE_CORPUS: the bunny is not cut";
@@ -186,7 +196,8 @@ TEST(StrokeFuzz, does_not_make_overlapping_bodies_worse) {
       const ValidityReport before = validate(engine.mesh(), ValidateLevel::kGeometry);
       for (unsigned i = 0; i < 4; ++i) {
         const Stroke stroke = random_stroke(random, rest_bounds(engine.mesh()));
-        SCOPED_TRACE(testing::Message() << "snap " << snap << ", run " << run << ", stroke " << i << ", " << stroke.name);
+        SCOPED_TRACE(testing::Message() << "snap " << snap << ", run " << run << ", stroke " << i << ", "
+                                        << stroke.name);
         ASSERT_TRUE(engine.cut(stroke).ok());
         const ValidityReport after = validate(engine.mesh(), ValidateLevel::kGeometry);
         EXPECT_TRUE(compare_with_input(before, after).ok) << describe(after);

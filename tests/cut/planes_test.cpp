@@ -19,7 +19,8 @@ class BothProfiles : public testing::TestWithParam<Profile> {};
 INSTANTIATE_TEST_SUITE_P(profiles, BothProfiles, testing::Values(Profile::kPaper, Profile::kIncise),
                          [](const auto& setting) { return setting.param == Profile::kPaper ? "paper" : "incise"; });
 
-// --- T1: an axis plane through the middle of a layer ------------------------------------------------------------------
+// --- T1: an axis plane through the middle of a layer
+// ------------------------------------------------------------------
 
 void expect_mid_layer_cut(std::uint32_t n, int axis, double snap, Profile profile) {
   SCOPED_TRACE(testing::Message() << "n " << n << ", axis " << axis << ", snap " << snap);
@@ -70,7 +71,9 @@ void expect_cut_along_faces(const Vec3& normal, double offset) {
   }
 }
 
-TEST(Planes, in_mesh_faces_open_them_without_a_new_tet) { expect_cut_along_faces(Vec3(1, 0, 0), 0.4); }
+TEST(Planes, in_mesh_faces_open_them_without_a_new_tet) {
+  expect_cut_along_faces(Vec3(1, 0, 0), 0.4);
+}
 
 TEST(Planes, one_unit_in_the_last_place_beside_mesh_faces_open_them_without_a_new_tet) {
   expect_cut_along_faces(Vec3(1, 0, 0), std::nextafter(0.4, 1.0));
@@ -94,7 +97,8 @@ TEST(Planes, in_mesh_faces_cut_validly_without_snapping_and_in_the_paper_profile
   }
 }
 
-// --- T3: planes along the diagonals of the grid -------------------------------------------------------------------------
+// --- T3: planes along the diagonals of the grid
+// -------------------------------------------------------------------------
 
 TEST(Planes, through_grid_vertices_halve_the_cube) {
   for (const std::uint32_t n : {4U, 5U}) {
@@ -128,7 +132,8 @@ TEST(Planes, swept_by_a_blade_whose_points_are_mesh_vertices_halve_the_cube) {
   }
 }
 
-// --- T4: planes through three mesh vertices ------------------------------------------------------------------------------
+// --- T4: planes through three mesh vertices
+// ------------------------------------------------------------------------------
 
 struct ThreePoints {
   Stroke stroke;
@@ -140,7 +145,8 @@ ThreePoints through_three_points(const TetSoup& soup, Random& random) {
   while (true) {
     std::array<Vec3, 3> p;
     for (Vec3& point : p) {
-      point = soup.points[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(soup.points.size()) - 1))];
+      point =
+          soup.points[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(soup.points.size()) - 1))];
     }
     const Vec3 u = p[1] - p[0], v = p[2] - p[0];
     if (u.cross(v).norm() < 1e-9) continue;
@@ -185,7 +191,8 @@ TEST(Planes, through_three_scattered_points_give_sound_tets_at_the_default) {
   cut_through_three_points(jittered_cube(4, 4), 0.2, 200, 4);
 }
 
-// --- T11, T13: crossing cuts ------------------------------------------------------------------------------------------------
+// --- T11, T13: crossing cuts
+// ------------------------------------------------------------------------------------------------
 
 TEST(Planes, that_cross_in_time_order_give_four_pieces) {
   for (const double snap : {0.0, 0.1, 0.2}) {
@@ -217,7 +224,8 @@ TEST(Planes, in_three_directions_give_eight_pieces) {
   }
 }
 
-// --- T21: the same place again ------------------------------------------------------------------------------------------------
+// --- T21: the same place again
+// ------------------------------------------------------------------------------------------------
 
 TEST(Planes, cut_again_at_the_same_place_change_nothing) {
   struct Case {
@@ -238,14 +246,15 @@ TEST(Planes, cut_again_at_the_same_place_change_nothing) {
   }
 }
 
-// --- T26: blades at vertices, edges and corners --------------------------------------------------------------------------------
+// --- T26: blades at vertices, edges and corners
+// --------------------------------------------------------------------------------
 
 TEST(Planes, that_touch_a_corner_edge_or_face_of_the_cube_take_nothing_off) {
   for (const double snap : {0.0, 0.2}) {
     SCOPED_TRACE(snap);
-    for (const auto& [normal, offset] : {std::pair(Vec3(1, 1, 1), 0.0), std::pair(Vec3(1, 1, 1), 3.0),
-                                         std::pair(Vec3(1, 1, 0), 0.0), std::pair(Vec3(1, 0, 0), 0.0),
-                                         std::pair(Vec3(0, 0, 1), 1.0)}) {
+    for (const auto& [normal, offset] :
+         {std::pair(Vec3(1, 1, 1), 0.0), std::pair(Vec3(1, 1, 1), 3.0), std::pair(Vec3(1, 1, 0), 0.0),
+          std::pair(Vec3(1, 0, 0), 0.0), std::pair(Vec3(0, 0, 1), 1.0)}) {
       Engine engine = make_engine(kuhn_cube(4), snap);
       cut(engine, plane(engine, normal, offset));
       EXPECT_EQ(find_components(engine.mesh()).count(), 1U) << normal.transpose() << " " << offset;
@@ -276,7 +285,8 @@ TEST(Planes, through_a_vertex_an_edge_or_a_corner_give_two_pieces) {
   }
 }
 
-// --- T27, T28: thin and curved bodies --------------------------------------------------------------------------------------------
+// --- T27, T28: thin and curved bodies
+// --------------------------------------------------------------------------------------------
 
 TEST_P(BothProfiles, cut_a_plate_one_element_thick_in_two) {
   for (const double snap : {0.0, 0.2}) {
@@ -310,7 +320,8 @@ TEST_P(BothProfiles, cut_a_body_with_a_curved_skin_without_drift) {
   expect_valid(engine.mesh(), volume, 1e-12);
 }
 
-// --- T35: numbering --------------------------------------------------------------------------------------------------------------
+// --- T35: numbering
+// --------------------------------------------------------------------------------------------------------------
 
 TEST(Planes, do_not_depend_on_the_numbers_of_the_vertices) {
   for (const TetSoup& soup : {kuhn_cube(4), jittered_cube(4, 5)}) {

@@ -54,18 +54,28 @@ inline Stroke random_stroke(Random& random, const Box& box) {
   }
   Stroke stroke;
   switch (kind) {
-    case 0: stroke = quad_stroke(Vec3(-1, 0, -1), Vec3(-1, 0, 1), Vec3(1, 0, -1), Vec3(1, 0, 1)); break;
-    case 1: stroke = profile_stroke(path, -0.7, 0.7); break;
-    case 2: stroke = coring_stroke(Vec3(0, 0, 0), random.real(0.06, 0.3), 24, -0.7, 0.7); break;
+    case 0:
+      stroke = quad_stroke(Vec3(-1, 0, -1), Vec3(-1, 0, 1), Vec3(1, 0, -1), Vec3(1, 0, 1));
+      break;
+    case 1:
+      stroke = profile_stroke(path, -0.7, 0.7);
+      break;
+    case 2:
+      stroke = coring_stroke(Vec3(0, 0, 0), random.real(0.06, 0.3), 24, -0.7, 0.7);
+      break;
     case 3:
       stroke = path_stroke(path, -0.7, 0.7);
       stroke = followed_by(stroke, reversed(stroke));
       break;
-    case 4: stroke = path_stroke(path, random.real(-0.3, 0.1), 0.7); break;
-    case 5: stroke = coring_stroke(Vec3(0, 0, 0), random.real(0.06, 0.3), 24, random.real(-0.2, 0.2), 0.7); break;
+    case 4:
+      stroke = path_stroke(path, random.real(-0.3, 0.1), 0.7);
+      break;
+    case 5:
+      stroke = coring_stroke(Vec3(0, 0, 0), random.real(0.06, 0.3), 24, random.real(-0.2, 0.2), 0.7);
+      break;
     default:
-      stroke = path_stroke({Vec3(-0.7, 0, 0), Vec3(0.1, 0, 0), Vec3(0.1, random.real(0.02, 0.2), 0), Vec3(-0.2, -0.3, 0)},
-                           -0.7, 0.7);
+      stroke = path_stroke(
+          {Vec3(-0.7, 0, 0), Vec3(0.1, 0, 0), Vec3(0.1, random.real(0.02, 0.2), 0), Vec3(-0.2, -0.3, 0)}, -0.7, 0.7);
   }
   stroke = placement.place(std::move(stroke));
   stroke.name = "random " + std::to_string(kind);

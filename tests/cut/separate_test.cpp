@@ -39,8 +39,12 @@ Faces faces_where(const TetMesh& mesh, const std::function<bool(const Vec3&)>& i
   return faces;
 }
 
-bool is_at(double x, double place) { return std::abs(x - place) < 1e-9; }
-bool is_between(double x, double low, double high) { return x > low - 1e-9 && x < high + 1e-9; }
+bool is_at(double x, double place) {
+  return std::abs(x - place) < 1e-9;
+}
+bool is_between(double x, double low, double high) {
+  return x > low - 1e-9 && x < high + 1e-9;
+}
 
 Separation separate_stars(TetMesh& mesh, Faces faces) {
   Transaction transaction(mesh);
@@ -66,7 +70,8 @@ std::uint64_t expected_copies(const TetMesh& mesh, const Faces& faces) {
     for (unsigned s = 0; s < 4; ++s) {
       if (!mesh.links(tet)[s].is_boundary()) continue;
       const auto v = mesh.vertices(Side(tet, s));
-      for (unsigned k = 0; k < 3; ++k) surface_edges.insert({std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3])});
+      for (unsigned k = 0; k < 3; ++k)
+        surface_edges.insert({std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3])});
     }
   });
   std::map<VertexId, std::vector<std::array<VertexId, 2>>> arcs;
@@ -96,7 +101,8 @@ std::uint64_t expected_copies(const TetMesh& mesh, const Faces& faces) {
   return copies;
 }
 
-// --- the paper's figures -----------------------------------------------------------------------------------------------------
+// --- the paper's figures
+// -----------------------------------------------------------------------------------------------------
 
 /// Two tets on one face, which is the incision.
 TetSoup two_tets() {
@@ -155,7 +161,8 @@ TEST(PaperSeparation, figure_4_an_inner_vertex_follows_its_neighbour_on_the_surf
   expect_valid(mesh, 1.0);
 }
 
-// --- T22: sheets inside the body -----------------------------------------------------------------------------------------------
+// --- T22: sheets inside the body
+// -----------------------------------------------------------------------------------------------
 
 bool is_on_inner_box(const Vec3& p) {
   const double reach = std::max({std::abs(p.x() - 0.5), std::abs(p.y() - 0.5), std::abs(p.z() - 0.5)});
@@ -221,7 +228,8 @@ TEST(Separate, bisects_a_skin_edge_that_a_disc_touches) {
   expect_valid(mesh, 1.0);
 }
 
-// --- T23: X, T, parallel planes, fins ----------------------------------------------------------------------------------------------
+// --- T23: X, T, parallel planes, fins
+// ----------------------------------------------------------------------------------------------
 
 struct Layout {
   std::string name;
@@ -240,12 +248,13 @@ std::vector<Layout> layouts() {
        [](const Vec3& p) { return is_at(p.x(), 0.25) || is_at(p.x(), 0.5) || is_at(p.x(), 0.75); }, 4, 75},
       {"plane and a fin that ends inside",
        [](const Vec3& p) {
-         return is_at(p.x(), 0.5) || (is_at(p.y(), 0.5) && is_between(p.x(), 0.5, 0.75) && is_between(p.z(), 0.25, 0.75) &&
-                                   p.x() - p.z() < 0.25 + 1e-9);
+         return is_at(p.x(), 0.5) || (is_at(p.y(), 0.5) && is_between(p.x(), 0.5, 0.75) &&
+                                      is_between(p.z(), 0.25, 0.75) && p.x() - p.z() < 0.25 + 1e-9);
        },
        2, 26},
       {"half a plane", [](const Vec3& p) { return is_at(p.x(), 0.5) && p.z() > 0.5 - 1e-9; }, 1, 10},
-      {"three planes", [](const Vec3& p) { return is_at(p.x(), 0.5) || is_at(p.y(), 0.5) || is_at(p.z(), 0.5); }, 8, 91},
+      {"three planes", [](const Vec3& p) { return is_at(p.x(), 0.5) || is_at(p.y(), 0.5) || is_at(p.z(), 0.5); }, 8,
+       91},
   };
 }
 
@@ -272,8 +281,9 @@ TEST(Separate, copies_as_many_vertices_as_the_cycles_of_random_faces) {
     const double share = 0.5 * std::pow(random.real(0, 1), 4);
     TetMesh mesh = build(kuhn_cube(3));
     Faces faces = faces_where(mesh, [](const Vec3&) { return true; });
-    faces.erase(std::remove_if(faces.begin(), faces.end(), [&](const IncisionFace&) { return random.real(0, 1) > share; }),
-                faces.end());
+    faces.erase(
+        std::remove_if(faces.begin(), faces.end(), [&](const IncisionFace&) { return random.real(0, 1) > share; }),
+        faces.end());
     const std::uint64_t expected = expected_copies(mesh, faces);
     const Separation result = separate_stars(mesh, faces);
     if (result.pinched_edges == 0) {
@@ -286,7 +296,8 @@ TEST(Separate, copies_as_many_vertices_as_the_cycles_of_random_faces) {
   EXPECT_GT(compared, 10U);
 }
 
-// --- T24, T25 -----------------------------------------------------------------------------------------------------------------------
+// --- T24, T25
+// -----------------------------------------------------------------------------------------------------------------------
 
 TEST(Separate, bisects_a_neck_between_two_discs_that_share_an_edge) {
   // Both ends of the edge stay whole: opened as it stands it would have four faces of wall.
@@ -317,7 +328,7 @@ TEST(Separate, leaves_two_faces_that_share_an_edge_valid) {
 
 TEST(Separate, leaves_a_single_face_joined) {
   TetMesh mesh = build(kuhn_cube(5));
-  Faces faces = faces_where(mesh, [](const Vec3& p) { 
+  Faces faces = faces_where(mesh, [](const Vec3& p) {
     return is_between(p.x(), 0.3, 0.7) && is_between(p.y(), 0.3, 0.7) && is_between(p.z(), 0.3, 0.7);
   });
   faces.resize(1);
@@ -331,7 +342,8 @@ TEST(Separate, leaves_a_single_face_joined) {
   expect_valid(mesh, 1.0);
 }
 
-// --- the paper's algorithms and star components, side by side ---------------------------------------------------------------------------
+// --- the paper's algorithms and star components, side by side
+// ---------------------------------------------------------------------------
 
 /// Whether two meshes with the same tet slots give corners the same vertices up to the names of the vertices.
 bool have_same_partition(const TetMesh& a, const TetMesh& b) {
@@ -394,9 +406,8 @@ TEST(PaperSeparation, equals_star_components_on_faces_of_the_grid) {
 TEST(PaperSeparation, equals_star_components_on_straight_oblique_and_coring_cuts) {
   const Box box{Vec3(0, 0, 0), Vec3(1, 1, 1)};
   for (const TetSoup& soup : {kuhn_cube(4), jittered_cube(5, 31)}) {
-    for (const Stroke& stroke :
-         {*plane_stroke(box, Vec3(1, 0, 0), 0.44), *plane_stroke(box, Vec3(0.3, 0.5, 0.8), 0.7),
-          coring_stroke(Vec3(0.5, 0.5, 0), 0.31, 32, -0.2, 1.2)}) {
+    for (const Stroke& stroke : {*plane_stroke(box, Vec3(1, 0, 0), 0.44), *plane_stroke(box, Vec3(0.3, 0.5, 0.8), 0.7),
+                                 coring_stroke(Vec3(0.5, 0.5, 0), 0.31, 32, -0.2, 1.2)}) {
       const Subdivided subdivided = subdivide_along(soup, stroke);
       ASSERT_GT(subdivided.incision.size(), 0U);
       expect_equal_separations(subdivided.mesh, subdivided.incision);
@@ -423,8 +434,9 @@ TEST(PaperSeparation, of_random_faces_never_copies_more_than_star_components_do)
     const double share = random.real(0.02, 0.5);
     TetMesh mesh = build(kuhn_cube(2));
     Faces faces = faces_where(mesh, [](const Vec3&) { return true; });
-    faces.erase(std::remove_if(faces.begin(), faces.end(), [&](const IncisionFace&) { return random.real(0, 1) > share; }),
-                faces.end());
+    faces.erase(
+        std::remove_if(faces.begin(), faces.end(), [&](const IncisionFace&) { return random.real(0, 1) > share; }),
+        faces.end());
     const std::uint64_t most = expected_copies(mesh, faces);
     EXPECT_LE(separate_by_paper(mesh, faces).copied_vertices, most);
     // What the paper leaves out (pinched edges) may remain; nothing else may break.

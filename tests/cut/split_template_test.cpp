@@ -106,11 +106,13 @@ TEST(SplitTemplate, the_triangles_on_a_side_fill_it) {
         const auto& child = split.children[side / 4U];
         const auto& c = kSideCorners[side & 3U];
         const Vec3 part = (p[child[c[1]]] - p[child[c[0]]]).cross(p[child[c[2]]] - p[child[c[0]]]);
-        const Vec3 outward = (p[kSideCorners[s][1]] - p[kSideCorners[s][0]]).cross(p[kSideCorners[s][2]] - p[kSideCorners[s][0]]);
+        const Vec3 outward =
+            (p[kSideCorners[s][1]] - p[kSideCorners[s][0]]).cross(p[kSideCorners[s][2]] - p[kSideCorners[s][0]]);
         EXPECT_GT(part.dot(outward), 0.0);
         area += part;
       }
-      const Vec3 whole = (p[kSideCorners[s][1]] - p[kSideCorners[s][0]]).cross(p[kSideCorners[s][2]] - p[kSideCorners[s][0]]);
+      const Vec3 whole =
+          (p[kSideCorners[s][1]] - p[kSideCorners[s][0]]).cross(p[kSideCorners[s][2]] - p[kSideCorners[s][0]]);
       EXPECT_LT((area - whole).norm(), 1e-14);
     }
   });
@@ -122,7 +124,8 @@ TEST(SplitTemplate, neighbours_triangulate_their_common_face_alike) {
   SplitTemplates templates;
   for (unsigned run = 0; run < 20000; ++run) {
     const std::array<std::array<unsigned, 4>, 2> tets = {{{0, 1, 2, 3}, {2, 4, 0, 1}}};
-    std::vector<std::array<unsigned, 2>> edges = {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}, {0, 4}, {1, 4}, {2, 4}};
+    std::vector<std::array<unsigned, 2>> edges = {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3},
+                                                  {2, 3}, {0, 4}, {1, 4}, {2, 4}};
     for (std::size_t i = edges.size(); i > 1; --i) {
       std::swap(edges[i - 1], edges[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(i) - 1))]);
     }
@@ -184,7 +187,8 @@ TEST(OneTet, cut_by_a_plane_opens_one_face_or_two) {
   }
 }
 
-// --- T5: any flags give a valid mesh ---------------------------------------------------------------------------------------
+// --- T5: any flags give a valid mesh
+// ---------------------------------------------------------------------------------------
 
 /// A sheet that misses the unit cube.
 struct FarAway {

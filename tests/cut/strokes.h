@@ -18,10 +18,14 @@ inline std::pair<double, double> on_circle(double turns) {
   const double s = quarters - whole;  // tan of half the angle within the quarter
   const double x = (1.0 - s * s) / (1.0 + s * s), y = 2.0 * s / (1.0 + s * s);
   switch (static_cast<int>(whole)) {
-    case 1: return {-y, x};
-    case 2: return {-x, -y};
-    case 3: return {y, -x};
-    default: return {x, y};
+    case 1:
+      return {-y, x};
+    case 2:
+      return {-x, -y};
+    case 3:
+      return {y, -x};
+    default:
+      return {x, y};
   }
 }
 

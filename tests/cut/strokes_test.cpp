@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blades that curve, close, meet themselves, stop inside, stand still or go back.
+#include "cut/strokes.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "cut/bodies.h"
-#include "cut/strokes.h"
 #include "cut/support.h"
 
 namespace incise::test {
@@ -46,7 +47,8 @@ INSTANTIATE_TEST_SUITE_P(settings, Strokes,
                            return setting.param.snap > 0 ? "snap" : "no_snap";
                          });
 
-// --- curves ---------------------------------------------------------------------------------------------------------------
+// --- curves
+// ---------------------------------------------------------------------------------------------------------------
 
 TEST_P(Strokes, along_an_arc_give_two_pieces_of_the_right_volumes) {
   for (const bool in_one_step : {true, false}) {
@@ -107,7 +109,8 @@ TEST_P(Strokes, three_by_two_curved_sheets_give_twelve_pieces) {
   EXPECT_EQ(euler_characteristics(engine.mesh()), std::vector<int>(12, 2));
 }
 
-// --- sweeps that meet themselves --------------------------------------------------------------------------------------------
+// --- sweeps that meet themselves
+// --------------------------------------------------------------------------------------------
 
 TEST_P(Strokes, that_cross_themselves_in_one_sweep_give_four_pieces) {
   const std::vector<Vec3> path = {Vec3(0.47, kLow, 0), Vec3(0.47, kHigh, 0), Vec3(1.4, kHigh, 0), Vec3(1.4, 0.53, 0),
@@ -120,8 +123,8 @@ TEST_P(Strokes, that_cross_themselves_in_one_sweep_give_four_pieces) {
 
 TEST_P(Strokes, that_cross_themselves_in_many_small_steps_give_four_pieces) {
   std::vector<Vec3> path;
-  const std::vector<Vec3> corners = {Vec3(0.47, kLow, 0), Vec3(0.47, kHigh, 0), Vec3(1.4, kHigh, 0),
-                                     Vec3(1.4, 0.53, 0), Vec3(kLow, 0.53, 0)};
+  const std::vector<Vec3> corners = {Vec3(0.47, kLow, 0), Vec3(0.47, kHigh, 0), Vec3(1.4, kHigh, 0), Vec3(1.4, 0.53, 0),
+                                     Vec3(kLow, 0.53, 0)};
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     for (unsigned k = 0; k < 9; ++k) path.emplace_back(corners[i] + (corners[i + 1] - corners[i]) * k / 9.0);
   }
@@ -180,7 +183,8 @@ TEST_P(Strokes, in_u_shape_with_the_bend_inside_cut_a_tongue_out) {
   }
 }
 
-// --- going back, standing still ------------------------------------------------------------------------------------------------
+// --- going back, standing still
+// ------------------------------------------------------------------------------------------------
 
 TEST(DoublePasses, that_go_back_over_themselves_cut_no_more_than_once) {
   const Stroke once = path_stroke(parabola(0.4, 0.3), kLow, kHigh);
@@ -193,8 +197,8 @@ TEST(DoublePasses, that_go_back_over_themselves_cut_no_more_than_once) {
 }
 
 TEST(DoublePasses, given_twice_cut_no_more_than_once) {
-  for (const Stroke& stroke : {path_stroke(parabola(0.4, 0.3), kLow, kHigh),
-                               coring_stroke(Vec3(0.5, 0.5, 0), 0.3, 24, kLow, kHigh)}) {
+  for (const Stroke& stroke :
+       {path_stroke(parabola(0.4, 0.3), kLow, kHigh), coring_stroke(Vec3(0.5, 0.5, 0), 0.3, 24, kLow, kHigh)}) {
     Engine engine = make_engine(jittered_cube(5, 19));
     cut(engine, stroke);
     const std::size_t tets = engine.mesh().tet_count();
@@ -206,10 +210,9 @@ TEST(DoublePasses, given_twice_cut_no_more_than_once) {
 
 TEST_P(Strokes, that_stop_and_go_or_hesitate_give_two_pieces) {
   const auto blade = [](double y) { return std::vector<Vec3>{Vec3(0.47, y, kLow), Vec3(0.47, y, kHigh)}; };
-  for (const std::vector<double>& places : {std::vector<double>{-0.2, 0.4, 0.4, 0.4, 1.2},
-                                            std::vector<double>{-0.2, 0.6, 0.3, 1.2},
-                                            std::vector<double>{-0.2, 0.5, 0.49, 0.52, 0.48, 0.55, 1.2},
-                                            std::vector<double>{-0.2, 0.6, -0.2, 1.2}}) {
+  for (const std::vector<double>& places :
+       {std::vector<double>{-0.2, 0.4, 0.4, 0.4, 1.2}, std::vector<double>{-0.2, 0.6, 0.3, 1.2},
+        std::vector<double>{-0.2, 0.5, 0.49, 0.52, 0.48, 0.55, 1.2}, std::vector<double>{-0.2, 0.6, -0.2, 1.2}}) {
     std::vector<std::vector<Vec3>> edges;
     for (const double y : places) edges.push_back(blade(y));
     Engine engine = engine_on(kuhn_cube(5));
@@ -253,7 +256,8 @@ TEST_P(Strokes, that_turn_about_one_end_of_the_blade_cut_a_fan) {
   expect_pieces(engine.mesh(), {0.47, 0.53}, 1e-12);
 }
 
-// --- partial cuts ------------------------------------------------------------------------------------------------------------------
+// --- partial cuts
+// ------------------------------------------------------------------------------------------------------------------
 
 TEST_P(Strokes, that_stop_inside_leave_one_piece_and_a_closed_front) {
   for (const TetSoup& soup : {kuhn_cube(5), jittered_cube(6, 20)}) {
@@ -277,8 +281,8 @@ TEST_P(Strokes, that_stop_inside_may_be_continued_by_another_stroke) {
   cut(engine, quad_stroke(Vec3(0.47, kLow, kHigh), Vec3(0.51, kHigh, kHigh), Vec3(0.47, kLow, front),
                           Vec3(0.51, kHigh, front)));
   ASSERT_EQ(find_components(engine.mesh()).count(), 1U);
-  cut(engine, quad_stroke(Vec3(0.47, kLow, kHigh), Vec3(0.51, kHigh, kHigh), Vec3(0.47, kLow, kLow),
-                          Vec3(0.51, kHigh, kLow)));
+  cut(engine,
+      quad_stroke(Vec3(0.47, kLow, kHigh), Vec3(0.51, kHigh, kHigh), Vec3(0.47, kLow, kLow), Vec3(0.51, kHigh, kLow)));
   if (GetParam().profile == Profile::kIncise) {
     EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
   }
@@ -333,7 +337,8 @@ TEST_P(Strokes, fifty_partial_and_curved_ones_after_another_stay_valid) {
   expect_valid(engine.mesh(), volume);
 }
 
-// --- defects of the input --------------------------------------------------------------------------------------------------------------
+// --- defects of the input
+// --------------------------------------------------------------------------------------------------------------
 
 TEST(FlatTets, stay_whole_where_a_blade_crosses_them_once_or_twice) {
   TetSoup soup;

@@ -26,13 +26,16 @@ Engine make_engine(TetSoup soup, double snap, Profile profile) {
   return std::move(engine).value();
 }
 
-double volume_of(const TetMesh& mesh) { return validate(mesh, ValidateLevel::kGeometry).volume; }
+double volume_of(const TetMesh& mesh) {
+  return validate(mesh, ValidateLevel::kGeometry).volume;
+}
 
 std::string describe(const ValidityReport& report) {
   std::string text;
   for (std::size_t kind = 0; kind < kViolationKinds; ++kind) {
     if (report.counts[kind] > 0) {
-      text += std::string(name_of(static_cast<ViolationKind>(kind))) + " × " + std::to_string(report.counts[kind]) + ", ";
+      text +=
+          std::string(name_of(static_cast<ViolationKind>(kind))) + " × " + std::to_string(report.counts[kind]) + ", ";
     }
   }
   for (const Violation& v : report.first) {

@@ -112,9 +112,8 @@ TEST(Engine, regions_are_inherited_and_keep_their_volumes) {
     Engine engine = make_engine(soup, snap);
     cut(engine, plane(engine, Vec3(1, 0.4, 0), 0.63));
     double low = 0, high = 0;
-    engine.mesh().for_each_tet([&](TetId tet) {
-      (engine.mesh().region(tet) == 7 ? low : high) += engine.mesh().rest_volume(tet);
-    });
+    engine.mesh().for_each_tet(
+        [&](TetId tet) { (engine.mesh().region(tet) == 7 ? low : high) += engine.mesh().rest_volume(tet); });
     EXPECT_NEAR(low + high, 1.0, 1e-12);
     if (snap == 0) {
       EXPECT_NEAR(low, 0.5, 1e-12);
@@ -135,7 +134,8 @@ TEST(Engine, reports_counts_that_the_mesh_confirms) {
   expect_valid(engine.mesh(), 1.0);
 }
 
-// --- refusals ----------------------------------------------------------------------------------------------------------------
+// --- refusals
+// ----------------------------------------------------------------------------------------------------------------
 
 void expect_refused(const Stroke& stroke) {
   Engine engine = make_engine(kuhn_cube(2));
@@ -191,7 +191,8 @@ TEST(Engine, refuses_options_out_of_range) {
 
 TEST(Engine, of_an_empty_mesh_cuts_nothing) {
   Engine engine = make_engine(TetSoup{});
-  const Result<StrokeReport> report = engine.cut(quad_stroke(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(1, 1, 0)));
+  const Result<StrokeReport> report =
+      engine.cut(quad_stroke(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(1, 1, 0)));
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->cut.created_tets, 0U);
 }

@@ -19,7 +19,9 @@ class Mirror {
  public:
   explicit Mirror(const TetMesh& mesh) {
     mesh.for_each_tet([&](TetId tet) { tets_[tet] = {mesh.vertices(tet), mesh.region(tet)}; });
-    mesh.for_each_vertex([&](VertexId v) { vertices_[v] = {mesh.rest(v), mesh.current(v), velocity_at(mesh.rest(v))}; });
+    mesh.for_each_vertex([&](VertexId v) {
+      vertices_[v] = {mesh.rest(v), mesh.current(v), velocity_at(mesh.rest(v))};
+    });
   }
 
   void catch_up(const Journal& journal) {
@@ -148,12 +150,17 @@ TEST(JournalReplay, on_a_mirror_gives_the_mesh_bit_for_bit_with_mass_and_momentu
     follow(jittered_cube(4, seed), 0.2, Profile::kIncise, some_strokes(seed, 6));
   }
 }
-TEST(JournalReplay, works_without_snapping) { follow(kuhn_cube(4), 0.0, Profile::kIncise, some_strokes(7, 5)); }
-TEST(JournalReplay, works_in_the_paper_profile) { follow(jittered_cube(4, 8), 0.0, Profile::kPaper, some_strokes(8, 5)); }
+TEST(JournalReplay, works_without_snapping) {
+  follow(kuhn_cube(4), 0.0, Profile::kIncise, some_strokes(7, 5));
+}
+TEST(JournalReplay, works_in_the_paper_profile) {
+  follow(jittered_cube(4, 8), 0.0, Profile::kPaper, some_strokes(8, 5));
+}
 
 TEST(JournalReplay, follows_cuts_that_cross_and_double_passes) {
   const Box box{Vec3(0, 0, 0), Vec3(1, 1, 1)};
-  const Stroke down = quad_stroke(Vec3(0.47, -0.2, 1.2), Vec3(0.47, 1.2, 1.2), Vec3(0.47, -0.2, -0.2), Vec3(0.47, 1.2, -0.2), 7);
+  const Stroke down =
+      quad_stroke(Vec3(0.47, -0.2, 1.2), Vec3(0.47, 1.2, 1.2), Vec3(0.47, -0.2, -0.2), Vec3(0.47, 1.2, -0.2), 7);
   follow(kuhn_cube(5), 0.2, Profile::kIncise,
          {*plane_stroke(box, Vec3(0, 1, 0), 0.53), followed_by(down, reversed(down)),
           coring_stroke(Vec3(0.5, 0.5, 0), 0.3, 24, -0.2, 1.2), *plane_stroke(box, Vec3(1, 1, 1), 1.5)});

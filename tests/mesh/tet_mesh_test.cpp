@@ -184,13 +184,14 @@ TEST(EdgeRing, closes_around_inner_edges_only) {
   const TetMesh mesh = build(kuhn_cube(3));
   std::map<std::set<std::uint32_t>, std::set<TetId>> rings;
   mesh.for_each_tet([&](TetId tet) {
-    for (const auto& [a, b] : kEdgeCorners) rings[{mesh.vertices(tet)[a].value, mesh.vertices(tet)[b].value}].insert(tet);
+    for (const auto& [a, b] : kEdgeCorners)
+      rings[{mesh.vertices(tet)[a].value, mesh.vertices(tet)[b].value}].insert(tet);
   });
   for (const auto& [edge, tets] : rings) {
     const VertexId a(*edge.begin()), b(*edge.rbegin());
     std::set<TetId> walked;
-    const bool is_closed =
-        walk_edge_ring(mesh, a, b, *tets.begin(), [](Side) { return false; }, [&](TetId tet) { walked.insert(tet); });
+    const bool is_closed = walk_edge_ring(
+        mesh, a, b, *tets.begin(), [](Side) { return false; }, [&](TetId tet) { walked.insert(tet); });
     EXPECT_EQ(walked, tets);
     const Vec3 middle = 0.5 * (mesh.rest(a) + mesh.rest(b));
     EXPECT_EQ(is_closed, (middle.array() > 1e-9).all() && (middle.array() < 1 - 1e-9).all());

@@ -12,7 +12,8 @@ namespace {
 
 SplitEdgeResult split_some_edge(Transaction& transaction, TetId tet, unsigned edge, double t = 0.5) {
   const TetVertices& v = transaction.mesh().vertices(tet);
-  const SplitEdgePlan plan = plan_split_edge(transaction.mesh(), v[kEdgeCorners[edge][0]], v[kEdgeCorners[edge][1]], tet, t);
+  const SplitEdgePlan plan =
+      plan_split_edge(transaction.mesh(), v[kEdgeCorners[edge][0]], v[kEdgeCorners[edge][1]], tet, t);
   EXPECT_TRUE(plan);
   return apply(transaction, plan);
 }

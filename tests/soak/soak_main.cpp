@@ -75,7 +75,9 @@ struct State {
   Defects defects;
 };
 
-State examine(const TetMesh& mesh) { return {validate(mesh, ValidateLevel::kGeometry), find_defects(to_soup(mesh))}; }
+State examine(const TetMesh& mesh) {
+  return {validate(mesh, ValidateLevel::kGeometry), find_defects(to_soup(mesh))};
+}
 
 /// Whether a cut may add to a defect: the two lips of a cut coincide, and without snapping nothing keeps a plane from
 /// shaving slivers off that are flat by their shape (though positive).
@@ -97,7 +99,8 @@ std::string what_grew(const State& before, const State& after, const CutOptions&
   const std::vector<NamedDefect> old_list = list_defects(before.defects), list = list_defects(after.defects);
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!may_grow(list[i].name, options) && list[i].count > old_list[i].count) {
-      text += " " + std::string(list[i].name) + " " + std::to_string(old_list[i].count) + " → " + std::to_string(list[i].count);
+      text += " " + std::string(list[i].name) + " " + std::to_string(old_list[i].count) + " → " +
+              std::to_string(list[i].count);
     }
   }
   return text;
@@ -147,17 +150,23 @@ void soak(const TetMesh& mesh, const std::string& name, CutOptions options, std:
   }
 }
 
-// --- made meshes --------------------------------------------------------------------------------------------------------------
+// --- made meshes
+// --------------------------------------------------------------------------------------------------------------
 
 TetSoup random_body(Random& random) {
   const auto n = static_cast<std::uint32_t>(random.integer(2, 6));
   const auto seed = static_cast<std::uint64_t>(random.integer(1, 1000));
   switch (random.integer(0, 4)) {
-    case 0: return kuhn_cube(n);
-    case 1: return ball(2 * std::max(2U, n / 2));
-    case 2: return kuhn_box(Vec3(-3, -2, 5), Vec3(-3 + 2.0 * n, 2, 5.5), {4 * n, 8, 1});
-    case 3: return renumbered(jittered_cube(n, seed), seed);
-    default: return jittered_cube(n, seed);
+    case 0:
+      return kuhn_cube(n);
+    case 1:
+      return ball(2 * std::max(2U, n / 2));
+    case 2:
+      return kuhn_box(Vec3(-3, -2, 5), Vec3(-3 + 2.0 * n, 2, 5.5), {4 * n, 8, 1});
+    case 3:
+      return renumbered(jittered_cube(n, seed), seed);
+    default:
+      return jittered_cube(n, seed);
   }
 }
 
@@ -179,12 +188,14 @@ int soak_made_meshes(const Settings& settings) {
     const CutOptions options = random_options(random);
     soak(*mesh, "made mesh", options, seed, std::min(settings.strokes, 8U), clock, tally);
   }
-  std::printf("strokes: %llu bodies, %llu strokes, %llu failures, %.0f s\n", static_cast<unsigned long long>(tally.bodies),
-              static_cast<unsigned long long>(tally.strokes), static_cast<unsigned long long>(tally.failures), clock.elapsed());
+  std::printf("strokes: %llu bodies, %llu strokes, %llu failures, %.0f s\n",
+              static_cast<unsigned long long>(tally.bodies), static_cast<unsigned long long>(tally.strokes),
+              static_cast<unsigned long long>(tally.failures), clock.elapsed());
   return tally.failures == 0 ? 0 : 1;
 }
 
-// --- real meshes --------------------------------------------------------------------------------------------------------------
+// --- real meshes
+// --------------------------------------------------------------------------------------------------------------
 
 std::vector<fs::path> corpus_files(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -208,7 +219,9 @@ int soak_corpus(const Settings& settings) {
   do {
     for (const fs::path& path : corpus_files(fs::path(root) / "tets")) {
       const std::string name = path.filename().string();
-      const auto is_named = [&](const std::string& part) { return !part.empty() && name.find(part) != std::string::npos; };
+      const auto is_named = [&](const std::string& part) {
+        return !part.empty() && name.find(part) != std::string::npos;
+      };
       if (clock.is_over() || (!settings.only.empty() && !is_named(settings.only)) || is_named(settings.skip)) continue;
       const Result<app::LoadedMesh> loaded = app::load_mesh(path);
       if (!loaded.ok()) continue;  // refusals are the readers' tests
@@ -225,13 +238,16 @@ int soak_corpus(const Settings& settings) {
     }
     ++seed;
   } while (settings.seconds > 0 && !clock.is_over());
-  std::printf("corpus: %llu meshes, %llu strokes, %llu failures, %.0f s\n", static_cast<unsigned long long>(tally.bodies / 2),
-              static_cast<unsigned long long>(tally.strokes), static_cast<unsigned long long>(tally.failures), clock.elapsed());
+  std::printf("corpus: %llu meshes, %llu strokes, %llu failures, %.0f s\n",
+              static_cast<unsigned long long>(tally.bodies / 2), static_cast<unsigned long long>(tally.strokes),
+              static_cast<unsigned long long>(tally.failures), clock.elapsed());
   return tally.failures == 0 ? 0 : 1;
 }
 
 int usage() {
-  std::fprintf(stderr, "usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n");
+  std::fprintf(
+      stderr,
+      "usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n");
   return 2;
 }
 
@@ -266,4 +282,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace incise::test
 
-int main(int argc, char** argv) { return incise::test::run(argc, argv); }
+int main(int argc, char** argv) {
+  return incise::test::run(argc, argv);
+}
