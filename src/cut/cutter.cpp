@@ -150,6 +150,9 @@ class Cutter::Pipeline {
   }
   void bisect(Transaction& transaction, const CutEdge& edge, double t) {
     const TetMesh& mesh = transaction.mesh();
+    if (mesh.is_overshared_at_load(edge.a, edge.b)) {
+      return;
+    }
     for (const TetId tet : walker_.star(mesh, edge.a)) {
       if (mesh.corner_of(tet, edge.b) < 4) {
         const SplitEdgePlan plan = plan_split_edge(mesh, edge.a, edge.b, tet, t);

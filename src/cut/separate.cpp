@@ -318,8 +318,12 @@ class Separator {
     }
     std::vector<IncisionFace> halved;
     std::vector<IncisionFace> kept;
+    // Where the input touched itself, faces of another fan of tets may share the edge: they keep it whole.
+    const auto is_in_ring = [&](const IncisionFace& f) {
+      return std::find(plan.ring.begin(), plan.ring.end(), f.a.tet()) != plan.ring.end();
+    };
     for (const IncisionFace& f : incision_) {
-      (contains(f) ? halved : kept).push_back(f);
+      (contains(f) && is_in_ring(f) ? halved : kept).push_back(f);
     }
     // Faces that keep their extent may still belong to a tet of the ring: they follow it to the half that holds them.
     const SplitEdgeResult split = apply(transaction_, plan);

@@ -29,6 +29,7 @@ bool needs_split(const NearTet& tet, unsigned edge) {
 void place_split_points(const TetMesh& mesh, double clamp, EdgeTable& edges) {
   for (CutEdge& edge : edges.edges()) {
     if (edge.is_flagged()) {
+      edge.is_blocked = mesh.touched_itself_at_load() && mesh.is_overshared_at_load(edge.a, edge.b);
       const double t = edge.crossings > 1 ? 0.5 * (edge.t + edge.t_second) : edge.t;
       edge.t = std::min(std::max(t, clamp), 1.0 - clamp);
       edge.position = mesh.rest(edge.a) + edge.t * (mesh.rest(edge.b) - mesh.rest(edge.a));

@@ -26,6 +26,11 @@ FaceKey key_of(const std::array<VertexId, 3>& face) {
   return {a, b, c};
 }
 
+std::uint64_t edge_key(VertexId a, VertexId b) {
+  const auto [low, high] = std::minmax(a.value, b.value);
+  return (std::uint64_t{low} << 32U) | high;
+}
+
 Error bad_tet(std::size_t tet, const std::string& what) {
   return {ErrorCode::kBadArgument, "tet " + std::to_string(tet) + " " + what, {tet}};
 }
@@ -150,7 +155,12 @@ void TetMesh::link_faces() {
         ++next;
       }
       // More than two tets on a face are a defect of the input; all its sides stay boundary.
-      touched_itself_at_load_ |= next - i > 2;
+      if (next - i > 2) {
+        const auto face = vertices(faces[i].side);
+        for (unsigned k = 0; k < 3; ++k) {
+          overshared_edges_.push_back(edge_key(face[k], face[(k + 1) % 3]));
+        }
+      }
       if (next - i == 2) {
         const Side a = faces[i].side, b = faces[i + 1].side;
         tet_links_[a.tet()][a.side()] = Link(b);
@@ -159,6 +169,10 @@ void TetMesh::link_faces() {
       i = next;
     }
   }
+}
+
+bool TetMesh::is_overshared_at_load(VertexId a, VertexId b) const {
+  return std::binary_search(overshared_edges_.begin(), overshared_edges_.end(), edge_key(a, b));
 }
 
 void TetMesh::mark_shapes() {
@@ -190,14 +204,15 @@ void TetMesh::mark_shapes() {
 }
 
 void TetMesh::find_loose_edges() {
+  std::sort(overshared_edges_.begin(), overshared_edges_.end());
+  touched_itself_at_load_ = !overshared_edges_.empty();
   std::vector<std::uint64_t> edges;
   for_each_tet([&](TetId id) {
     for (unsigned s = 0; s < 4; ++s) {
       if (tet_links_[id][s].is_boundary()) {
         const auto face = vertices(Side(id, s));
         for (unsigned k = 0; k < 3; ++k) {
-          const auto [low, high] = std::minmax(face[k].value, face[(k + 1) % 3].value);
-          edges.push_back((std::uint64_t{low} << 32U) | high);
+          edges.push_back(edge_key(face[k], face[(k + 1) % 3]));
         }
       }
     }

@@ -294,12 +294,35 @@ ValidityReport validate(const TetMesh& mesh, ValidateLevel level, const Validate
   return Validator(mesh, options).run(level);
 }
 
+namespace {
+
+/// How many of the input's defects of skin may have become the same defect of a cut wall: a wall passes along them now.
+std::uint64_t defects_passed_by(ViolationKind kind, const ValidityReport& before, const ValidityReport& after) {
+  const auto lost = [&](ViolationKind skin) {
+    return before.count(skin) - std::min(before.count(skin), after.count(skin));
+  };
+  switch (kind) {
+    case ViolationKind::kNonmanifoldCutEdge:
+      return lost(ViolationKind::kNonmanifoldEdge);
+    case ViolationKind::kSingletonCutVertex:
+      return lost(ViolationKind::kSingletonVertex);
+    case ViolationKind::kUnseparatedFace:
+      return lost(ViolationKind::kOversharedFace);
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
 ValidityChange compare_with_input(const ValidityReport& before, const ValidityReport& after) {
   ValidityChange change;
   for (std::size_t kind = 0; kind < kViolationKinds; ++kind) {
     if (after.counts[kind] <= before.counts[kind]) continue;
-    change.grown[kind] = after.counts[kind] - before.counts[kind];
-    change.ok = false;
+    const std::uint64_t grown = after.counts[kind] - before.counts[kind];
+    const std::uint64_t passed_by = defects_passed_by(static_cast<ViolationKind>(kind), before, after);
+    change.grown[kind] = grown - std::min(grown, passed_by);
+    change.ok &= change.grown[kind] == 0;
   }
   return change;
 }

@@ -146,6 +146,10 @@ class TetMesh {
   /// than two boundary faces, or a pinched vertex).
   [[nodiscard]] bool touched_itself_at_load() const { return touched_itself_at_load_; }
 
+  /// Whether an edge belonged to a face with more than two tets at load. Where the input overlaps itself so, its edges
+  /// cannot be divided without making more of the defect. Cost: O(log of the number of such edges).
+  [[nodiscard]] bool is_overshared_at_load(VertexId a, VertexId b) const;
+
   /// Calls `visit(TetId)` for every live tet, ascending.
   template <class Visit>
   void for_each_tet(Visit&& visit) const {
@@ -197,6 +201,7 @@ class TetMesh {
   ZeroedArray<std::uint32_t> edit_tet_marks_;     // scratch of the open transaction; all zero between transactions
   ZeroedArray<std::uint32_t> edit_vertex_marks_;  // likewise
   std::vector<TetId> flat_at_load_;
+  std::vector<std::uint64_t> overshared_edges_;  // ascending; lower slot · 2^32 + higher slot
   bool touched_itself_at_load_ = false;
   bool has_regions_ = false;
   std::size_t live_tets_ = 0;
