@@ -34,12 +34,15 @@ int fail(const Terminal& terminal, const std::string& message, ExitCode code) {
 /// How an error of a stage that reads and writes files ends the program.
 ExitCode exit_of(const Error& error) {
   switch (error.code) {
-    case ErrorCode::kBadArgument: return kUsage;
+    case ErrorCode::kBadArgument:
+      return kUsage;
     case ErrorCode::kIo:
-    case ErrorCode::kInternal: return kFailure;
+    case ErrorCode::kInternal:
+      return kFailure;
     case ErrorCode::kBadFile:
     case ErrorCode::kUnsupported:
-    case ErrorCode::kOutOfMemory: return kBadInput;
+    case ErrorCode::kOutOfMemory:
+      return kBadInput;
   }
   return kFailure;
 }

@@ -55,7 +55,8 @@ void add_cut(CLI::App& root, Arguments& a) {
   cut->add_option("-o,--output", a.cut.output, "Write the cut mesh; the extension names the format");
   cut->add_option("--profile", a.cut.profile, "incise (default), or paper: the published method")
       ->check(CLI::IsMember({"incise", "paper"}));
-  cut->add_option("--snap", a.cut.snap, "Snapping distance as a fraction of the mean incident edge, 0 to 0.4 (default 0.2)");
+  cut->add_option("--snap", a.cut.snap,
+                  "Snapping distance as a fraction of the mean incident edge, 0 to 0.4 (default 0.2)");
   cut->add_flag("--no-merge", a.no_merge, "Do not merge short edges after the cut (always so in this version)");
   cut->add_flag("--no-improve", a.no_improve, "Do not improve the mesh after the cut (always so in this version)");
   cut->add_option("--report", a.cut.report, "Write figures as JSON; - for stdout");
@@ -68,8 +69,9 @@ void add_cut(CLI::App& root, Arguments& a) {
 }
 
 void add_convert(CLI::App& root, Arguments& a) {
-  CLI::App* convert = add_command(root, "convert", "Convert a mesh or surface; a mesh becomes its boundary in .obj .stl .ply .off",
-                                  "  incise convert bunny.node bunny.vtu\n  incise convert cut.vtu walls.stl");
+  CLI::App* convert =
+      add_command(root, "convert", "Convert a mesh or surface; a mesh becomes its boundary in .obj .stl .ply .off",
+                  "  incise convert bunny.node bunny.vtu\n  incise convert cut.vtu walls.stl");
   convert->add_option("IN", a.convert.in, "File to read")->required();
   convert->add_option("OUT", a.convert.out, "File to write; the extension names the format")->required();
 }
@@ -114,7 +116,8 @@ int run(int argc, char** argv) {
   root.add_flag("-v,--verbose", terminal.is_verbose, "Print more of what happens");
   root.require_subcommand(1);
   root.footer(std::string("Examples:\n  incise info liver.msh\n  incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
-                          "  incise cut --help\n\n") + kExitCodes);
+                          "  incise cut --help\n\n") +
+              kExitCodes);
   add_info(root, arguments);
   add_cut(root, arguments);
   add_convert(root, arguments);

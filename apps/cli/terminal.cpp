@@ -15,21 +15,27 @@ namespace {
 volatile std::sig_atomic_t is_writing = 0;
 volatile std::sig_atomic_t pending_signal = 0;
 
-[[noreturn]] void end_by(int signal_number) { _exit(128 + signal_number); }
+[[noreturn]] void end_by(int signal_number) {
+  _exit(128 + signal_number);
+}
 
 extern "C" void on_signal(int signal_number) {
   if (is_writing == 0) end_by(signal_number);
   pending_signal = signal_number;
 }
 
-bool is_terminal(std::FILE* file) { return isatty(fileno(file)) != 0; }
+bool is_terminal(std::FILE* file) {
+  return isatty(fileno(file)) != 0;
+}
 
 bool wants_colour() {
   const char* no_colour = std::getenv("NO_COLOR");
   return is_terminal(stderr) && (no_colour == nullptr || *no_colour == '\0');
 }
 
-void print(std::FILE* file, std::string_view text) { std::fwrite(text.data(), 1, text.size(), file); }
+void print(std::FILE* file, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), file);
+}
 
 void print_line(std::string_view label, std::string_view colour, std::string_view text) {
   std::string line = "incise: ";
@@ -53,9 +59,13 @@ void Terminal::detail(std::string_view text) const {
   if (is_verbose && !is_quiet) print_line("", "", text);
 }
 
-void Terminal::error(std::string_view text) const { print_line("error", "\033[1;31m", text); }
+void Terminal::error(std::string_view text) const {
+  print_line("error", "\033[1;31m", text);
+}
 
-void Terminal::data(std::string_view text) const { print(stdout, text); }
+void Terminal::data(std::string_view text) const {
+  print(stdout, text);
+}
 
 void Terminal::progress(std::size_t done, std::size_t total, std::string_view unit) const {
   if (is_quiet || total == 0 || !is_terminal(stderr)) return;
@@ -85,7 +95,9 @@ void catch_interrupts() {
   std::signal(SIGTERM, on_signal);
 }
 
-WritingZone::WritingZone() { is_writing = 1; }
+WritingZone::WritingZone() {
+  is_writing = 1;
+}
 
 WritingZone::~WritingZone() {
   is_writing = 0;

@@ -25,16 +25,17 @@ class Terminal {
   bool is_quiet = false;
   bool is_verbose = false;
 
-  void note(std::string_view text) const;     ///< silent under -q
-  void detail(std::string_view text) const;   ///< only under -v
+  void note(std::string_view text) const;    ///< silent under -q
+  void detail(std::string_view text) const;  ///< only under -v
   void error(std::string_view text) const;
-  void data(std::string_view text) const;     ///< to stdout
+  void data(std::string_view text) const;  ///< to stdout
   /// A bar on stderr, where that is a terminal; `done == total` takes it away.
   void progress(std::size_t done, std::size_t total, std::string_view unit) const;
   [[nodiscard]] incise::LogSink log_sink() const;
 };
 
-/// From now on Ctrl-C and SIGTERM end the program with 130 or 143: at once while nothing is being written, else after the write.
+/// From now on Ctrl-C and SIGTERM end the program with 130 or 143: at once while nothing is being written, else after
+/// the write.
 void catch_interrupts();
 
 /// While it lives, an interrupt waits.

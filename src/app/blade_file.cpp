@@ -13,7 +13,9 @@ namespace {
 constexpr double kUnitTolerance = 1e-6;
 constexpr double kVersion = 1;
 
-std::string at(const std::string& path, std::size_t index) { return path + "[" + std::to_string(index) + "]"; }
+std::string at(const std::string& path, std::size_t index) {
+  return path + "[" + std::to_string(index) + "]";
+}
 
 std::string short_number(double x) {
   std::string text = std::to_string(x);
@@ -118,7 +120,8 @@ class BladeReader {
   }
 
   bool read_pose(const JsonValue& value, const std::string& path, const std::vector<Vec3>& edge, Stroke& stroke) {
-    if (!read_.is_object(value, path, {"t", "position", "orientation"}) || !read_time(value, path, stroke)) return false;
+    if (!read_.is_object(value, path, {"t", "position", "orientation"}) || !read_time(value, path, stroke))
+      return false;
     const JsonValue* position = read_.member(value, path, "position");
     const JsonValue* orientation = position ? read_.member(value, path, "orientation") : nullptr;
     Vec3 origin;

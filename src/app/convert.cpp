@@ -57,9 +57,10 @@ bool is_surface_extension(const fs::path& path) {
 Result<Conversion> convert(const fs::path& in, const fs::path& out) {
   const bool wants_surface = is_surface_extension(out);
   if (!wants_surface && !is_mesh_extension(out)) {
-    return Error{ErrorCode::kBadArgument,
-                 out.string() + ": unknown extension; use " + kMeshExtensions + ", or for surfaces " + kSurfaceExtensions,
-                 {}};
+    return Error{
+        ErrorCode::kBadArgument,
+        out.string() + ": unknown extension; use " + kMeshExtensions + ", or for surfaces " + kSurfaceExtensions,
+        {}};
   }
   Result<io::MeshFile> file = io::read_mesh(in);
   if (!file.ok()) return wants_surface && is_surface_extension(in) ? convert_surface(in, out) : file.error();

@@ -117,12 +117,18 @@ Error bad_file(std::string_view file_name, std::uint32_t line, const std::string
 
 std::string shown(const JsonValue& value) {
   switch (value.kind) {
-    case Kind::kNull: return "null";
-    case Kind::kBool: return value.number != 0 ? "true" : "false";
-    case Kind::kNumber: return "a number";
-    case Kind::kString: return "a string";
-    case Kind::kArray: return "an array";
-    case Kind::kObject: return "an object";
+    case Kind::kNull:
+      return "null";
+    case Kind::kBool:
+      return value.number != 0 ? "true" : "false";
+    case Kind::kNumber:
+      return "a number";
+    case Kind::kString:
+      return "a string";
+    case Kind::kArray:
+      return "an array";
+    case Kind::kObject:
+      return "an object";
   }
   return "something else";
 }
@@ -179,8 +185,9 @@ bool JsonReader::is_array(const JsonValue& value, const std::string& path, std::
   const std::size_t count = value.items.size();
   if (count >= min_items && count <= max_items) return true;
   const bool is_few = count < min_items;
-  return fail(value, path, "has " + std::to_string(count) + " entries; it needs " + (is_few ? "at least " : "at most ") +
-                               std::to_string(is_few ? min_items : max_items));
+  return fail(value, path,
+              "has " + std::to_string(count) + " entries; it needs " + (is_few ? "at least " : "at most ") +
+                  std::to_string(is_few ? min_items : max_items));
 }
 
 bool JsonReader::number(const JsonValue& value, const std::string& path, double& out) {

@@ -20,9 +20,9 @@ struct JsonValue {
   enum class Kind : std::uint8_t { kNull, kBool, kNumber, kString, kArray, kObject };
 
   Kind kind = Kind::kNull;
-  std::uint32_t line = 1;  ///< where the value ends, for arrays and objects where it begins
-  double number = 0;       ///< of kNumber; 0 or 1 of kBool
-  std::string text;        ///< of kString
+  std::uint32_t line = 1;         ///< where the value ends, for arrays and objects where it begins
+  double number = 0;              ///< of kNumber; 0 or 1 of kBool
+  std::string text;               ///< of kString
   std::vector<JsonValue> items;   ///< of kArray; the values of kObject
   std::vector<std::string> keys;  ///< of kObject, one per item
 

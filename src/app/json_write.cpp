@@ -7,9 +7,13 @@
 namespace incise::inline v0 {
 namespace app {
 
-Json encode(double number) { return std::isfinite(number) ? Json(number) : Json(); }
+Json encode(double number) {
+  return std::isfinite(number) ? Json(number) : Json();
+}
 
-Json encode(const Vec3& point) { return Json::array({encode(point.x()), encode(point.y()), encode(point.z())}); }
+Json encode(const Vec3& point) {
+  return Json::array({encode(point.x()), encode(point.y()), encode(point.z())});
+}
 
 Json encode(const QualityStats& q) {
   const bool has_figures = q.tets > q.flat_tets;
@@ -30,7 +34,8 @@ Json encode(const ValidityReport& report) {
   root["ok"] = report.ok;
   root["violations"] = Json::object();
   for (std::size_t i = 0; i < kViolationKinds; ++i) {
-    if (report.counts[i] > 0) root["violations"][std::string(name_of(static_cast<ViolationKind>(i)))] = report.counts[i];
+    if (report.counts[i] > 0)
+      root["violations"][std::string(name_of(static_cast<ViolationKind>(i)))] = report.counts[i];
   }
   root["first"] = Json::array();
   for (const Violation& v : report.first) {

@@ -29,7 +29,8 @@ std::int32_t origin_of(const TetMesh& mesh, VertexId vertex, const std::vector<s
 
 }  // namespace
 
-io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces, const std::vector<std::uint32_t>& file_vertex) {
+io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces,
+                          const std::vector<std::uint32_t>& file_vertex) {
   io::MeshData data;
   std::vector<std::uint32_t> number(mesh.vertex_slots(), kInvalidIndex);
   mesh.for_each_vertex([&](VertexId v) {

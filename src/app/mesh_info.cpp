@@ -43,7 +43,8 @@ void count_regions(const TetSoup& soup, MeshInfo& info) {
 // Defects that break the validity contract: all but equal positions.
 bool breaks_contract(const Defects& d) {
   return d.inverted + d.zero_volume + d.unreferenced_vertices + d.duplicate_tets + d.overshared_faces +
-             d.nonmanifold_edges + d.singleton_vertices > 0;
+             d.nonmanifold_edges + d.singleton_vertices >
+         0;
 }
 
 Json json_of(const MeshInfo& info) {
@@ -117,7 +118,9 @@ Result<MeshCheck> check_mesh(io::MeshFile file, const std::filesystem::path& pat
   return check;
 }
 
-std::string to_json(const MeshInfo& info) { return json_of(info).dump(2) + "\n"; }
+std::string to_json(const MeshInfo& info) {
+  return json_of(info).dump(2) + "\n";
+}
 
 std::string to_json(const MeshCheck& check) {
   Json root = json_of(check.info);
@@ -134,8 +137,8 @@ std::string to_text(const MeshInfo& info) {
   text += fmt::format("  tets        {}{}\n", source.tets, source.ten_node ? " of ten nodes" : "");
   text += fmt::format("  components  {}\n", info.defects.components);
   text += fmt::format("  regions     {}\n", region_text(info));
-  text += fmt::format("  bounds      ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", info.low.x(), info.low.y(),
-                      info.low.z(), info.high.x(), info.high.y(), info.high.z());
+  text += fmt::format("  bounds      ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", info.low.x(),
+                      info.low.y(), info.low.z(), info.high.x(), info.high.y(), info.high.z());
   text += fmt::format("  volume      {:.9g}\n", info.volume);
   text += info.defects.none() ? "  defects     none\n" : "  defects\n";
   if (!info.defects.none()) {

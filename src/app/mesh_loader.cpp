@@ -55,7 +55,8 @@ void note_changes(const Normalised& changes, std::vector<std::string>& notes) {
                     " turned to positive");
   }
   if (changes.dropped > 0) {
-    notes.push_back(counted(changes.dropped, "exact duplicate of a tet was", "exact duplicates of tets were") + " dropped");
+    notes.push_back(counted(changes.dropped, "exact duplicate of a tet was", "exact duplicates of tets were") +
+                    " dropped");
   }
   if (changes.zero_volume > 0) {
     notes.push_back(counted(changes.zero_volume, "tet has", "tets have") + " no volume");

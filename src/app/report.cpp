@@ -136,17 +136,18 @@ std::string to_json(const CutReport& report) {
 }
 
 std::string to_text(const CutReport& report) {
-  std::string text = fmt::format("{} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", report.before.tets,
-                                 report.after.tets, report.before.vertices, report.after.vertices,
-                                 report.before.components, report.after.components);
+  std::string text =
+      fmt::format("{} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", report.before.tets, report.after.tets,
+                  report.before.vertices, report.after.vertices, report.before.components, report.after.components);
   for (std::size_t i = 0; i < report.pieces.size() && i < kMaxPiecesShown; ++i) {
     text += fmt::format("  piece {}: {} tets, volume {:.9g}\n", i, report.pieces[i].tets, report.pieces[i].volume);
   }
   if (report.pieces.size() > kMaxPiecesShown) {
     text += fmt::format("  and {} more\n", report.pieces.size() - kMaxPiecesShown);
   }
-  text += fmt::format("cut {} tets in {} steps: {} faces opened, {} vertices snapped, {} bent\n", report.cut.cut_tets,
-                      report.cut.steps, report.cut.incision_faces, report.cut.snapped_vertices, report.cut.bent_vertices);
+  text +=
+      fmt::format("cut {} tets in {} steps: {} faces opened, {} vertices snapped, {} bent\n", report.cut.cut_tets,
+                  report.cut.steps, report.cut.incision_faces, report.cut.snapped_vertices, report.cut.bent_vertices);
   text += fmt::format("L/r max {:.4g} -> {:.4g}, {:.3g} -> {:.3g} % over 200\n", report.quality_before.lr_max,
                       report.quality_after.lr_max, report.quality_before.lr_over_200_pct,
                       report.quality_after.lr_over_200_pct);

@@ -14,11 +14,15 @@ void* reserve_address_space(std::size_t bytes) noexcept {
   return start == MAP_FAILED ? nullptr : start;
 }
 
-void release_address_space(void* start, std::size_t bytes) noexcept { ::munmap(start, bytes); }
+void release_address_space(void* start, std::size_t bytes) noexcept {
+  ::munmap(start, bytes);
+}
 
 #else
 
-void* reserve_address_space(std::size_t /*bytes*/) noexcept { return nullptr; }
+void* reserve_address_space(std::size_t /*bytes*/) noexcept {
+  return nullptr;
+}
 
 void release_address_space(void* /*start*/, std::size_t /*bytes*/) noexcept {}
 

@@ -74,8 +74,7 @@ std::vector<TetId> find_near_tets(const TetMesh& mesh, const Sheet& sheet) {
   std::vector<TetId> near;
   mesh.for_each_tet([&](TetId tet) {
     const TetVertices& v = mesh.vertices(tet);
-    const unsigned outside =
-        outcode[v[0].value] & outcode[v[1].value] & outcode[v[2].value] & outcode[v[3].value];
+    const unsigned outside = outcode[v[0].value] & outcode[v[1].value] & outcode[v[2].value] & outcode[v[3].value];
     if (outside == 0 && (is_small || meets_some_triangle(mesh, tet, sheet))) {
       near.push_back(tet);
     }

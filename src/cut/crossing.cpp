@@ -168,10 +168,11 @@ bool separates_from_middle(const TetMesh& mesh, const Sheet& sheet, VertexId ver
   const Vec3 middle = 0.25 * (mesh.rest(v[0]) + mesh.rest(v[1]) + mesh.rest(v[2]) + mesh.rest(v[3]));
   const SosPoint p{mesh.rest(vertex), vertex.value}, q{middle, 2 * kFirstBladeKey + tet.value};
   bool is_odd = false;
-  sheet.tree().for_each_overlap({p.position.cwiseMin(middle), p.position.cwiseMax(middle)}, [&](std::uint32_t triangle) {
-    is_odd ^= segment_crosses_triangle(p, q, sheet.point(triangle, 0), sheet.point(triangle, 1),
-                                       sheet.point(triangle, 2));
-  });
+  sheet.tree().for_each_overlap(
+      {p.position.cwiseMin(middle), p.position.cwiseMax(middle)}, [&](std::uint32_t triangle) {
+        is_odd ^= segment_crosses_triangle(p, q, sheet.point(triangle, 0), sheet.point(triangle, 1),
+                                           sheet.point(triangle, 2));
+      });
   return is_odd;
 }
 

@@ -42,7 +42,9 @@ class CrumbFinder {
     blocked_[side.tet().value] = static_cast<std::uint8_t>(blocked_[side.tet().value] | 1U << side.side());
     state_.ensure(std::size_t{side.tet().value} + 1);
   }
-  [[nodiscard]] bool is_blocked(Side side) const { return ((unsigned{blocked_[side.tet().value]} >> side.side()) & 1U) != 0; }
+  [[nodiscard]] bool is_blocked(Side side) const {
+    return ((unsigned{blocked_[side.tet().value]} >> side.side()) & 1U) != 0;
+  }
 
   /// The volume below which a piece around this tet is a crumb, from the edges of the input tet that it lies in.
   [[nodiscard]] double limit_at(TetId tet) const {

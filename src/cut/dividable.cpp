@@ -60,10 +60,12 @@ class PaperSeparator {
     return ((unsigned{marks_[side.tet().value]} >> side.side()) & 1U) != 0 && !mesh_.link(side).is_boundary();
   }
   [[nodiscard]] bool is_surface_edge(VertexId a, VertexId b, TetId seed) const {
-    return !walk_edge_ring(mesh_, a, b, seed, [](Side) { return false; }, [](TetId) {});
+    return !walk_edge_ring(
+        mesh_, a, b, seed, [](Side) { return false; }, [](TetId) {});
   }
 
-  // --- Algorithm 1 -----------------------------------------------------------------------------------------------------
+  // --- Algorithm 1
+  // -----------------------------------------------------------------------------------------------------
 
   bool divide_all_dividable() {
     bool has_changed = false;
@@ -174,7 +176,8 @@ class PaperSeparator {
     return false;
   }
 
-  // --- Algorithm 2 -----------------------------------------------------------------------------------------------------
+  // --- Algorithm 2
+  // -----------------------------------------------------------------------------------------------------
 
   bool divide_all_singletons() {
     std::vector<VertexId> vertices;
@@ -279,7 +282,8 @@ class PaperSeparator {
         continue;
       }
       fans.push_back(tet);
-      walk_edge_ring(mesh_, a, b, tet, [](Side) { return false; }, [&](TetId other) { seen.push_back(other); });
+      walk_edge_ring(
+          mesh_, a, b, tet, [](Side) { return false; }, [&](TetId other) { seen.push_back(other); });
     }
     return fans;
   }

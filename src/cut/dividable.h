@@ -20,9 +20,9 @@ enum class Dividability : std::uint8_t {
 /// Readings: an edge is a surface edge where it lies on the current boundary, faces opened before included; line 9
 /// asks for a path between two cutting edges, not between every two faces at the vertex (which stalls where a sector
 /// and an unrelated face meet); the two groups are told apart by flooding the star without crossing incision faces.
-/// Repair: where two fans of tets still touch along a whole edge, each gets a midpoint of its own; the paper leaves such
-/// an edge with four boundary faces.
-/// Cost: O(faces · rounds), about one round per ring of faces from the contour inwards.
+/// Repair: where two fans of tets still touch along a whole edge, each gets a midpoint of its own; the paper leaves
+/// such an edge with four boundary faces. Cost: O(faces · rounds), about one round per ring of faces from the contour
+/// inwards.
 Separation separate_as_paper(Transaction& transaction, std::vector<IncisionFace> incision, std::uint32_t tag,
                              StarWalker& walker);
 

@@ -11,15 +11,15 @@ namespace incise::inline v0 {
 /// A mesh edge near the blade, with what the blade did to it. `a` has the lower slot.
 struct CutEdge {
   VertexId a, b;
-  std::uint32_t crossings = 0;  ///< by the sheet
-  double t = 0.5;               ///< of the first crossing, from a to b, in [0, 1]
-  double t_second = 0.5;        ///< of the last crossing; the same where there is one
+  std::uint32_t crossings = 0;        ///< by the sheet
+  double t = 0.5;                     ///< of the first crossing, from a to b, in [0, 1]
+  double t_second = 0.5;              ///< of the last crossing; the same where there is one
   std::uint32_t triangle = 0;         ///< of the sheet, crossed first
   std::uint32_t triangle_second = 0;  ///< crossed last
-  VertexId split;               ///< the vertex that splits it, once made
-  Vec3 position = Vec3::Zero();  ///< of that vertex at rest
-  bool is_planned = false;      ///< to be split
-  bool is_blocked = false;      ///< splitting it would make a tet that is not sound
+  VertexId split;                     ///< the vertex that splits it, once made
+  Vec3 position = Vec3::Zero();       ///< of that vertex at rest
+  bool is_planned = false;            ///< to be split
+  bool is_blocked = false;            ///< splitting it would make a tet that is not sound
 
   [[nodiscard]] bool is_flagged() const { return (crossings & 1U) != 0; }
 };

@@ -10,7 +10,8 @@
 
 namespace incise::inline v0 {
 
-/// Vertices closer to the blade than this share of their mean edge coincide with it: geometry given twice, not a choice.
+/// Vertices closer to the blade than this share of their mean edge coincide with it: geometry given twice, not a
+/// choice.
 inline constexpr double kCoincident = 1e-6;
 
 /// A tet near the blade.
@@ -42,9 +43,9 @@ constexpr bool has_odd_face(std::uint8_t flagged) {
 struct Neighbourhood {
   EdgeTable edges;
   std::vector<NearTet> tets;
-  ZeroedArray<std::uint32_t> index_of_tet;  ///< 0 far, 1 + index into `tets`
-  ZeroedArray<std::uint8_t> is_on;          ///< by vertex slot: takes part in the cut; set by `mark_on`
-  std::vector<VertexId> on;                 ///< the vertices so marked
+  ZeroedArray<std::uint32_t> index_of_tet;     ///< 0 far, 1 + index into `tets`
+  ZeroedArray<std::uint8_t> is_on;             ///< by vertex slot: takes part in the cut; set by `mark_on`
+  std::vector<VertexId> on;                    ///< the vertices so marked
   ZeroedArray<std::uint32_t> index_of_vertex;  ///< scratch of one stage at a time; all zero between stages
 
   void mark_on(VertexId vertex) {

@@ -213,8 +213,9 @@ class Separator {
   };
   [[nodiscard]] Fan fan_at(VertexId a, VertexId b, TetId seed) const {
     Fan fan{seed, copy_of(seed, a), copy_of(seed, b)};
-    walk_edge_ring(mesh_, a, b, seed, [&](Side side) { return is_incision(side); },
-                   [&](TetId tet) { fan.lowest = std::min(fan.lowest, tet); });
+    walk_edge_ring(
+        mesh_, a, b, seed, [&](Side side) { return is_incision(side); },
+        [&](TetId tet) { fan.lowest = std::min(fan.lowest, tet); });
     return fan;
   }
   /// Whether a face stays joined: none of its vertices comes apart.

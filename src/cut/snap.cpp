@@ -98,11 +98,12 @@ class LinkGraph {
   std::vector<LinkVertex> vertices_;
 };
 
-// --- where a vertex may go ---------------------------------------------------------------------------------------------
+// --- where a vertex may go
+// ---------------------------------------------------------------------------------------------
 
 /// What holds a vertex in place: the planes of the surfaces and material borders that it lies on.
 struct Constraint {
-  unsigned planes = 0;  ///< 0 free, 1 within a plane, 2 along a line, 3 not at all
+  unsigned planes = 0;                               ///< 0 free, 1 within a plane, 2 along a line, 3 not at all
   Vec3 first = Vec3::Zero(), second = Vec3::Zero();  ///< unit normals
 };
 
@@ -167,7 +168,9 @@ struct Landing {
   double distance;  ///< left between the point and the sheet
 };
 
-bool has_landed(const Landing& landing, const OnVertex& on) { return landing.distance <= 1e-9 * on.spacing; }
+bool has_landed(const Landing& landing, const OnVertex& on) {
+  return landing.distance <= 1e-9 * on.spacing;
+}
 
 /// Newton steps from the vertex to the sheet within its constraint; one step lands exactly on a plane.
 Landing land_on_sheet(const Vec3& start, const OnVertex& on, const Sheet& sheet, const Constraint& constraint) {
@@ -196,7 +199,8 @@ Landing land_on_sheet(const Vec3& start, const OnVertex& on, const Sheet& sheet,
   return landing;
 }
 
-// --- which vertices are close -------------------------------------------------------------------------------------------
+// --- which vertices are close
+// -------------------------------------------------------------------------------------------
 
 struct Candidate {
   OnVertex on;
@@ -207,8 +211,8 @@ struct Candidate {
   }
 };
 
-/// Snapping reaches a little further along a wall that an earlier cut left at the same place: it may have bent to a vertex
-/// by `snap` of edges that have become shorter since.
+/// Snapping reaches a little further along a wall that an earlier cut left at the same place: it may have bent to a
+/// vertex by `snap` of edges that have become shorter since.
 constexpr double kWallReach = 1.75;
 /// It reaches less far for vertices that cannot be moved onto the sheet, since the wall then bends to them.
 constexpr double kBentReach = 0.5;
@@ -375,8 +379,8 @@ std::vector<Candidate> find_candidates(const TetMesh& mesh, const Sheet& sheet, 
   return candidates;
 }
 
-/// Whether a fourth ON vertex would leave a tet without a side. A tet between two sheets, all of whose vertices coincide
-/// with one or the other, keeps its own.
+/// Whether a fourth ON vertex would leave a tet without a side. A tet between two sheets, all of whose vertices
+/// coincide with one or the other, keeps its own.
 bool would_flatten_a_tet(const TetMesh& mesh, const Candidate& candidate, const Neighbourhood& near,
                          const std::vector<VertexId>& coincident, StarWalker& walker) {
   for (const TetId tet : walker.star(mesh, candidate.on.vertex)) {
@@ -403,7 +407,9 @@ void mark_tets(const TetMesh& mesh, Neighbourhood& near) {
 
 // --- moving ----------------------------------------------------------------------------------------------------------
 
-double volume6(const std::array<Vec3, 4>& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); }
+double volume6(const std::array<Vec3, 4>& p) {
+  return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+}
 
 /// A move changes the volume of a star by rounding alone, or not at all: overlapping input tets would not obey.
 constexpr double kVolumeTolerance = 1e-11;

@@ -19,9 +19,9 @@ struct SplitTemplate {
   /// A side of a child: child · 4 + side.
   using ChildSide = std::uint8_t;
 
-  std::vector<Child> children;                          ///< as positive as the parent
-  std::vector<std::array<ChildSide, 2>> inner;          ///< pairs of sides that meet inside the parent
-  std::array<std::vector<ChildSide>, 4> outer;          ///< sides that lie on each side of the parent
+  std::vector<Child> children;                  ///< as positive as the parent
+  std::vector<std::array<ChildSide, 2>> inner;  ///< pairs of sides that meet inside the parent
+  std::array<std::vector<ChildSide>, 4> outer;  ///< sides that lie on each side of the parent
 };
 
 /// Makes and keeps the templates. Paper §2.2 ("a tetrahedron can be divided into two smaller tetrahedrons according to

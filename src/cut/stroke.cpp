@@ -12,7 +12,9 @@ Error bad_stroke(const Stroke& stroke, const std::string& what) {
   return {ErrorCode::kBadArgument, "stroke \"" + stroke.name + "\": " + what, {}};
 }
 
-bool is_finite(const Vec3& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
+bool is_finite(const Vec3& p) {
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
 
 /// The point of the plane n·x = d that is nearest to `p`; exactly on the plane along the axes that n lies in.
 Vec3 project(const Vec3& p, const Vec3& n, double d) {

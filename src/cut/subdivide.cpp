@@ -14,7 +14,9 @@ namespace {
 constexpr unsigned kFirstSplitCode = 4;
 using Corners = std::array<Vec3, 4>;
 
-int orientation(const Corners& p) { return orient3d(p[0], p[1], p[2], p[3]); }
+int orientation(const Corners& p) {
+  return orient3d(p[0], p[1], p[2], p[3]);
+}
 
 bool is_sound(const Corners& p, bool keeps_shape_floor) {
   return orientation(p) > 0 && !(keeps_shape_floor && is_flat(p[0], p[1], p[2], p[3]));
@@ -23,7 +25,8 @@ bool is_sound(const Corners& p, bool keeps_shape_floor) {
 /// Whether a flagged edge needs a split point: neither end takes part in the cut itself.
 bool needs_split(const NearTet& tet, unsigned edge) {
   const auto [a, b] = kEdgeCorners[edge];
-  return ((unsigned{tet.flagged} >> edge) & 1U) != 0 && ((unsigned{tet.on} >> a) & 1U) == 0 && ((unsigned{tet.on} >> b) & 1U) == 0;
+  return ((unsigned{tet.flagged} >> edge) & 1U) != 0 && ((unsigned{tet.on} >> a) & 1U) == 0 &&
+         ((unsigned{tet.on} >> b) & 1U) == 0;
 }
 
 void place_split_points(const TetMesh& mesh, double clamp, EdgeTable& edges) {
@@ -297,13 +300,15 @@ class Subdivider {
     const VertexId common = mesh_.vertices(tet.id)[apex == 0 ? 1 : 0];
     return is_beyond(common, Side(tet.id, apex), &tet) != is_beyond(common, behind, other);
   }
-  /// Whether the sheet passes between an ON vertex and the inside of a tet that contains it, seen over one of its sides.
+  /// Whether the sheet passes between an ON vertex and the inside of a tet that contains it, seen over one of its
+  /// sides.
   [[nodiscard]] bool is_beyond(VertexId from, Side side, const NearTet* tet) const {
     const VertexId apex = mesh_.vertices(side.tet())[side.side()];
     if (near_.is_on[apex.value] != 0) {  // all four vertices coincide with the sheet: ask for the tet's middle
       return separates_from_middle(mesh_, sheet_, from, side.tet());
     }
-    return tet != nullptr && ((unsigned{tet->flagged} >> kEdgeOfCorners[mesh_.corner_of(side.tet(), from)][side.side()]) & 1U) != 0;
+    return tet != nullptr &&
+           ((unsigned{tet->flagged} >> kEdgeOfCorners[mesh_.corner_of(side.tet(), from)][side.side()]) & 1U) != 0;
   }
   void remove_parents() {
     for (const TetId parent : result_.parents) {
@@ -317,9 +322,9 @@ class Subdivider {
   Neighbourhood& near_;
   SplitTemplates& templates_;
   Subdivision result_;
-  std::vector<std::uint32_t> subdivided_;         // by near tet: index into parents
-  std::vector<std::uint32_t> near_index_;         // by parent
-  std::vector<const SplitTemplate*> splits_;      // by parent
+  std::vector<std::uint32_t> subdivided_;     // by near tet: index into parents
+  std::vector<std::uint32_t> near_index_;     // by parent
+  std::vector<const SplitTemplate*> splits_;  // by parent
 };
 
 }  // namespace

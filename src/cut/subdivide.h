@@ -34,10 +34,10 @@ std::uint64_t plan_subdivision(const TetMesh& mesh, const SubdivisionRules& rule
 
 /// The children of the near tets that were subdivided.
 struct Subdivision {
-  std::vector<TetId> parents;                ///< subdivided tets, in the order of `Neighbourhood::tets`
-  std::vector<std::uint32_t> first_child;    ///< `parents.size() + 1`, into `children`
+  std::vector<TetId> parents;              ///< subdivided tets, in the order of `Neighbourhood::tets`
+  std::vector<std::uint32_t> first_child;  ///< `parents.size() + 1`, into `children`
   std::vector<TetId> children;
-  std::vector<IncisionFace> incision;        ///< faces with material of the sheet's two sides on either side
+  std::vector<IncisionFace> incision;  ///< faces with material of the sheet's two sides on either side
   std::uint64_t new_vertices = 0;
 };
 

@@ -80,8 +80,8 @@ class Sweeper {
       : stroke_(stroke), slit2_(slit * slit), surface_(surface), grid_(stroke, surface.points) {}
 
   void run() {
-    std::size_t front = 0;   // the row that the last strip ended at
-    bool is_held = false;    // the blade has been in its own slit since
+    std::size_t front = 0;  // the row that the last strip ended at
+    bool is_held = false;   // the blade has been in its own slit since
     for (std::size_t row = 1; row < stroke_.edges.size(); ++row) {
       if ((is_held || turns_back(row)) && is_in_slit(row)) {
         is_held = true;
@@ -128,7 +128,8 @@ class Sweeper {
   }
   void lay_strip(std::size_t from, std::size_t to) {
     for (std::size_t c = 0; c + 1 < stroke_.edges[to].size(); ++c) {
-      const std::uint32_t a = grid_.at(from, c), b = grid_.at(from, c + 1), d = grid_.at(to, c), e = grid_.at(to, c + 1);
+      const std::uint32_t a = grid_.at(from, c), b = grid_.at(from, c + 1), d = grid_.at(to, c),
+                          e = grid_.at(to, c + 1);
       add_triangle({a, b, e}, to - 1, c);
       add_triangle({a, e, d}, to - 1, c);
     }
@@ -170,8 +171,7 @@ bool covers(const std::array<SosPoint, 3>& a, const std::array<SosPoint, 3>& b, 
 bool meet(const SweptSurface& surface, std::uint32_t i, std::uint32_t j, double slit) {
   const std::array<SosPoint, 3> a = corners(surface, i), b = corners(surface, j);
   const double reach = std::min(slit, 1e-3 * std::sqrt(std::min(area_vector(a).norm(), area_vector(b).norm())));
-  if (shared_points(surface.triangles[i], surface.triangles[j]) == 0 &&
-      triangles_cross(a, b)) {
+  if (shared_points(surface.triangles[i], surface.triangles[j]) == 0 && triangles_cross(a, b)) {
     return true;
   }
   return covers(a, b, reach) || covers(b, a, reach);
@@ -234,7 +234,8 @@ std::vector<double> travel_of_steps(const SweptSurface& surface) {
     const auto t = corners(surface, i);
     double& longest = travel[surface.triangles[i].step];
     // The corners are (a, b, e) or (a, e, d): earlier ends first, later ones last.
-    longest = std::max({longest, std::min((t[2].position - t[1].position).norm(), (t[2].position - t[0].position).norm())});
+    longest =
+        std::max({longest, std::min((t[2].position - t[1].position).norm(), (t[2].position - t[0].position).norm())});
   }
   return travel;
 }

@@ -31,10 +31,10 @@ inline constexpr std::uint64_t kFirstBladeKey = std::uint64_t{1} << 32U;
 /// The surface that a stroke sweeps.
 ///
 /// A blade that turns back moves in its own slit until it gets ahead of its deepest place again: times at which all its
-/// points lie within `slit` of what it swept before are passed over, and the next strip starts where the last one ended.
-/// Equal points of one column at consecutive times are one point, and so are the first
-/// and last column of a closed edge and the first and last row of a motion that returns (within 1e-12 of its extent).
-/// Triangles that name a point twice are left out. `stroke` must pass `check`.
+/// points lie within `slit` of what it swept before are passed over, and the next strip starts where the last one
+/// ended. Equal points of one column at consecutive times are one point, and so are the first and last column of a
+/// closed edge and the first and last row of a motion that returns (within 1e-12 of its extent). Triangles that name a
+/// point twice are left out. `stroke` must pass `check`.
 SweptSurface sweep(const Stroke& stroke, double slit = 0.0);
 
 /// Parts of a sweep that are each free of self-crossing, in time order: lists of ascending triangle indices.

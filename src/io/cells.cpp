@@ -20,8 +20,7 @@ bool CellSorter::fail_index(CellInt vertex, std::size_t n) {
                    "; export the mesh again");
 }
 
-bool CellSorter::add_tet(const CellInt* nodes, std::size_t n_nodes, std::size_t first_vertex,
-                         std::size_t n_vertices) {
+bool CellSorter::add_tet(const CellInt* nodes, std::size_t n_nodes, std::size_t first_vertex, std::size_t n_vertices) {
   std::array<std::uint32_t, 10> row = {};
   for (std::size_t k = 0; k < n_nodes; ++k) {
     if (!to_index(nodes[k], n_vertices, row[k])) return fail_index(nodes[k], n_vertices);

@@ -14,7 +14,9 @@ namespace io {
 
 /// Numbers of cells as files hold them; those that do not fit become -1, which no cell may hold.
 using CellInt = std::int32_t;
-constexpr CellInt to_cell_int(std::int64_t n) { return n == static_cast<CellInt>(n) ? static_cast<CellInt>(n) : -1; }
+constexpr CellInt to_cell_int(std::int64_t n) {
+  return n == static_cast<CellInt>(n) ? static_cast<CellInt>(n) : -1;
+}
 
 inline constexpr CellInt kVtkTriangle = 5;
 inline constexpr CellInt kVtkTet = 10;

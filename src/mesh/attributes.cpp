@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Attributes follow the journal with a copy of the tets' vertices and rest positions of their own, so that every step is
-// seen as it was however far the mesh has gone on. What a step overwrites is swapped with its record: undo and redo are
-// the same exchange.
+// Attributes follow the journal with a copy of the tets' vertices and rest positions of their own, so that every step
+// is seen as it was however far the mesh has gone on. What a step overwrites is swapped with its record: undo and redo
+// are the same exchange.
 #include "incise/mesh/attributes.h"
 
 #include <algorithm>
@@ -651,8 +651,7 @@ void Attributes::swap_values(Record& record, std::size_t attribute, const std::v
   Attribute& a = attributes_[attribute];
   const std::uint32_t width = a.spec.width;
   for (std::size_t i = 0; i < is_revived.size(); ++i) {
-    const std::uint32_t slot =
-        a.spec.domain == Domain::kVertex ? record.vertices[i].id.value : record.tets[i].id.value;
+    const std::uint32_t slot = a.spec.domain == Domain::kVertex ? record.vertices[i].id.value : record.tets[i].id.value;
     if (attribute < record.values.size()) {
       double* now = a.values.data() + std::size_t{slot} * width;
       std::swap_ranges(now, now + width, record.values[attribute].data() + i * width);
@@ -670,9 +669,8 @@ void Attributes::recompute_last(const TetMesh& mesh) {
   }
   Record& last = records_[applied_ - 1];
   last.is_recomputed = true;
-  const bool has_functions = std::any_of(attributes_.begin(), attributes_.end(), [](const Attribute& a) {
-    return a.spec.transfer == Transfer::kRecompute;
-  });
+  const bool has_functions = std::any_of(attributes_.begin(), attributes_.end(),
+                                         [](const Attribute& a) { return a.spec.transfer == Transfer::kRecompute; });
   if (!has_functions) {
     return;
   }

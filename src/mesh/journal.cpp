@@ -32,7 +32,8 @@ StepImage image_of(const TetMesh& mesh, const Step& step, const GrowArray<std::u
     image.tets.push_back({id, mesh.vertices(id), mesh.links(id), mesh.region(id)});
   };
   const auto keep_vertex = [&](VertexId id) {
-    image.vertices.push_back({id, mesh.rest(id), mesh.current(id), mesh.tet_of(id), mesh.origin(id), mesh.shape_of(id)});
+    image.vertices.push_back(
+        {id, mesh.rest(id), mesh.current(id), mesh.tet_of(id), mesh.origin(id), mesh.shape_of(id)});
   };
   for (const TetImage& old : step.before.tets) keep_tet(old.id);
   for (const TetId id : step.new_tets) keep_tet(id);

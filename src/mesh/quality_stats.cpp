@@ -26,7 +26,9 @@ bool is_flat(const std::array<Vec3, 4>& p) {
   return !(signed_volume(p[0], p[1], p[2], p[3]) > kFlatTetRatio * squared * std::sqrt(squared));
 }
 
-double degrees(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegreesPerRadian; }
+double degrees(double cosine) {
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegreesPerRadian;
+}
 
 class Gauge {
  public:

@@ -107,7 +107,9 @@ TetSoup kuhn_box(const Vec3& low, const Vec3& high, const std::array<std::uint32
   return soup;
 }
 
-TetSoup kuhn_cube(std::uint32_t n) { return kuhn_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {n, n, n}); }
+TetSoup kuhn_cube(std::uint32_t n) {
+  return kuhn_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {n, n, n});
+}
 
 void jitter(TetSoup& soup, double fraction, std::uint64_t seed) {
   if (soup.points.empty()) return;

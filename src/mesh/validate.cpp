@@ -13,13 +13,26 @@
 namespace incise::inline v0 {
 namespace {
 
-constexpr std::array<std::string_view, kViolationKinds> kNames = {
-    "count",          "not_finite",       "bad_corner",       "bad_link",
-    "face_mismatch",  "bad_tet_of",       "orphan_vertex",    "duplicate_tet",
-    "overshared_face", "unseparated_face", "nonmanifold_edge", "nonmanifold_cut_edge",
-    "singleton_vertex", "singleton_cut_vertex", "not_positive", "volume_drift"};
+constexpr std::array<std::string_view, kViolationKinds> kNames = {"count",
+                                                                  "not_finite",
+                                                                  "bad_corner",
+                                                                  "bad_link",
+                                                                  "face_mismatch",
+                                                                  "bad_tet_of",
+                                                                  "orphan_vertex",
+                                                                  "duplicate_tet",
+                                                                  "overshared_face",
+                                                                  "unseparated_face",
+                                                                  "nonmanifold_edge",
+                                                                  "nonmanifold_cut_edge",
+                                                                  "singleton_vertex",
+                                                                  "singleton_cut_vertex",
+                                                                  "not_positive",
+                                                                  "volume_drift"};
 
-std::uint64_t pack(std::uint32_t a, std::uint32_t b) { return (std::uint64_t{a} << 32U) | b; }
+std::uint64_t pack(std::uint32_t a, std::uint32_t b) {
+  return (std::uint64_t{a} << 32U) | b;
+}
 
 std::array<std::uint32_t, 3> sorted_face(const TetMesh& mesh, Side side) {
   const auto v = mesh.vertices(side);
@@ -45,7 +58,8 @@ class Buckets {
     std::size_t begin = 0;
     for (std::uint32_t v = 0; v + std::size_t{1} < start_.size(); ++v) {
       const std::size_t end = start_[v];
-      std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(begin), entries_.begin() + static_cast<std::ptrdiff_t>(end));
+      std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(begin),
+                entries_.begin() + static_cast<std::ptrdiff_t>(end));
       while (begin < end) {
         std::size_t next = begin + 1;
         while (next < end && entries_[next].key == entries_[begin].key) ++next;
@@ -288,7 +302,9 @@ class Validator {
 
 }  // namespace
 
-std::string_view name_of(ViolationKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
+std::string_view name_of(ViolationKind kind) {
+  return kNames[static_cast<std::size_t>(kind)];
+}
 
 ValidityReport validate(const TetMesh& mesh, ValidateLevel level, const ValidateOptions& options) {
   return Validator(mesh, options).run(level);

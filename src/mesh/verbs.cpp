@@ -127,13 +127,15 @@ SplitEdgePlan plan_split_edge(const TetMesh& mesh, VertexId a, VertexId b, TetId
     return plan;
   }
   const Vec3 point = mesh.rest(a) + t * (mesh.rest(b) - mesh.rest(a));
-  walk_edge_ring(mesh, a, b, seed, [](Side) { return false; }, [&](TetId tet) {
-    plan.ring.push_back(tet);
-    if (!is_sound_with(mesh, tet, mesh.corner_of(tet, a), point) ||
-        !is_sound_with(mesh, tet, mesh.corner_of(tet, b), point)) {
-      plan.refusal = Refusal::kWouldInvert;
-    }
-  });
+  walk_edge_ring(
+      mesh, a, b, seed, [](Side) { return false; },
+      [&](TetId tet) {
+        plan.ring.push_back(tet);
+        if (!is_sound_with(mesh, tet, mesh.corner_of(tet, a), point) ||
+            !is_sound_with(mesh, tet, mesh.corner_of(tet, b), point)) {
+          plan.refusal = Refusal::kWouldInvert;
+        }
+      });
   return plan;
 }
 
@@ -203,7 +205,9 @@ Corners rest_corners(const TetMesh& mesh, const TetVertices& v) {
   return {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
 }
 
-double volume6(const Corners& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); }
+double volume6(const Corners& p) {
+  return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+}
 
 /// Whether a tet is positive, by exact sign, with one corner elsewhere.
 bool is_exactly_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& moved) {
@@ -303,9 +307,9 @@ SplitFacePlan plan_split_face(const TetMesh& mesh, Side face, const std::array<d
   const Link behind = mesh.link(face);
   for (const VertexId v : vertices) {
     const bool is_sound = is_exactly_positive_with(mesh, face.tet(), mesh.corner_of(face.tet(), v), plan.rest);
-    if (!is_sound || (!behind.is_boundary() &&
-                      !is_exactly_positive_with(mesh, behind.side().tet(),
-                                                mesh.corner_of(behind.side().tet(), v), plan.rest))) {
+    if (!is_sound ||
+        (!behind.is_boundary() &&
+         !is_exactly_positive_with(mesh, behind.side().tet(), mesh.corner_of(behind.side().tet(), v), plan.rest))) {
       plan.refusal = Refusal::kWouldInvert;
     }
   }

@@ -11,7 +11,9 @@ using app::parse_blade;
 const std::string kHead = R"({"format":"incise-blade","version":1,"strokes":[)";
 const std::string kTail = "]}";
 
-std::string polyline(const std::string& edges) { return kHead + R"({"name":"s","edges":[)" + edges + "]}" + kTail; }
+std::string polyline(const std::string& edges) {
+  return kHead + R"({"name":"s","edges":[)" + edges + "]}" + kTail;
+}
 
 std::string rigid(const std::string& edge, const std::string& poses) {
   return kHead + R"({"edge":)" + edge + R"(,"poses":[)" + poses + "]}" + kTail;
@@ -36,7 +38,8 @@ void expect_error(const std::string& text, const std::string& part) {
 }
 
 TEST(BladeFile, reads_polylines) {
-  const auto blade = parse_blade(polyline(R"({"t":0,"points":[[0,0,0],[1,2,3]]},{"t":0.5,"points":[[0,0,1],[1,2,4]]})"), "b");
+  const auto blade =
+      parse_blade(polyline(R"({"t":0,"points":[[0,0,0],[1,2,3]]},{"t":0.5,"points":[[0,0,1],[1,2,4]]})"), "b");
   ASSERT_TRUE(blade.ok()) << blade.error().message;
   ASSERT_EQ(blade->size(), 1U);
   const Stroke& stroke = blade->front();
@@ -47,9 +50,10 @@ TEST(BladeFile, reads_polylines) {
 }
 
 TEST(BladeFile, moves_a_rigid_edge) {
-  const auto blade = parse_blade(rigid("[[1,0,0],[2,0,5]]", pose("0", "[0,0,0]", "[1,0,0,0]") + "," +
-                                                                pose("1", "[10,0,0]", "[0.70710678118654752,0,0,0.70710678118654752]")),
-                                 "b");
+  const auto blade = parse_blade(
+      rigid("[[1,0,0],[2,0,5]]", pose("0", "[0,0,0]", "[1,0,0,0]") + "," +
+                                     pose("1", "[10,0,0]", "[0.70710678118654752,0,0,0.70710678118654752]")),
+      "b");
   ASSERT_TRUE(blade.ok()) << blade.error().message;
   EXPECT_EQ(blade->front().edges[0][1], Vec3(2, 0, 5));
   EXPECT_TRUE(blade->front().edges[1][0].isApprox(Vec3(10, 1, 0), 1e-15));
@@ -82,14 +86,16 @@ TEST(BladeFile, refuses_unknown_and_missing_keys_by_path) {
   expect_error(kHead + R"({"edges":[],"nmae":"x"})" + kTail, "strokes[0] has the unknown key \"nmae\"");
   expect_error(kHead + R"({"name":"x"})" + kTail, "strokes[0] lacks the key \"edges\"");
   expect_error(kHead + R"({"edges":[],"poses":[],"edge":[]})" + kTail, "unknown key \"edges\"");
-  expect_error(polyline(R"({"t":0,"points":[[0,0,0],[1,0,0]],"x":0})"), "strokes[0].edges[0] has the unknown key \"x\"");
+  expect_error(polyline(R"({"t":0,"points":[[0,0,0],[1,0,0]],"x":0})"),
+               "strokes[0].edges[0] has the unknown key \"x\"");
   expect_error(polyline(R"({"points":[[0,0,0],[1,0,0]]})"), "strokes[0].edges[0] lacks the key \"t\"");
   expect_error(rigid("[[0,0,0],[1,0,0]]", R"({"t":0,"position":[0,0,0]})"), "strokes[0].poses[0] lacks the key");
   expect_error(kHead + R"({"edge":[[0,0,0],[1,0,0]]})" + kTail, "strokes[0] lacks the key \"poses\"");
 }
 
 TEST(BladeFile, refuses_bad_edges) {
-  expect_error(polyline(R"({"t":0,"points":[[0,0,0]]})"), "strokes[0].edges[0].points has 1 entries; it needs at least 2");
+  expect_error(polyline(R"({"t":0,"points":[[0,0,0]]})"),
+               "strokes[0].edges[0].points has 1 entries; it needs at least 2");
   expect_error(polyline(R"({"t":0,"points":[[0,0,0],[1,0]]})"), "points[1] must be an array of 3 numbers");
   expect_error(polyline(R"({"t":0,"points":[[0,0,0],[1,0,"a"]]})"), "points[1][2] must be a finite number");
   expect_error(polyline(R"({"t":0,"points":[[0,0,0],[1,0,null]]})"), "not null");

@@ -92,10 +92,11 @@ TEST(CutJob, report_has_every_key_of_the_contract) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   const auto expect_keys = [&](const char* pointer, std::vector<std::string> keys) {
-    for (const std::string& key : keys) EXPECT_TRUE(report[json::json_pointer(pointer)].contains(key)) << pointer << key;
+    for (const std::string& key : keys)
+      EXPECT_TRUE(report[json::json_pointer(pointer)].contains(key)) << pointer << key;
   };
-  const std::vector<std::string> quality = {"lr_min", "lr_mean", "lr_p99", "lr_max", "lr_over_200_pct",
-                                            "dihedral_min_deg", "dihedral_max_deg"};
+  const std::vector<std::string> quality = {"lr_min",          "lr_mean",          "lr_p99",          "lr_max",
+                                            "lr_over_200_pct", "dihedral_min_deg", "dihedral_max_deg"};
   for (const char* at : {"/quality/before", "/quality/cut", "/quality/after", "/quality/after/incision"}) {
     expect_keys(at, quality);
   }

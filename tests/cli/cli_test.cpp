@@ -30,7 +30,8 @@ TEST(Cli, cuts_the_papers_cube_with_both_profiles) {
     EXPECT_EQ(check.code, 0) << check.out;
     EXPECT_EQ(json::parse(check.out)["components"], 2);
   }
-  EXPECT_EQ(folder.names(), (std::vector<std::string>{"cube.mesh", "incise.json", "incise.vtu", "paper.json", "paper.vtu"}));
+  EXPECT_EQ(folder.names(),
+            (std::vector<std::string>{"cube.mesh", "incise.json", "incise.vtu", "paper.json", "paper.vtu"}));
 }
 
 TEST(Cli, takes_planes_of_any_length_and_sign) {
@@ -76,7 +77,9 @@ TEST(Cli, equal_calls_give_equal_bytes) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(4));
   for (const std::string threads : {"1", "3"}) {
-    ASSERT_EQ(run({"cut", cube, "--plane", "1,2,3,2.9", "-q", "--threads", threads, "-o", folder / (threads + ".msh")}).code, 0);
+    ASSERT_EQ(
+        run({"cut", cube, "--plane", "1,2,3,2.9", "-q", "--threads", threads, "-o", folder / (threads + ".msh")}).code,
+        0);
   }
   EXPECT_EQ(read(folder / "1.msh"), read(folder / "3.msh"));
   EXPECT_FALSE(read(folder / "1.msh").empty());
@@ -85,7 +88,8 @@ TEST(Cli, equal_calls_give_equal_bytes) {
 TEST(Cli, accepts_flags_that_ask_for_what_is_so) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(2));
-  const Outcome cut = run({"cut", cube, "--plane", "1,0,0,0.3", "--no-merge", "--no-improve", "--seed", "7", "--snap", "0"});
+  const Outcome cut =
+      run({"cut", cube, "--plane", "1,0,0,0.3", "--no-merge", "--no-improve", "--seed", "7", "--snap", "0"});
   EXPECT_EQ(cut.code, 0) << cut.err;
   const Outcome paper = run({"cut", cube, "--plane", "1,0,0,0.3", "--profile", "paper", "--snap", "0.1"});
   EXPECT_EQ(paper.code, 0);
@@ -120,9 +124,10 @@ TEST(Cli, info_has_the_keys_of_the_contract) {
 
 TEST(Cli, dirty_input_is_told_by_info_and_failed_by_check) {
   const Folder folder;
-  const std::string dirty = folder.write("dirty.mesh",
-                                         "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
-                                         "0 0 1 0\n0 0 -1 0\n5 5 5 0\nTetrahedra\n3\n1 2 3 4 1\n1 2 3 5 1\n4 3 2 1 1\nEnd\n");
+  const std::string dirty =
+      folder.write("dirty.mesh",
+                   "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                   "0 0 1 0\n0 0 -1 0\n5 5 5 0\nTetrahedra\n3\n1 2 3 4 1\n1 2 3 5 1\n4 3 2 1 1\nEnd\n");
   const Outcome info = run({"info", dirty, "--json"});
   EXPECT_EQ(info.code, 0) << info.err;
   const json defects = json::parse(info.out)["defects"];

@@ -76,15 +76,19 @@ TEST_F(CliErrors, meshes_that_cannot_be_read) {
            {"empty.mesh", ""},
            {"words.mesh", "this is no mesh\n"},
            {"half.mesh", whole.substr(0, whole.size() / 2)},
-           {"nan.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\nnan 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
-                        "Tetrahedra\n1\n1 2 3 4 0\nEnd\n"},
-           {"inf.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n1e999 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
-                        "Tetrahedra\n1\n1 2 3 4 0\nEnd\n"},
-           {"range.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
-                          "Tetrahedra\n1\n1 2 3 9 0\nEnd\n"},
+           {"nan.mesh",
+            "MeshVersionFormatted 2\nDimension 3\nVertices\n4\nnan 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+            "Tetrahedra\n1\n1 2 3 4 0\nEnd\n"},
+           {"inf.mesh",
+            "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n1e999 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+            "Tetrahedra\n1\n1 2 3 4 0\nEnd\n"},
+           {"range.mesh",
+            "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+            "Tetrahedra\n1\n1 2 3 9 0\nEnd\n"},
            {"lie.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n1000000000000\n0 0 0 0\n"},
-           {"twice.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
-                          "Tetrahedra\n1\n1 2 3 3 0\nEnd\n"}}) {
+           {"twice.mesh",
+            "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+            "Tetrahedra\n1\n1 2 3 3 0\nEnd\n"}}) {
     const std::string path = folder_.write(name, text);
     expect_refused({"cut", path, "--plane", "1,0,0,0.5"}, 3, name);
     const int info = run({"info", path}).code;
@@ -109,15 +113,18 @@ TEST_F(CliErrors, blades_that_cannot_be_read) {
   const std::string head = kBladeHead;
   expect_blade_refused("", "blade.json:1: the file is empty");
   expect_blade_refused(head, "blade.json:1:");
-  expect_blade_refused("{\"format\":\"incise-blade\",\n\"version\":1,\"strokes\":[{\"edges\":[],\n\"speed\":3}]}", "unknown key \"speed\"");
+  expect_blade_refused("{\"format\":\"incise-blade\",\n\"version\":1,\"strokes\":[{\"edges\":[],\n\"speed\":3}]}",
+                       "unknown key \"speed\"");
   expect_blade_refused(head + R"({"edges":[{"t":0,"points":[[0,0,0]]}]}]})", "needs at least 2");
   expect_blade_refused(head + R"({"edges":[{"t":1,"points":[[0,0,0],[1,0,0]]},{"t":0,"points":[[0,0,1],[1,0,1]]}]}]})",
                        "strokes[0].edges[1].t must be later");
   expect_blade_refused(head + R"({"edges":[{"t":0,"points":[[0,0,NaN],[1,0,0]]}]}]})", "not valid JSON");
   expect_blade_refused(
-      head + R"({"edge":[[0,0,0],[1,0,0]],"poses":[{"t":0,"position":[0,1e999,0],"orientation":[1,0,0,0]}]}]})", "blade.json:1:");
+      head + R"({"edge":[[0,0,0],[1,0,0]],"poses":[{"t":0,"position":[0,1e999,0],"orientation":[1,0,0,0]}]}]})",
+      "blade.json:1:");
   expect_blade_refused(
-      head + R"({"edge":[[0,0,0],[1,0,0]],"poses":[{"t":0,"position":[0,0,0],"orientation":[2,0,0,0]}]}]})", "unit quaternion");
+      head + R"({"edge":[[0,0,0],[1,0,0]],"poses":[{"t":0,"position":[0,0,0],"orientation":[2,0,0,0]}]}]})",
+      "unit quaternion");
 }
 
 TEST_F(CliErrors, outputs_that_cannot_be_written) {

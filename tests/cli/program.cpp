@@ -51,7 +51,9 @@ Outcome run_for(const std::vector<std::string>& arguments, double interrupt_afte
 
 }  // namespace
 
-Outcome run(const std::vector<std::string>& arguments) { return run_for(arguments, 0); }
+Outcome run(const std::vector<std::string>& arguments) {
+  return run_for(arguments, 0);
+}
 
 Outcome run_interrupted(const std::vector<std::string>& arguments, double seconds) {
   return run_for(arguments, seconds);

@@ -39,7 +39,9 @@ bool is_same(const std::vector<double>& a, std::span<const double> b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
-std::vector<double> copy_of(std::span<const double> values) { return {values.begin(), values.end()}; }
+std::vector<double> copy_of(std::span<const double> values) {
+  return {values.begin(), values.end()};
+}
 
 Vec3 velocity_at(const Vec3& x) {
   return {1.0 + 2.0 * x.x() - x.z(), -0.5 + x.x() + 3.0 * x.y(), 0.25 - x.y() + 0.5 * x.z()};

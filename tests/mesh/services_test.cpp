@@ -22,7 +22,9 @@ TetMesh build(TetSoup soup) {
   return std::move(mesh).value();
 }
 
-TetSoup one_tet() { return {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {{0, 1, 2, 3}}, {}}; }
+TetSoup one_tet() {
+  return {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {{0, 1, 2, 3}}, {}};
+}
 
 // Two tets that share one vertex only.
 TetSoup two_at_a_vertex() {
@@ -40,7 +42,9 @@ TetSoup two_at_an_edge() {
   return soup;
 }
 
-ValidityReport check(const TetMesh& mesh) { return validate(mesh, ValidateLevel::kGeometry); }
+ValidityReport check(const TetMesh& mesh) {
+  return validate(mesh, ValidateLevel::kGeometry);
+}
 
 TEST(Shapes, kuhn_cube_has_six_positive_tets_per_cell) {
   for (const std::uint32_t n : {1U, 2U, 5U}) {

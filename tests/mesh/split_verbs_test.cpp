@@ -46,8 +46,8 @@ void expect_links_of_rebuild(const TetMesh& mesh) {
     tet_number[t.value] = static_cast<std::uint32_t>(tets.size());
     tets.push_back(t);
     const TetVertices& v = mesh.vertices(t);
-    soup.tets.push_back({vertex_number[v[0].value], vertex_number[v[1].value], vertex_number[v[2].value],
-                         vertex_number[v[3].value]});
+    soup.tets.push_back(
+        {vertex_number[v[0].value], vertex_number[v[1].value], vertex_number[v[2].value], vertex_number[v[3].value]});
   });
   const Result<TetMesh> rebuilt = TetMesh::build(soup);
   ASSERT_TRUE(rebuilt.ok());
@@ -150,8 +150,7 @@ TEST(SplitFace, two_tets_become_six) {
 TEST(SplitFace, a_boundary_tet_becomes_three_and_its_vertex_lies_on_that_surface) {
   Editor edit(cube(2));
   const std::size_t tets = edit.mesh.tet_count();
-  const SplitFaceResult result =
-      edit.apply_plan(plan_split_face(edit.mesh, outer_face(edit.mesh), {0.2, 0.3, 0.5}));
+  const SplitFaceResult result = edit.apply_plan(plan_split_face(edit.mesh, outer_face(edit.mesh), {0.2, 0.3, 0.5}));
   EXPECT_EQ(edit.mesh.tet_count(), tets + 2);
   EXPECT_FALSE(result.parts[1].tet.is_valid());
   EXPECT_EQ(edit.mesh.shape_of(result.vertex), shape::kSkin);
@@ -273,11 +272,21 @@ class Program {
   void run(unsigned edits, bool may_duplicate) {
     for (unsigned i = 0; i < edits; ++i) {
       switch (random_.integer(0, may_duplicate ? 4 : 3)) {
-        case 0: split_edge(); break;
-        case 1: split_face(); break;
-        case 2: split_tet(); break;
-        case 3: move(); break;
-        default: duplicate(); break;
+        case 0:
+          split_edge();
+          break;
+        case 1:
+          split_face();
+          break;
+        case 2:
+          split_tet();
+          break;
+        case 3:
+          move();
+          break;
+        default:
+          duplicate();
+          break;
       }
     }
   }

@@ -27,8 +27,8 @@ struct MeshInfo {
 /// Whether a mesh can be relied on, and how good its tets are: `incise check`.
 struct MeshCheck {
   MeshInfo info;
-  QualityStats quality;      ///< of the mesh with negative tets turned and duplicates dropped
-  ValidityReport validity;   ///< likewise
+  QualityStats quality;     ///< of the mesh with negative tets turned and duplicates dropped
+  ValidityReport validity;  ///< likewise
   /// No defect of the file breaks the validity contract. Equal positions alone do not: cut walls have them.
   bool ok = false;
 };

@@ -17,11 +17,11 @@ namespace app {
 /// What a mesh file is, without its arrays.
 struct MeshSource {
   std::string file;
-  std::string format;               ///< for people, for instance "Gmsh MSH 2.2 ASCII", with "gzipped" where it is
-  std::uint64_t vertices = 0;       ///< of the file, mid-edge nodes included
-  std::uint64_t tets = 0;           ///< of the file
+  std::string format;          ///< for people, for instance "Gmsh MSH 2.2 ASCII", with "gzipped" where it is
+  std::uint64_t vertices = 0;  ///< of the file, mid-edge nodes included
+  std::uint64_t tets = 0;      ///< of the file
   bool ten_node = false;
-  std::vector<std::string> notes;   ///< what was turned, dropped or left out, in words
+  std::vector<std::string> notes;  ///< what was turned, dropped or left out, in words
 };
 
 /// A mesh made fit for cutting.

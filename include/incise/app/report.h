@@ -40,7 +40,7 @@ struct ReportOptions {
 
 /// Everything that `incise cut` reports.
 struct CutReport {
-  std::string input;               ///< the mesh file
+  std::string input;  ///< the mesh file
   std::string input_format;
   std::vector<std::string> notes;  ///< from loading
   ReportOptions options;
@@ -51,12 +51,12 @@ struct CutReport {
   QualityStats quality_before, quality_cut, quality_after, quality_incision;
   double volume_before = 0, volume_after = 0;
   ValidityReport validity_before, validity_after;
-  ValidityChange change;           ///< `ok` is the report's verdict
+  ValidityChange change;  ///< `ok` is the report's verdict
   StageTimes times;
-  double total_ms = 0;             ///< by the clock around all strokes
+  double total_ms = 0;  ///< by the clock around all strokes
   std::vector<double> step_ms;
   std::vector<StageTimes> stage_ms;  ///< one sample per entry
-  std::uint64_t hash = 0;          ///< of the mesh after
+  std::uint64_t hash = 0;            ///< of the mesh after
 };
 
 /// The report as JSON, format "incise-report" version 1, with a newline at the end. Cost: O(steps + pieces).

@@ -16,7 +16,8 @@ void* reserve_address_space(std::size_t bytes) noexcept;
 void release_address_space(void* start, std::size_t bytes) noexcept;
 }  // namespace detail
 
-/// A growing array of plain values (ids, numbers, small vectors: anything that may be moved as bytes) that does not copy itself while it grows.
+/// A growing array of plain values (ids, numbers, small vectors: anything that may be moved as bytes) that does not
+/// copy itself while it grows.
 ///
 /// It reserves address space for `kReservedCount` elements once; pages are backed when first touched, so an array
 /// of ten million tets grows during a stroke without a stall. Where address space cannot be reserved
@@ -142,8 +143,8 @@ class GrowArray {
 
 /// Numbers by slot that all start at zero and cost memory only where they were written.
 ///
-/// For marks on a mesh of any size: construction is O(1) where address space can be reserved, O(slots) elsewhere. Whoever
-/// keeps one for reuse sets the entries that it wrote back to zero, since fresh pages cost more than that.
+/// For marks on a mesh of any size: construction is O(1) where address space can be reserved, O(slots) elsewhere.
+/// Whoever keeps one for reuse sets the entries that it wrote back to zero, since fresh pages cost more than that.
 template <class T>
 class ZeroedArray {
  public:

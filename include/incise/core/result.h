@@ -11,12 +11,12 @@ namespace incise::inline v0 {
 
 /// Why a call did not do what was asked.
 enum class ErrorCode : std::uint8_t {
-  kBadArgument,   ///< an argument is outside its documented range
-  kBadFile,       ///< a file cannot be opened, or its content is not what its format promises
-  kUnsupported,   ///< well formed, but of a kind that Incise does not handle
-  kOutOfMemory,   ///< an allocation or an id range would be exceeded
-  kIo,            ///< writing failed
-  kInternal,      ///< a broken invariant: the step was rolled back
+  kBadArgument,  ///< an argument is outside its documented range
+  kBadFile,      ///< a file cannot be opened, or its content is not what its format promises
+  kUnsupported,  ///< well formed, but of a kind that Incise does not handle
+  kOutOfMemory,  ///< an allocation or an id range would be exceeded
+  kIo,           ///< writing failed
+  kInternal,     ///< a broken invariant: the step was rolled back
 };
 
 /// What went wrong, where, and how to mend it.

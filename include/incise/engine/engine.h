@@ -60,7 +60,7 @@ class Engine {
   Journal journal_;
   EngineOptions options_;
   Cutter cutter_;
-  std::vector<std::size_t> stroke_ends_;   // journal position after each stroke
+  std::vector<std::size_t> stroke_ends_;  // journal position after each stroke
   std::vector<std::size_t> undone_ends_;  // of strokes that redo would apply, last first
 };
 

@@ -40,27 +40,27 @@ using Recompute = std::function<void(const TetMesh& mesh, std::uint32_t slot, st
 
 /// What an attribute is, for `Attributes::add`.
 struct AttributeSpec {
-  std::string name;                          ///< unique, not empty
+  std::string name;  ///< unique, not empty
   Domain domain = Domain::kVertex;
-  std::uint32_t width = 1;                   ///< numbers per element, 1 to 64
+  std::uint32_t width = 1;  ///< numbers per element, 1 to 64
   Transfer transfer = Transfer::kInterpolate;
-  Recompute recompute = {};                  ///< for kRecompute, and only there
-  std::vector<double> initial = {};          ///< `width` numbers that every element starts with; empty: zeros
+  Recompute recompute = {};          ///< for kRecompute, and only there
+  std::vector<double> initial = {};  ///< `width` numbers that every element starts with; empty: zeros
 };
 
 /// Values that users and solvers attach to vertices or tets, and that follow the mesh through its journal alone.
 ///
-/// A follower as the journal describes it: after any number of commits, undos and redos `follow` catches up. Undo brings
-/// the values of all elements that a step touched back bit for bit, redo those that undo took away; what was written
-/// to other elements in between stays.
+/// A follower as the journal describes it: after any number of commits, undos and redos `follow` catches up. Undo
+/// brings the values of all elements that a step touched back bit for bit, redo those that undo took away; what was
+/// written to other elements in between stays.
 ///
-/// Conserved quantities have a density at each vertex: the value by the vertex's lumped rest volume, a quarter of each of
-/// its tets. A consumed tet carries away its quarters at the densities before the step; its children get them in
+/// Conserved quantities have a density at each vertex: the value by the vertex's lumped rest volume, a quarter of each
+/// of its tets. A consumed tet carries away its quarters at the densities before the step; its children get them in
 /// proportion to their rest volumes, a quarter per corner. A consumed tet without children leaves its quarters with
 /// its corners. A rewired tet takes its quarter from the old vertex to the new one. Where a vertex moves, the tets
-/// around it that shrink hand material at their own densities to those that grow, so that a uniform density stays uniform
-/// and momentum Σ m·v of a linear velocity field is kept. For tets: the parent's value by volume shares, and the same
-/// exchange. Values of dead slots are 0.
+/// around it that shrink hand material at their own densities to those that grow, so that a uniform density stays
+/// uniform and momentum Σ m·v of a linear velocity field is kept. For tets: the parent's value by volume shares, and
+/// the same exchange. Values of dead slots are 0.
 ///
 /// Not thread-safe; other followers may read the mesh at the same time.
 /// Memory: 32 bytes per tet and 36 per vertex besides the values, and what `follow` keeps for undo: O(step) per step.
@@ -70,9 +70,9 @@ class Attributes {
   /// the relation. Cost: O(n).
   explicit Attributes(const TetMesh& mesh, std::size_t position = 0);
 
-  /// Adds an attribute; `mesh` as at the last `follow`. Errors: kBadArgument for an empty or known name, a width outside
-  /// [1, 64], a missing or needless function, or the wrong number of initial values.
-  /// Elements that an undo past this call revives get the initial value. Cost: O(n).
+  /// Adds an attribute; `mesh` as at the last `follow`. Errors: kBadArgument for an empty or known name, a width
+  /// outside [1, 64], a missing or needless function, or the wrong number of initial values. Elements that an undo past
+  /// this call revives get the initial value. Cost: O(n).
   Result<AttributeId> add(const TetMesh& mesh, AttributeSpec spec);
 
   [[nodiscard]] std::size_t size() const { return attributes_.size(); }

@@ -14,13 +14,13 @@ namespace incise::inline v0 {
 /// they count as bad and as flat, and stay out of the other figures.
 struct QualityStats {
   std::uint64_t tets = 0;
-  std::uint64_t flat_tets = 0;    ///< |V| ≤ `kFlatTetRatio` · L³
+  std::uint64_t flat_tets = 0;  ///< |V| ≤ `kFlatTetRatio` · L³
   double lr_min = 0;
   double lr_mean = 0;
-  double lr_p99 = 0;              ///< nearest rank
+  double lr_p99 = 0;  ///< nearest rank
   double lr_max = 0;
-  double lr_over_200_pct = 0;     ///< percent of `tets` with L/r > 200, flat ones included
-  double dihedral_min_deg = 0;    ///< degree, (0, 180)
+  double lr_over_200_pct = 0;   ///< percent of `tets` with L/r > 200, flat ones included
+  double dihedral_min_deg = 0;  ///< degree, (0, 180)
   double dihedral_max_deg = 0;
 };
 

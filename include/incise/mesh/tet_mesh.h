@@ -95,9 +95,7 @@ class TetMesh {
   [[nodiscard]] std::uint32_t tet_slots() const { return static_cast<std::uint32_t>(tet_vertices_.size()); }
   [[nodiscard]] std::uint32_t vertex_slots() const { return static_cast<std::uint32_t>(vertex_tet_.size()); }
 
-  [[nodiscard]] bool is_live(TetId tet) const {
-    return tet.value < tet_slots() && tet_vertices_[tet][0].is_valid();
-  }
+  [[nodiscard]] bool is_live(TetId tet) const { return tet.value < tet_slots() && tet_vertices_[tet][0].is_valid(); }
   [[nodiscard]] bool is_live(VertexId vertex) const {
     return vertex.value < vertex_slots() && (vertex_shape_[vertex] & shape::kDead) == 0;
   }

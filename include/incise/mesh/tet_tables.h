@@ -27,10 +27,11 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 4> kEdgeOfCorners = {
     {{255, 0, 1, 2}, {0, 255, 3, 4}, {1, 3, 255, 5}, {2, 4, 5, 255}}};
 
 /// The three edges of side s, ascending.
-inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kSideEdges = {
-    {{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}}};
+inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kSideEdges = {{{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}}};
 
-constexpr unsigned opposite_edge(unsigned edge) { return 5 - edge; }
+constexpr unsigned opposite_edge(unsigned edge) {
+  return 5 - edge;
+}
 
 namespace detail {
 constexpr bool tables_agree() {

@@ -74,7 +74,7 @@ class Transaction {
   Step step_;
   ZeroedArray<std::uint32_t>& tet_mark_;     // 0 untouched, 1 touched, 2 + index where the transaction took the slot
   ZeroedArray<std::uint32_t>& vertex_mark_;  // likewise
-  std::vector<TetId> parents_;                    // of new_tets
+  std::vector<TetId> parents_;               // of new_tets
   std::vector<TetId> removed_tets_;
   std::vector<VertexId> removed_vertices_;
   std::vector<OpenedFace> opened_;

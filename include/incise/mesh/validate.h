@@ -21,22 +21,22 @@ enum class ValidateLevel : std::uint8_t {
 /// One way to break the validity contract; also the index into `ValidityReport::counts`. The ids of a `Violation` are
 /// named behind each.
 enum class ViolationKind : std::uint8_t {
-  kCount,              ///< a live count differs from the slots in use: counted, found
-  kNotFinite,          ///< a position is infinite or not a number: vertex
-  kBadCorner,          ///< a corner is no live vertex, or repeats another corner: tet, corner
-  kBadLink,            ///< a link leads to no live tet or is not returned: tet, side
-  kFaceMismatch,       ///< two linked sides have different vertices: tet, side
-  kBadTetOf,           ///< `tet_of` is no live tet with that vertex: vertex
-  kOrphanVertex,       ///< a live vertex without tets: vertex
-  kDuplicateTet,       ///< a tet has the vertices of an earlier one: tet
-  kOversharedFace,     ///< a face of skin with more than one boundary side, or a link beside: the first side's tet, side
-  kUnseparatedFace,    ///< the same where a side is a cut wall: opened, but without vertices of its own
-  kNonmanifoldEdge,    ///< a boundary edge of skin without exactly two boundary faces: vertex, vertex
-  kNonmanifoldCutEdge, ///< the same where one of its faces is a cut wall
-  kSingletonVertex,    ///< the tets around a vertex are not face-connected: vertex
-  kSingletonCutVertex, ///< the same for a vertex on a cut wall
-  kNotPositive,        ///< exact sign of rest volume ≤ 0: tet
-  kVolumeDrift,        ///< total rest volume differs from the expected one
+  kCount,            ///< a live count differs from the slots in use: counted, found
+  kNotFinite,        ///< a position is infinite or not a number: vertex
+  kBadCorner,        ///< a corner is no live vertex, or repeats another corner: tet, corner
+  kBadLink,          ///< a link leads to no live tet or is not returned: tet, side
+  kFaceMismatch,     ///< two linked sides have different vertices: tet, side
+  kBadTetOf,         ///< `tet_of` is no live tet with that vertex: vertex
+  kOrphanVertex,     ///< a live vertex without tets: vertex
+  kDuplicateTet,     ///< a tet has the vertices of an earlier one: tet
+  kOversharedFace,   ///< a face of skin with more than one boundary side, or a link beside: the first side's tet, side
+  kUnseparatedFace,  ///< the same where a side is a cut wall: opened, but without vertices of its own
+  kNonmanifoldEdge,  ///< a boundary edge of skin without exactly two boundary faces: vertex, vertex
+  kNonmanifoldCutEdge,  ///< the same where one of its faces is a cut wall
+  kSingletonVertex,     ///< the tets around a vertex are not face-connected: vertex
+  kSingletonCutVertex,  ///< the same for a vertex on a cut wall
+  kNotPositive,         ///< exact sign of rest volume ≤ 0: tet
+  kVolumeDrift,         ///< total rest volume differs from the expected one
 };
 
 inline constexpr std::size_t kViolationKinds = 16;
@@ -50,18 +50,18 @@ struct Violation {
 };
 
 struct ValidateOptions {
-  std::size_t max_listed = 16;       ///< violations kept with ids, over all kinds
-  double expected_volume = 0;        ///< cubed length units; compared where > 0
-  double volume_tolerance = 1e-12;   ///< relative; the validity contract's
+  std::size_t max_listed = 16;      ///< violations kept with ids, over all kinds
+  double expected_volume = 0;       ///< cubed length units; compared where > 0
+  double volume_tolerance = 1e-12;  ///< relative; the validity contract's
 };
 
 struct ValidityReport {
-  bool ok = true;                                        ///< no violation at all, the input's own included
+  bool ok = true;  ///< no violation at all, the input's own included
   ValidateLevel level = ValidateLevel::kCounts;
-  std::array<std::uint64_t, kViolationKinds> counts{};   ///< by `ViolationKind`
-  std::vector<Violation> first;                          ///< the first `max_listed`, in order of discovery
-  double volume = 0;                                     ///< total rest volume, where the level is kGeometry
-  double volume_error = 0;                               ///< relative to the expected one, 0 where none was given
+  std::array<std::uint64_t, kViolationKinds> counts{};  ///< by `ViolationKind`
+  std::vector<Violation> first;                         ///< the first `max_listed`, in order of discovery
+  double volume = 0;                                    ///< total rest volume, where the level is kGeometry
+  double volume_error = 0;                              ///< relative to the expected one, 0 where none was given
 
   [[nodiscard]] std::uint64_t count(ViolationKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
 };
@@ -77,8 +77,8 @@ struct ValidityReport {
 
 /// What an edit did to the violations of a mesh.
 struct ValidityChange {
-  bool ok = true;                                       ///< nothing grew
-  std::array<std::uint64_t, kViolationKinds> grown{};   ///< by how many each kind grew
+  bool ok = true;                                      ///< nothing grew
+  std::array<std::uint64_t, kViolationKinds> grown{};  ///< by how many each kind grew
 };
 
 /// Compares two reports of the same level, of one mesh before and after edits: violations that were there before are

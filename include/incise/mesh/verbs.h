@@ -10,12 +10,12 @@ namespace incise::inline v0 {
 /// Why a verb cannot be carried out. A refusal is normal flow: nothing has changed.
 enum class Refusal : std::uint8_t {
   kNone,
-  kDead,          ///< a named element does not live
-  kNotAnEdge,     ///< the two vertices share no tet
-  kOutOfRange,    ///< a parameter is outside its range
-  kWouldInvert,   ///< a tet would be inverted or flat
-  kStarIsWhole,   ///< nothing separates the star
-  kNoStar,        ///< the vertex has no tets, or they were not face-connected at load: its star cannot be walked
+  kDead,         ///< a named element does not live
+  kNotAnEdge,    ///< the two vertices share no tet
+  kOutOfRange,   ///< a parameter is outside its range
+  kWouldInvert,  ///< a tet would be inverted or flat
+  kStarIsWhole,  ///< nothing separates the star
+  kNoStar,       ///< the vertex has no tets, or they were not face-connected at load: its star cannot be walked
 };
 
 /// One tet that a split replaces, with its two halves.
@@ -55,7 +55,8 @@ struct DuplicateVertexPlan {
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 
-/// Plans a duplication. Every tet of `group` must contain `vertex`; some tet of the star must stay outside. Cost: O(star).
+/// Plans a duplication. Every tet of `group` must contain `vertex`; some tet of the star must stay outside. Cost:
+/// O(star).
 DuplicateVertexPlan plan_duplicate_vertex(const TetMesh& mesh, VertexId vertex, std::vector<TetId> group);
 
 /// Carries the plan out: the group gets a twin of the vertex, and the faces between group and rest become boundary with
@@ -65,8 +66,8 @@ VertexId apply(Transaction& transaction, const DuplicateVertexPlan& plan, std::u
 /// The plan of putting a vertex into a face.
 struct SplitFacePlan {
   Refusal refusal = Refusal::kNone;
-  Side face;                                ///< as one of its tets sees it
-  std::array<double, 3> weights{};          ///< of the vertices of `face`, in the order of `TetMesh::vertices(Side)`
+  Side face;                        ///< as one of its tets sees it
+  std::array<double, 3> weights{};  ///< of the vertices of `face`, in the order of `TetMesh::vertices(Side)`
   Vec3 rest = Vec3::Zero(), current = Vec3::Zero();
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
@@ -115,15 +116,15 @@ SplitTetResult apply(Transaction& transaction, const SplitTetPlan& plan);
 struct MoveVertexPlan {
   Refusal refusal = Refusal::kNone;
   VertexId vertex;
-  Vec3 rest = Vec3::Zero();          ///< where to, in the mesh's length unit
-  TetVertices basis;                 ///< the tet of the star that holds the place, or is nearest to holding it
-  std::array<double, 4> weights{};   ///< barycentric coordinates of the place in it
+  Vec3 rest = Vec3::Zero();         ///< where to, in the mesh's length unit
+  TetVertices basis;                ///< the tet of the star that holds the place, or is nearest to holding it
+  std::array<double, 4> weights{};  ///< barycentric coordinates of the place in it
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 
-/// Plans a move in the rest shape. Refuses where a tet of positive volume would lose it, by exact sign; keeping a boundary
-/// vertex on its surface is up to the caller. Refuses pinched vertices (kNoStar). Cost: O(star).
+/// Plans a move in the rest shape. Refuses where a tet of positive volume would lose it, by exact sign; keeping a
+/// boundary vertex on its surface is up to the caller. Refuses pinched vertices (kNoStar). Cost: O(star).
 MoveVertexPlan plan_move_vertex(const TetMesh& mesh, VertexId vertex, const Vec3& rest);
 
 /// Carries a plan out; cannot fail. Links, slots and shape bits stay.
