@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "incise/core/parallel.h"
+
 namespace incise::inline v0 {
 
 namespace {
@@ -64,21 +66,33 @@ bool meets_some_triangle(const TetMesh& mesh, TetId tet, const Sheet& sheet) {
 
 }  // namespace
 
-std::vector<TetId> find_near_tets(const TetMesh& mesh, const Sheet& sheet) {
+std::vector<TetId> find_near_tets(const TetMesh& mesh, const Sheet& sheet, unsigned threads) {
   const Slabs slabs(sheet);
   std::vector<std::uint8_t> outcode(mesh.vertex_slots());
-  for (std::uint32_t slot = 0; slot < mesh.vertex_slots(); ++slot) {
-    outcode[slot] = slabs.outcode(mesh.rest(VertexId(slot)));
-  }
-  const bool is_small = sheet.triangle_count() <= 2;
-  std::vector<TetId> near;
-  mesh.for_each_tet([&](TetId tet) {
-    const TetVertices& v = mesh.vertices(tet);
-    const unsigned outside = outcode[v[0].value] & outcode[v[1].value] & outcode[v[2].value] & outcode[v[3].value];
-    if (outside == 0 && (is_small || meets_some_triangle(mesh, tet, sheet))) {
-      near.push_back(tet);
+  parallel_blocks(outcode.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      outcode[slot] = slabs.outcode(mesh.rest(VertexId(static_cast<std::uint32_t>(slot))));
     }
   });
+  const bool is_small = sheet.triangle_count() <= 2;
+  std::vector<std::vector<TetId>> found(block_count(mesh.tet_slots()));
+  parallel_blocks(mesh.tet_slots(), threads, [&](std::size_t block, std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const TetId tet(static_cast<std::uint32_t>(slot));
+      if (!mesh.is_live(tet)) {
+        continue;
+      }
+      const TetVertices& v = mesh.vertices(tet);
+      const unsigned outside = outcode[v[0].value] & outcode[v[1].value] & outcode[v[2].value] & outcode[v[3].value];
+      if (outside == 0 && (is_small || meets_some_triangle(mesh, tet, sheet))) {
+        found[block].push_back(tet);
+      }
+    }
+  });
+  std::vector<TetId> near;
+  for (const std::vector<TetId>& part : found) {
+    near.insert(near.end(), part.begin(), part.end());
+  }
   return near;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "incise/core/parallel.h"
+
 namespace incise::inline v0 {
 
 namespace {
@@ -151,11 +153,22 @@ void collect(const TetMesh& mesh, const std::vector<TetId>& near, Neighbourhood&
 
 }  // namespace
 
-void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out) {
+void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out,
+                    unsigned threads) {
   collect(mesh, near, out);
-  SideMemo sides(mesh, sheet, near.size() / 2 + 8);
-  for (CutEdge& edge : out.edges.edges()) {
-    count_crossings(mesh, sheet, sides, edge);
+  std::vector<CutEdge>& edges = out.edges.edges();
+  if (threads <= 1) {
+    SideMemo sides(mesh, sheet, near.size() / 2 + 8);
+    for (CutEdge& edge : edges) {
+      count_crossings(mesh, sheet, sides, edge);
+    }
+  } else {
+    parallel_blocks(edges.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+      SideMemo sides(mesh, sheet, end - begin);
+      for (std::size_t i = begin; i < end; ++i) {
+        count_crossings(mesh, sheet, sides, edges[i]);
+      }
+    });
   }
   for (NearTet& tet : out.tets) {
     tet.flagged = flags_of(tet, out.edges);

@@ -14,7 +14,8 @@ namespace incise::inline v0 {
 /// on one side or the other, and neighbours agree. Flags of a face sum to the number of times that the sheet's border
 /// pierces it, modulo 2. Paper §2.2 (collision points). Differs: the paper tests with a tolerance.
 /// Cost: O(near tets); each sign of a vertex and a triangle is computed once where the table of signs is small enough.
-void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out);
+void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out,
+                    unsigned threads = 1);
 
 /// Whether the sheet passes an odd number of times between a vertex of a tet and the tet's middle. Exact.
 bool separates_from_middle(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, TetId tet);

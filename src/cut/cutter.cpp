@@ -3,6 +3,7 @@
 #include "incise/cut/cutter.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "cut/contact.h"
@@ -27,6 +28,8 @@ constexpr double kGrazeShare = 0.02;
 constexpr double kSlitShare = 0.02;
 /// Consecutive parts of a sweep that meets itself overlap by so many spacings.
 constexpr double kOverlapShare = 3.0;
+/// A tet falls apart into so many children at most.
+constexpr std::size_t kMostChildren = 16;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
@@ -67,78 +70,117 @@ CutStatistics& CutStatistics::operator+=(const CutStatistics& other) {
 
 class Cutter::Pipeline {
  public:
-  explicit Pipeline(CutOptions options) : options_(options) {}
+  Pipeline(CutOptions options, unsigned threads) : options_(options), threads_(threads) {}
 
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times) {
     if (Status status = check(stroke); !status) {
       return status.error();
     }
-    CutStatistics statistics;
-    statistics.steps = stroke.times.size() - 1;
-    const double spacing = typical_spacing(mesh);
-    const SweptSurface surface = sweep(stroke, kSlitShare * spacing);
-    for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
-      const Sheet sheet(surface, part);
-      Transaction transaction(mesh);
-      cut_sheet(transaction, sheet, tag, statistics, times);
-      ++statistics.sheets;
-      Step step = transaction.commit();
-      if (!step.is_empty()) {
-        journal.append(std::move(step));
-      }
+    const std::size_t start = journal.position();
+    statistics_ = {};
+    statistics_.steps = stroke.times.size() - 1;
+    Status status;
+    try {
+      status = cut_parts(mesh, journal, stroke, tag, times);
+    } catch (const std::bad_alloc&) {
+      status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
     }
-    return statistics;
+    if (!status) {
+      while (journal.position() > start) {
+        journal.undo(mesh);
+      }
+      return status.error();
+    }
+    return statistics_;
   }
 
  private:
   bool is_paper() const { return options_.profile == Profile::kPaper; }
   double snap() const { return is_paper() ? 0.0 : options_.snap; }
 
-  void cut_sheet(Transaction& transaction, const Sheet& sheet, std::uint32_t tag, CutStatistics& statistics,
-                 StageTimes& times) {
-    const TetMesh& mesh = transaction.mesh();
-    const std::size_t tets_before = mesh.tet_count();
-    std::vector<OnVertex> on;
-    {
-      const StageZone zone(times, Stage::kCollision);
-      collide(transaction, sheet);
-      on = choose_on_vertices(mesh, sheet, snap(), near_, walker_);
-    }
-    std::vector<IncisionFace> incision;
-    Subdivision subdivision;
-    {
-      const StageZone zone(times, Stage::kSubdivide);
-      statistics.blocked_edges += plan_subdivision(mesh, rules(), templates_, near_);
-      statistics.cut_tets += count_cut_tets();
-      subdivision = subdivide(transaction, sheet, templates_, near_);
-      incision = is_paper() ? find_paper_incision(mesh, near_, subdivision) : std::move(subdivision.incision);
-      statistics.snapped_vertices += on.size();
-    }
-    {
-      const StageZone zone(times, Stage::kSeparate);
-      if (snap() > 0) {
-        statistics.crumbs_kept += keep_crumbs(transaction, near_, incision);
+  /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
+  Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
+    const double spacing = typical_spacing(mesh);
+    const SweptSurface surface = sweep(stroke, kSlitShare * spacing);
+    for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
+      if (Status status = cut_sheet(mesh, journal, Sheet(surface, part), tag, times); !status) {
+        return status;
       }
-      const Separation separation =
-          is_paper() ? separate_as_paper(transaction, std::move(incision), tag, walker_)
-                     : separate(transaction, std::move(incision), subdivision.children, tag, separation_, [&] {
-                         statistics.bent_vertices += move_on_vertices(transaction, sheet, snap(), on, walker_);
-                       });
-      statistics.incision_faces += separation.opened_faces;
-      statistics.latent_faces += separation.latent_faces;
-      statistics.copied_vertices += separation.copied_vertices;
-      statistics.pinched_edges += separation.pinched_edges;
+      ++statistics_.sheets;
     }
-    statistics.new_vertices += transaction.new_vertices().size();
-    statistics.created_tets += mesh.tet_count() - tets_before;
+    return {};
+  }
+  /// One sheet: collision, subdivision, separation.
+  Status cut_sheet(TetMesh& mesh, Journal& journal, const Sheet& sheet, std::uint32_t tag, StageTimes& times) {
+    const std::size_t tets_before = mesh.tet_count();
+    Transaction transaction(mesh);
+    const std::vector<OnVertex> on = find_contact(transaction, sheet, times);
+    if (std::size_t{mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
+      return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
+    }
+    Subdivision subdivision = divide(transaction, sheet, times);
+    separate_parts(transaction, sheet, subdivision, on, tag, times);
+    statistics_.snapped_vertices += on.size();
+    statistics_.new_vertices += transaction.new_vertices().size();
+    append(journal, transaction);
+    if (is_paper()) {
+      part_edges(mesh, journal, subdivision.incision, times);
+    }
+    statistics_.created_tets += mesh.tet_count() - tets_before;
+    return {};
+  }
+  static void append(Journal& journal, Transaction& transaction) {
+    Step step = transaction.commit();
+    if (!step.is_empty()) {
+      journal.append(std::move(step));
+    }
+  }
+  std::vector<OnVertex> find_contact(Transaction& transaction, const Sheet& sheet, StageTimes& times) {
+    const StageZone zone(times, Stage::kCollision);
+    collide(transaction, sheet);
+    return choose_on_vertices(transaction.mesh(), sheet, snap(), near_, walker_);
+  }
+  Subdivision divide(Transaction& transaction, const Sheet& sheet, StageTimes& times) {
+    const StageZone zone(times, Stage::kSubdivide);
+    const TetMesh& mesh = transaction.mesh();
+    statistics_.blocked_edges += plan_subdivision(mesh, rules(), templates_, near_);
+    statistics_.cut_tets += count_cut_tets();
+    Subdivision subdivision = subdivide(transaction, sheet, templates_, near_);
+    if (is_paper()) {
+      subdivision.incision = find_paper_incision(mesh, near_, subdivision);
+    }
+    return subdivision;
+  }
+  void separate_parts(Transaction& transaction, const Sheet& sheet, Subdivision& subdivision,
+                      const std::vector<OnVertex>& on, std::uint32_t tag, StageTimes& times) {
+    const StageZone zone(times, Stage::kSeparate);
+    if (snap() > 0) {
+      statistics_.crumbs_kept += keep_crumbs(transaction, near_, subdivision.incision);
+    }
+    const auto move = [&] { statistics_.bent_vertices += move_on_vertices(transaction, sheet, snap(), on, walker_); };
+    const Separation separation = is_paper() ? separate_as_paper(transaction, subdivision.incision, tag, walker_)
+                                             : separate(transaction, std::move(subdivision.incision),
+                                                        subdivision.children, tag, separation_, move);
+    statistics_.incision_faces += separation.opened_faces;
+    statistics_.latent_faces += separation.latent_faces;
+    statistics_.copied_vertices += separation.copied_vertices;
+    statistics_.pinched_edges += separation.pinched_edges;
+  }
+  /// The paper profile's repair; a step of its own.
+  void part_edges(TetMesh& mesh, Journal& journal, const std::vector<IncisionFace>& incision, StageTimes& times) {
+    const StageZone zone(times, Stage::kSeparate);
+    Transaction transaction(mesh);
+    statistics_.pinched_edges += part_pinched_edges(transaction, incision, walker_);
+    statistics_.new_vertices += transaction.new_vertices().size();
+    append(journal, transaction);
   }
 
   /// Finds the crossings of the mesh's edges with the sheet; edges crossed twice are bisected in between and retried.
   void collide(Transaction& transaction, const Sheet& sheet) {
     const TetMesh& mesh = transaction.mesh();
     for (unsigned round = 0;; ++round) {
-      find_crossings(mesh, sheet, find_near_tets(mesh, sheet), near_);
+      find_crossings(mesh, sheet, find_near_tets(mesh, sheet, threads_), near_, threads_);
       const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet, near_, kGrazeShare);
       if (twice.empty() || round == kMaxBisectionRounds) {
         return;
@@ -176,13 +218,15 @@ class Cutter::Pipeline {
   }
 
   CutOptions options_;
+  unsigned threads_;
+  CutStatistics statistics_;  // of the stroke being cut
   Neighbourhood near_;
   SplitTemplates templates_;
   StarWalker walker_;
   SeparationScratch separation_;
 };
 
-Cutter::Cutter(CutOptions options) : pipeline_(std::make_unique<Pipeline>(options)) {}
+Cutter::Cutter(CutOptions options, unsigned threads) : pipeline_(std::make_unique<Pipeline>(options, threads)) {}
 Cutter::Cutter(Cutter&&) noexcept = default;
 Cutter& Cutter::operator=(Cutter&&) noexcept = default;
 Cutter::~Cutter() = default;

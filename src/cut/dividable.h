@@ -26,4 +26,10 @@ enum class Dividability : std::uint8_t {
 Separation separate_as_paper(Transaction& transaction, std::vector<IncisionFace> incision, std::uint32_t tag,
                              StarWalker& walker);
 
+/// A repair that the paper lacks: where two fans of tets touch along a whole edge of faces that `separate_as_paper`
+/// opened, each fan gets a midpoint of its own. Takes a transaction of its own, since its new vertices lie between
+/// copies. Returns how many edges were parted. Cost: O(opened faces).
+std::uint64_t part_pinched_edges(Transaction& transaction, const std::vector<IncisionFace>& incision,
+                                 StarWalker& walker);
+
 }  // namespace incise::inline v0

@@ -33,8 +33,8 @@ std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const Sheet& sheet
 
 /// Moves the chosen vertices onto the sheet where that keeps the body's shape: interior ones freely, those on a flat
 /// part of a surface within it, those on a straight feature along it, others not at all (the wall then bends to them).
-/// A move that would leave a tet of the star less than a quarter of its volume, or be longer than 1.5·snap·spacing, is
-/// refused. Returns how many vertices stay off the sheet.
+/// A move that would leave a tet of the star less than a quarter of its volume or flat, change the volume of the star,
+/// or be longer than 1.5·snap·spacing, is refused. Returns how many vertices stay off the sheet.
 std::uint64_t move_on_vertices(Transaction& transaction, const Sheet& sheet, double snap,
                                const std::vector<OnVertex>& chosen, StarWalker& walker);
 

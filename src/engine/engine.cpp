@@ -3,9 +3,25 @@
 
 #include <chrono>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace incise::inline v0 {
+
+namespace {
+
+void tell(const LogSink& log, const CutStatistics& cut) {
+  if (log && cut.sheets > 1) {
+    log(LogLevel::kInfo,
+        "the sweep meets itself: it was cut in " + std::to_string(cut.sheets) + " parts, in time order");
+  }
+  if (log && cut.blocked_edges > 0) {
+    log(LogLevel::kWarning, std::to_string(cut.blocked_edges) +
+                                " edges were left whole beside flat tets: the parts may hang together there");
+  }
+}
+
+}  // namespace
 
 Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
   if (!(options.cut.snap >= 0.0 && options.cut.snap <= 0.4)) {
@@ -18,7 +34,7 @@ Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
 }
 
 Engine::Engine(TetMesh mesh, EngineOptions options)
-    : mesh_(std::move(mesh)), options_(std::move(options)), cutter_(options_.cut) {}
+    : mesh_(std::move(mesh)), options_(std::move(options)), cutter_(options_.cut, options_.threads) {}
 
 Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   StrokeReport report;
@@ -29,6 +45,7 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
     return cut.error();
   }
   report.cut = *cut;
+  tell(options_.log, *cut);
   report.step_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   stroke_ends_.push_back(journal_.position());
   undone_ends_.clear();

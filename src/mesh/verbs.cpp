@@ -216,8 +216,8 @@ bool is_exactly_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, c
   return orient3d(p[0], p[1], p[2], p[3]) > 0;
 }
 
-template <std::size_t n>
-bool are_inner_weights(const std::array<double, n>& weights) {
+template <std::size_t kCount>
+bool are_inner_weights(const std::array<double, kCount>& weights) {
   double sum = 0;
   for (const double weight : weights) {
     if (!(weight > 0 && weight < 1)) {

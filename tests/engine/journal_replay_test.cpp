@@ -51,10 +51,11 @@ class Mirror {
   /// A quarter of each tet's volume at each of its corners.
   [[nodiscard]] std::map<VertexId, double> masses() const {
     std::map<VertexId, double> mass;
-    for (const auto& [id, tet] : tets_) {
-      const auto at = [&](unsigned c) { return vertices_.at(tet.vertices[c]).rest; };
+    for (const auto& entry : tets_) {
+      const TetVertices& corners = entry.second.vertices;
+      const auto at = [&](unsigned c) { return vertices_.at(corners[c]).rest; };
       const double volume = (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6;
-      for (const VertexId v : tet.vertices) mass[v] += volume / 4;
+      for (const VertexId v : corners) mass[v] += volume / 4;
     }
     return mass;
   }

@@ -16,7 +16,8 @@ namespace incise::inline v0 {
 /// Keeps scratch memory and split templates between strokes. One mesh at a time; not thread-safe.
 class Cutter {
  public:
-  explicit Cutter(CutOptions options);
+  /// `threads` in [1, 256] search the mesh; the result does not depend on it.
+  explicit Cutter(CutOptions options, unsigned threads = 1);
   Cutter(Cutter&&) noexcept;
   Cutter& operator=(Cutter&&) noexcept;
   ~Cutter();

@@ -17,15 +17,15 @@ namespace incise::inline v0 {
 
 struct EngineOptions {
   CutOptions cut;
-  unsigned threads = 1;  ///< worker threads, 1 to 256; the result does not depend on it
-  LogSink log;
+  LogSink log;           ///< hears what a stroke could not do as asked
+  unsigned threads = 1;  ///< that search the mesh, in [1, 256]; the result does not depend on it
 };
 
 /// What one stroke did.
 struct StrokeReport {
   CutStatistics cut;
   StageTimes times;             ///< summed over the stroke
-  std::vector<double> step_ms;  ///< per step of the stroke
+  std::vector<double> step_ms;  ///< one entry: a stroke is cut as a whole once its sweep is known
   std::uint32_t stroke = 0;     ///< its number, from 1: the tag of the walls that it made
 };
 

@@ -66,7 +66,7 @@ struct NamedDefect {
 /// @param soup  `n_tets × 4` indices, all below `n_points`; finite points.
 /// @return counts; a soup without tets has none but unreferenced vertices.
 /// Errors: none. Cost: O(n log n) time, about 120 bytes per tet; 1 s for a million tets. Thread-safe.
-/// **Source:** singleton vertices: Paper §2.3; the other definitions are those of `docs/formats.md`.
+/// **Source:** singleton vertices: Paper §2.4; the other definitions are those of `docs/formats.md`.
 [[nodiscard]] Defects find_defects(const TetSoup& soup);
 
 /// List all kinds of defects in a fixed order, zero counts included.

@@ -137,7 +137,7 @@ class TetMesh {
   /// The signed rest volume, in cubed length units.
   [[nodiscard]] double rest_volume(TetId tet) const { return rest_volume6(tet) / 6.0; }
 
-  /// The tets with exact-sign rest volume ≤ 0 that the input brought along, ascending. They never grow in number.
+  /// The tets whose rest volume, as computed, was not positive at load, ascending.
   [[nodiscard]] const std::vector<TetId>& flat_at_load() const { return flat_at_load_; }
 
   /// Whether the input's tets touched along an edge or at a vertex without sharing a face (a boundary edge with more
@@ -167,8 +167,9 @@ class TetMesh {
     }
   }
 
-  /// The hash of connectivity, rest positions, regions, tags and free lists; generations stay out of it,
-  /// so that undo restores it. Equal on every compiler and target. Cost: O(slots), about 20 ns per tet.
+  /// The hash of connectivity, rest positions, regions, tags, shape bits, origins and free lists; generations and
+  /// current positions stay out of it, so that undo restores it. Equal on every compiler and target. Cost: O(slots),
+  /// about 20 ns per tet.
   [[nodiscard]] std::uint64_t hash() const;
 
   /// Bytes held by the arrays, as used (not as reserved).

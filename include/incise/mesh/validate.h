@@ -72,7 +72,7 @@ struct ValidityReport {
 /// that an edit made. Where corners or links are broken the levels above are skipped.
 /// @return counts of all violations and the first few. Errors: none; any mesh may be passed.
 /// Cost: O(n log n) in the faces of single vertices, about 1 µs per tet and 40 bytes of scratch per tet.
-/// Thread-safe between commits. **Source:** the validity contract, `docs/internals.md`; singleton vertices: Paper §2.3.
+/// Thread-safe between commits. **Source:** the validity contract, `docs/internals.md`; singleton vertices: Paper §2.4.
 [[nodiscard]] ValidityReport validate(const TetMesh& mesh, ValidateLevel level, const ValidateOptions& options = {});
 
 /// What an edit did to the violations of a mesh.

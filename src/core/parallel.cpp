@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/core/parallel.h"
+
+#include <algorithm>
+
+#if INCISE_WITH_TBB
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace incise::inline v0 {
+
+void parallel_blocks(std::size_t count, unsigned threads,
+                     const std::function<void(std::size_t block, std::size_t begin, std::size_t end)>& work) {
+  const std::size_t blocks = block_count(count);
+  const auto run = [&](std::size_t block) {
+    work(block, block * kBlockSize, std::min(count, (block + 1) * kBlockSize));
+  };
+#if INCISE_WITH_TBB
+  if (threads > 1 && blocks > 1) {
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run); });
+    return;
+  }
+#else
+  static_cast<void>(threads);
+#endif
+  for (std::size_t block = 0; block < blocks; ++block) {
+    run(block);
+  }
+}
+
+}  // namespace incise::inline v0
