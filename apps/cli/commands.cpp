@@ -116,7 +116,7 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
 
 Status write_results(const CutArguments& a, const app::CutResult& result, const Terminal& terminal) {
   const WritingZone zone;
-  if (!a.output.empty()) {
+  if (!a.output.empty() && result.report.change.ok) {
     if (const Status status = io::write_mesh(a.output, result.mesh); !status.ok()) return status;
   }
   if (a.report == "-") {
@@ -133,7 +133,8 @@ int finish_cut(const CutArguments& a, const app::CutResult& result, const Termin
   }
   if (a.report != "-" && !terminal.is_quiet) terminal.data(app::to_text(result.report));
   if (result.report.change.ok) return kDone;
-  return fail(terminal, "the cut broke the validity contract; see `validity` in the report", kCheckFailed);
+  return fail(terminal, "the cut broke the validity contract, so no mesh was written; see `validity` in the report",
+              kCheckFailed);
 }
 
 }  // namespace

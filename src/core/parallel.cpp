@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #if INCISE_WITH_TBB
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -18,7 +19,8 @@ void parallel_blocks(std::size_t count, unsigned threads,
   };
 #if INCISE_WITH_TBB
   if (threads > 1 && blocks > 1) {
-    tbb::task_arena arena(static_cast<int>(threads));
+    // More than the machine has would change nothing, and oneTBB would say so on stderr.
+    tbb::task_arena arena(std::min(static_cast<int>(threads), tbb::info::default_concurrency()));
     arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run); });
     return;
   }

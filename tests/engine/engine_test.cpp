@@ -176,6 +176,28 @@ TEST(Engine, refuses_malformed_strokes_and_names_them) {
   expect_refused(bad);
 }
 
+TEST(Engine, gives_the_same_mesh_on_any_number_of_threads) {
+  TetSoup soup = kuhn_cube(24);  // several blocks of tets, vertices and edges
+  jitter(soup, 0.2, 5);
+  Stroke stroke;
+  stroke.name = "wave";
+  for (int i = 0; i <= 12; ++i) {
+    const double y = -0.1 + 0.1 * i, x = 0.5 + 0.02 * ((i % 4) - 1.5);
+    stroke.times.push_back(i);
+    stroke.edges.push_back({Vec3(x, y, -0.1), Vec3(x + 0.1, y, 1.1)});
+  }
+  std::vector<std::uint64_t> hashes;
+  for (const unsigned threads : {1U, 2U, 5U}) {
+    EngineOptions options;
+    options.threads = threads;
+    Engine engine = Engine::create(TetMesh::build(soup).value(), options).value();
+    ASSERT_TRUE(engine.cut(stroke).ok());
+    hashes.push_back(engine.mesh().hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
 TEST(Engine, refuses_options_out_of_range) {
   for (const double snap : {-0.1, 0.41, std::numeric_limits<double>::quiet_NaN()}) {
     EngineOptions options;
