@@ -71,11 +71,19 @@ std::string write_medit(const MeshData& data) {
   return out.take();
 }
 
-// $ElementData or $NodeData with one value for each number from `first`.
-void msh_data(Text& out, std::string_view section, std::string_view name, const Labels& values, std::size_t first) {
-  if (values.empty()) return;
+// One array over all cells, tets first; the other kind has 0.
+Labels cell_array(const MeshData& data, const Labels& of_tets, const Labels& of_triangles) {
+  Labels all(of_tets);
+  all.resize(data.soup.tets.size(), 0);
+  all.insert(all.end(), of_triangles.begin(), of_triangles.end());
+  all.resize(data.soup.tets.size() + data.triangles.size(), 0);
+  return all;
+}
+
+// $ElementData or $NodeData with one value for every element or node: readers such as meshio want no fewer.
+void msh_data(Text& out, std::string_view section, std::string_view name, const Labels& values) {
   out << "$" << section << "\n1\n\"" << name << "\"\n1\n0\n3\n0\n1\n" << values.size() << '\n';
-  for (std::size_t i = 0; i < values.size(); ++i) out << first + i << ' ' << values[i] << '\n';
+  for (std::size_t i = 0; i < values.size(); ++i) out << i + 1 << ' ' << values[i] << '\n';
   out << "$End" << section << '\n';
 }
 
@@ -95,20 +103,16 @@ std::string write_msh(const MeshData& data) {
     element(soup.tets.size() + i + 1, 2, label(data.triangle_stroke, i)).row(data.triangles[i], 1) << '\n';
   }
   out << "$EndElements\n";
-  msh_data(out, "ElementData", "region", soup.regions, 1);
-  msh_data(out, "ElementData", "piece", data.piece, 1);
-  msh_data(out, "ElementData", "stroke", data.triangle_stroke, soup.tets.size() + 1);
-  msh_data(out, "NodeData", "origin_vertex", data.origin_vertex, 1);
+  const auto cell_data = [&](std::string_view name, const Labels& of_tets, const Labels& of_triangles) {
+    if (!of_tets.empty() || !of_triangles.empty()) {
+      msh_data(out, "ElementData", name, cell_array(data, of_tets, of_triangles));
+    }
+  };
+  cell_data("region", soup.regions, {});
+  cell_data("piece", data.piece, {});
+  cell_data("stroke", {}, data.triangle_stroke);
+  if (!data.origin_vertex.empty()) msh_data(out, "NodeData", "origin_vertex", data.origin_vertex);
   return out.take();
-}
-
-// One array over all cells, tets first; the other kind has 0.
-Labels cell_array(const MeshData& data, const Labels& of_tets, const Labels& of_triangles) {
-  Labels all(of_tets);
-  all.resize(data.soup.tets.size(), 0);
-  all.insert(all.end(), of_triangles.begin(), of_triangles.end());
-  all.resize(data.soup.tets.size() + data.triangles.size(), 0);
-  return all;
 }
 
 struct NamedLabels {
