@@ -247,6 +247,11 @@ class PaperSeparator {
       }
       transaction_.set_shape(v, static_cast<std::uint8_t>(bits));
     }
+    for (const IncisionFace& face : incision_) {
+      if (mesh_.link(face.a).is_boundary()) {
+        mark_wall(transaction_, face);
+      }
+    }
   }
 
   Transaction& transaction_;

@@ -150,13 +150,12 @@ class Separator {
         parts_.push_back({v, seed, copy, flood(v, seed, copy)});
       }
     }
-    const bool is_whole = parts_.size() == first_part + 1;
-    if (is_whole) {
-      parts_.back().bits = static_cast<std::uint8_t>(parts_.back().bits | shape::kFront);
+    if (parts_.size() == first_part + 1) {  // still whole: what ended here before ends here now
+      parts_.back().bits = static_cast<std::uint8_t>(parts_.back().bits | (mesh_.shape_of(v) & shape::kFront));
     }
   }
   /// Assigns a copy of `v` to the tets that can be reached from `seed` without crossing the incision. Returns what the
-  /// part is bounded by, as `shape` bits.
+  /// part is bounded by so far, as `shape` bits.
   std::uint8_t flood(VertexId v, TetId seed, std::uint32_t copy) {
     unsigned bits = mesh_.shape_of(v) & shape::kPinched;
     part_.assign(1, seed);
@@ -171,9 +170,7 @@ class Separator {
         }
         if (links[s].is_boundary()) {
           bits |= links[s].tag() == 0 ? shape::kSkin : shape::kWall;
-        } else if (is_incision(Side(tet, s))) {
-          bits |= shape::kWall;
-        } else {
+        } else if (!is_incision(Side(tet, s))) {
           const TetId next = links[s].side().tet();
           const unsigned corner = mesh_.corner_of(next, v);
           if (scratch_.copies[next.value][corner] == 0) {
@@ -377,6 +374,7 @@ class Separator {
         ++result_.latent_faces;
       } else {
         transaction_.open(face.a, face.b, tag_);
+        mark_wall(transaction_, face);
         ++result_.opened_faces;
       }
     }
@@ -401,6 +399,19 @@ class Separator {
 };
 
 }  // namespace
+
+void mark_wall(Transaction& transaction, const IncisionFace& face) {
+  const TetMesh& mesh = transaction.mesh();
+  const auto a = mesh.vertices(face.a), b = mesh.vertices(face.b);
+  const auto mark = [&](VertexId v, bool is_shared) {
+    const unsigned bits = mesh.shape_of(v) | shape::kWall | (is_shared ? shape::kFront : 0U);
+    if (bits != mesh.shape_of(v)) {
+      transaction.set_shape(v, static_cast<std::uint8_t>(bits));
+    }
+  };
+  for (const VertexId v : a) mark(v, std::find(b.begin(), b.end(), v) != b.end());
+  for (const VertexId v : b) mark(v, std::find(a.begin(), a.end(), v) != a.end());
+}
 
 Separation separate(Transaction& transaction, std::vector<IncisionFace> incision, const std::vector<TetId>& new_tets,
                     std::uint32_t tag, SeparationScratch& scratch, const std::function<void()>& before_copies) {

@@ -19,6 +19,10 @@ struct Separation {
   std::uint64_t singleton_vertices = 0;  ///< divided by Algorithm 2 (paper profile)
 };
 
+/// Notes on the vertices of an opened face that they lie on a wall, and on those that both its sides still share that
+/// the cut ends there.
+void mark_wall(Transaction& transaction, const IncisionFace& face);
+
 /// Memory that separations reuse: marks by tet slot, all zero between separations.
 struct SeparationScratch {
   using CornerCopies = std::array<std::uint32_t, 4>;
