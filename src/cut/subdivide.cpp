@@ -118,8 +118,8 @@ Corners corners_of(const SplitTemplate::Child& child, const TetMesh& mesh, const
 /// Whether a tet and all its children are sound.
 bool children_are_sound(const SplitTemplate& split, const TetMesh& mesh, const NearTet& tet, const Neighbourhood& near,
                         bool keeps_shape_floor) {
-  if (!is_sound(corners_of({0, 1, 2, 3}, mesh, tet, near), true)) {
-    return false;  // a flat tet of the input would become several
+  if (mesh.is_flat_at_load(tet.id)) {
+    return false;  // it would become several
   }
   return std::all_of(split.children.begin(), split.children.end(), [&](const SplitTemplate::Child& child) {
     return is_sound(corners_of(child, mesh, tet, near), keeps_shape_floor);

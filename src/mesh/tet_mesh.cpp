@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "incise/core/hash.h"
+#include "incise/geom/quality.h"
 #include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
@@ -111,7 +112,8 @@ Status TetMesh::take_tets(const TetSoup& soup) {
   tet_generation_.resize(count, 0);
   live_tets_ = count;
   for_each_tet([&](TetId id) {
-    if (!(rest_volume6(id) > 0)) {
+    const TetVertices& v = tet_vertices_[id];
+    if (is_flat(rest_[v[0]], rest_[v[1]], rest_[v[2]], rest_[v[3]])) {
       flat_at_load_.push_back(id);
     }
   });
@@ -169,6 +171,10 @@ void TetMesh::link_faces() {
       i = next;
     }
   }
+}
+
+bool TetMesh::is_flat_at_load(TetId tet) const {
+  return std::binary_search(flat_at_load_.begin(), flat_at_load_.end(), tet);
 }
 
 bool TetMesh::is_overshared_at_load(VertexId a, VertexId b) const {

@@ -7,20 +7,23 @@
 #include <utility>
 
 #include "incise/geom/predicates.h"
-#include "incise/geom/quality.h"
 #include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
 
 namespace {
 
-/// Whether a tet has a volume to speak of with one corner moved.
-bool is_sound_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& moved) {
-  std::array<Vec3, 4> p;
-  for (unsigned c = 0; c < 4; ++c) {
-    p[c] = c == corner ? moved : mesh.rest(mesh.vertices(tet)[c]);
-  }
-  return !is_flat(p[0], p[1], p[2], p[3]);
+using Corners = std::array<Vec3, 4>;
+
+Corners rest_corners(const TetMesh& mesh, const TetVertices& v) {
+  return {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
+}
+
+/// Whether a tet is positive, by exact sign, with one corner elsewhere.
+bool is_exactly_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& moved) {
+  Corners p = rest_corners(mesh, mesh.vertices(tet));
+  p[corner] = moved;
+  return orient3d(p[0], p[1], p[2], p[3]) > 0;
 }
 
 /// The boundary bits that a point of an edge inherits: those of the surfaces that both ends of the fan lie on.
@@ -131,8 +134,8 @@ SplitEdgePlan plan_split_edge(const TetMesh& mesh, VertexId a, VertexId b, TetId
       mesh, a, b, seed, [](Side) { return false; },
       [&](TetId tet) {
         plan.ring.push_back(tet);
-        if (!is_sound_with(mesh, tet, mesh.corner_of(tet, a), point) ||
-            !is_sound_with(mesh, tet, mesh.corner_of(tet, b), point)) {
+        if (mesh.is_flat_at_load(tet) || !is_exactly_positive_with(mesh, tet, mesh.corner_of(tet, a), point) ||
+            !is_exactly_positive_with(mesh, tet, mesh.corner_of(tet, b), point)) {
           plan.refusal = Refusal::kWouldInvert;
         }
       });
@@ -199,21 +202,8 @@ VertexId apply(Transaction& transaction, const DuplicateVertexPlan& plan, std::u
 
 namespace {
 
-using Corners = std::array<Vec3, 4>;
-
-Corners rest_corners(const TetMesh& mesh, const TetVertices& v) {
-  return {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
-}
-
 double volume6(const Corners& p) {
   return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
-}
-
-/// Whether a tet is positive, by exact sign, with one corner elsewhere.
-bool is_exactly_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& moved) {
-  Corners p = rest_corners(mesh, mesh.vertices(tet));
-  p[corner] = moved;
-  return orient3d(p[0], p[1], p[2], p[3]) > 0;
 }
 
 template <std::size_t kCount>

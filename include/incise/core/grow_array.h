@@ -78,8 +78,8 @@ class ReservedBlock {
 
 }  // namespace detail
 
-/// A growing array of plain values (ids, numbers, small vectors: anything that may be moved as bytes) that does not copy
-/// itself while it grows, so that an array of ten million tets grows during a stroke without a stall.
+/// A growing array of plain values (ids, numbers, small vectors: anything that may be moved as bytes) that does not
+/// copy itself while it grows, so that an array of ten million tets grows during a stroke without a stall.
 ///
 /// Indexing is checked in debug builds. Not thread-safe for writers.
 template <class T>
@@ -166,8 +166,8 @@ class GrowArray {
 
 /// Numbers by slot that all start at zero and cost memory only where they were written.
 ///
-/// For marks on a mesh of any size: construction is O(1) where address space can be reserved, O(slots) elsewhere. Whoever
-/// keeps one for reuse sets the entries that it wrote back to zero, since fresh pages cost more than that.
+/// For marks on a mesh of any size: construction is O(1) where address space can be reserved, O(slots) elsewhere.
+/// Whoever keeps one for reuse sets the entries that it wrote back to zero, since fresh pages cost more than that.
 template <class T>
 class ZeroedArray {
  public:

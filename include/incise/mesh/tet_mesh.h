@@ -137,8 +137,10 @@ class TetMesh {
   /// The signed rest volume, in cubed length units.
   [[nodiscard]] double rest_volume(TetId tet) const { return rest_volume6(tet) / 6.0; }
 
-  /// The tets whose rest volume, as computed, was not positive at load, ascending.
+  /// The tets without volume to speak of at load (`is_flat`), ascending. They are never divided.
   [[nodiscard]] const std::vector<TetId>& flat_at_load() const { return flat_at_load_; }
+  /// Cost: O(log of their number).
+  [[nodiscard]] bool is_flat_at_load(TetId tet) const;
 
   /// Whether the input's tets touched along an edge or at a vertex without sharing a face (a boundary edge with more
   /// than two boundary faces, or a pinched vertex).

@@ -13,7 +13,7 @@ enum class Refusal : std::uint8_t {
   kDead,         ///< a named element does not live
   kNotAnEdge,    ///< the two vertices share no tet
   kOutOfRange,   ///< a parameter is outside its range
-  kWouldInvert,  ///< a tet would be inverted or flat
+  kWouldInvert,  ///< a tet would be inverted, or has no volume to divide
   kStarIsWhole,  ///< nothing separates the star
   kNoStar,       ///< the vertex has no tets, or they were not face-connected at load: its star cannot be walked
 };
