@@ -132,25 +132,4 @@ std::vector<CutCase> make_cuts(const Box& bounds) {
   return cuts;
 }
 
-SweptTriangles swept_triangles(const Stroke& stroke) {
-  SweptTriangles out;
-  const auto width = static_cast<std::uint32_t>(stroke.edges.front().size());
-  for (const std::vector<Vec3>& edge : stroke.edges) {
-    out.points.insert(out.points.end(), edge.begin(), edge.end());
-  }
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if ((out.points[b] - out.points[a]).cross(out.points[c] - out.points[a]).norm() > 0) {
-      out.triangles.push_back({a, b, c});
-    }
-  };
-  for (std::uint32_t j = 0; j + 1 < stroke.edges.size(); ++j) {
-    for (std::uint32_t i = 0; i + 1 < width; ++i) {
-      const std::uint32_t p = j * width + i, later = p + width;
-      add(p, later + 1, p + 1);
-      add(p, later, later + 1);
-    }
-  }
-  return out;
-}
-
 }  // namespace incise::bench

@@ -26,11 +26,4 @@ struct CutCase {
 inline constexpr unsigned kVariants = 4;
 std::vector<CutCase> make_cuts(const Box& bounds);
 
-/// The triangles that a stroke sweeps, as `Stroke` documents them; empty ones are left out.
-struct SweptTriangles {
-  std::vector<Vec3> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-SweptTriangles swept_triangles(const Stroke& stroke);
-
 }  // namespace incise::bench

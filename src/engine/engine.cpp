@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/engine/engine.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
+
+#include "incise/improve/paper_maintenance.h"
 
 namespace incise::inline v0 {
 
@@ -34,47 +37,105 @@ Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
 }
 
 Engine::Engine(TetMesh mesh, EngineOptions options)
-    : mesh_(std::move(mesh)), options_(std::move(options)), cutter_(options_.cut, options_.threads) {}
+    : mesh_(std::move(mesh)), options_(std::move(options)), cutter_(options_.cut, options_.threads), maintainer_(options_.maintain) {}
 
 Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   StrokeReport report;
   report.stroke = stroke_count() + 1;
   const auto start = std::chrono::steady_clock::now();
+  const std::size_t first_step = journal_.position();
   Result<CutStatistics> cut = cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
   if (!cut) {
     return cut.error();
   }
   report.cut = *cut;
   tell(options_.log, *cut);
+  take_up(stroke, report.stroke, first_step);
+  report.maintain = maintain(options_.maintain.work_units, report.times);
   report.step_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-  stroke_ends_.push_back(journal_.position());
-  undone_ends_.clear();
+  push_operation(true);
   return report;
 }
 
+/// Hands the surroundings of a fresh cut to whoever maintains the mesh.
+void Engine::take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_step) {
+  if (is_paper()) {
+    paper_first_step_ = std::min(paper_first_step_, first_step);
+    return;
+  }
+  const SweptTriangles sweep = swept_triangles(stroke);
+  maintainer_.set_reference(tag, TriangleTree(sweep.points, sweep.triangles));
+  maintainer_.take_up(mesh_, journal_, first_step);
+}
+
+MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times) {
+  if (!is_paper()) {
+    return maintainer_.run(mesh_, journal_, work_units, times);
+  }
+  if (paper_first_step_ == kNothingWaits || work_units == 0) {
+    return {};
+  }
+  const std::size_t first_step = std::exchange(paper_first_step_, kNothingWaits);
+  return maintain_as_paper(mesh_, journal_, first_step, options_.maintain, times);
+}
+
+MaintainReport Engine::maintain(std::uint64_t work_units) {
+  MaintainReport report;
+  report.maintain = maintain(work_units, report.times);
+  if (!operations_.empty()) {
+    operations_.back().end = journal_.position();
+  }
+  return report;
+}
+
+bool Engine::has_maintenance() const {
+  return is_paper() ? paper_first_step_ != kNothingWaits : maintainer_.has_work();
+}
+
+MaintainReport Engine::improve() {
+  MaintainReport report;
+  if (is_paper()) {
+    report.maintain = maintain_all_as_paper(mesh_, journal_, options_.maintain, report.times);
+  } else {
+    maintainer_.take_up_all(mesh_);
+    report.maintain = maintainer_.run(mesh_, journal_, options_.maintain.work_units, report.times);
+  }
+  push_operation(false);
+  return report;
+}
+
+void Engine::push_operation(bool is_stroke) {
+  operations_.push_back({journal_.position(), is_stroke});
+  undone_.clear();
+  stroke_count_ += is_stroke ? 1U : 0U;
+}
+
 bool Engine::undo() {
-  if (stroke_ends_.empty()) {
+  if (operations_.empty()) {
     return false;
   }
-  undone_ends_.push_back(stroke_ends_.back());
-  stroke_ends_.pop_back();
-  const std::size_t target = stroke_ends_.empty() ? 0 : stroke_ends_.back();
+  undone_.push_back(operations_.back());
+  operations_.pop_back();
+  stroke_count_ -= undone_.back().is_stroke ? 1U : 0U;
+  const std::size_t target = operations_.empty() ? 0 : operations_.back().end;
   while (journal_.position() > target) {
     journal_.undo(mesh_);
   }
+  maintainer_.forget();
+  paper_first_step_ = kNothingWaits;
   return true;
 }
 
 bool Engine::redo() {
-  if (undone_ends_.empty()) {
+  if (undone_.empty()) {
     return false;
   }
-  const std::size_t target = undone_ends_.back();
-  undone_ends_.pop_back();
-  while (journal_.position() < target) {
+  operations_.push_back(undone_.back());
+  undone_.pop_back();
+  stroke_count_ += operations_.back().is_stroke ? 1U : 0U;
+  while (journal_.position() < operations_.back().end) {
     journal_.redo(mesh_);
   }
-  stroke_ends_.push_back(target);
   return true;
 }
 

@@ -14,8 +14,8 @@ constexpr TetVertices kNoVertices{};
 
 }  // namespace
 
-Transaction::Transaction(TetMesh& mesh)
-    : mesh_(mesh), tet_mark_(mesh.edit_tet_marks_), vertex_mark_(mesh.edit_vertex_marks_) {
+Transaction::Transaction(TetMesh& mesh, bool keeps_edits)
+    : mesh_(mesh), tet_mark_(mesh.edit_tet_marks_), vertex_mark_(mesh.edit_vertex_marks_), keeps_edits_(keeps_edits) {
   tet_mark_.ensure(mesh.tet_slots());
   vertex_mark_.ensure(mesh.vertex_slots());
   step_.before.tet_slots = mesh.tet_slots();
@@ -199,9 +199,34 @@ void Transaction::move(VertexId vertex, const Vec3& rest, const TetVertices& bas
       current += weights[c] * mesh_.current_[basis[c]];
     }
   }
+  if (keeps_edits_) {
+    note_edit(Edit::Kind::kMove, static_cast<std::uint32_t>(step_.moved.size()));
+  }
   step_.moved.push_back({vertex, basis, weights, mesh_.rest_[vertex], rest, mesh_.current_[vertex], current});
   mesh_.rest_[vertex] = rest;
   mesh_.current_[vertex] = current;
+}
+
+void Transaction::note_edit(Edit::Kind kind, std::uint32_t vertex) {
+  step_.edits.push_back({kind, vertex, static_cast<std::uint32_t>(step_.edit_consumed.size()),
+                         static_cast<std::uint32_t>(step_.edit_produced.size())});
+}
+
+void Transaction::note_consumed(std::span<const TetId> tets) {
+  for (std::size_t i = 0; keeps_edits_ && i < tets.size(); ++i) {
+    step_.edit_consumed.push_back({tets[i], mesh_.tet_vertices_[tets[i]]});
+  }
+}
+
+void Transaction::note_produced(std::span<const TetId> tets, std::span<const TetId> parents, VertexId born) {
+  if (!keeps_edits_) {
+    return;
+  }
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    step_.edit_produced.push_back({tets[i], parents[i], mesh_.tet_vertices_[tets[i]], mesh_.tet_region_[tets[i]]});
+  }
+  note_edit(Edit::Kind::kRemesh,
+            born.is_valid() ? static_cast<std::uint32_t>(step_.born.size() - 1) : std::uint32_t{kInvalidIndex});
 }
 
 TetId Transaction::root_parent(TetId tet) const {

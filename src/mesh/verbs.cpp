@@ -48,6 +48,7 @@ class EdgeSplitter {
 
   SplitEdgeResult run() {
     const std::uint8_t bits = bits_of_ring(mesh_, plan_);
+    transaction_.note_consumed(plan_.ring);
     result_.vertex = transaction_.add_vertex_on_edge(plan_.a, plan_.b, plan_.t);
     transaction_.set_shape(result_.vertex, bits);
     for (const TetId tet : plan_.ring) {
@@ -59,6 +60,7 @@ class EdgeSplitter {
     for (const TetId tet : plan_.ring) {
       transaction_.remove_tet(tet);
     }
+    note_produced();
     return std::move(result_);
   }
 
@@ -86,6 +88,14 @@ class EdgeSplitter {
         link_halved_side(halves, s);
       }
     }
+  }
+  void note_produced() {
+    std::vector<TetId> tets, parents;
+    for (const SplitHalves& halves : result_.halves) {
+      tets.insert(tets.end(), {halves.keeps_a, halves.keeps_b});
+      parents.insert(parents.end(), 2, halves.tet);
+    }
+    transaction_.note_produced(tets, parents, result_.vertex);
   }
   void take_link(Side side, Link link) {
     if (link.is_boundary()) {
@@ -218,10 +228,22 @@ bool are_inner_weights(const std::array<double, kCount>& weights) {
   return std::abs(sum - 1.0) <= 1e-12;
 }
 
+void note_parts(Transaction& transaction, const SplitParts& parts, VertexId born) {
+  std::array<TetId, 4> tets;
+  const std::array<TetId, 4> parents = {parts.tet, parts.tet, parts.tet, parts.tet};
+  std::size_t count = 0;
+  for (const TetId child : parts.children) {
+    if (child.is_valid()) tets[count++] = child;
+  }
+  transaction.note_produced({tets.data(), count}, {parents.data(), count}, born);
+}
+
 /// Replaces a tet by its parts around a new vertex: one per corner of `corners`, a bit mask. The parts know each other
-/// and what was behind the tet's sides, except behind the side that the vertex lies in.
-SplitParts split_around(Transaction& transaction, TetId tet, unsigned corners, VertexId vertex) {
+/// and what was behind the tet's sides, except behind the side that the vertex lies in. `born`: the vertex, where it is
+/// the first of its splits.
+SplitParts split_around(Transaction& transaction, TetId tet, unsigned corners, VertexId vertex, VertexId born) {
   const TetMesh& mesh = transaction.mesh();
+  transaction.note_consumed({&tet, 1});
   const TetVertices old_vertices = mesh.vertices(tet);
   const TetLinks links = mesh.links(tet);
   SplitParts parts{tet, {}};
@@ -247,6 +269,7 @@ SplitParts split_around(Transaction& transaction, TetId tet, unsigned corners, V
     }
   }
   transaction.remove_tet(tet);
+  note_parts(transaction, parts, born);
   return parts;
 }
 
@@ -315,7 +338,7 @@ SplitFaceResult apply(Transaction& transaction, const SplitFacePlan& plan) {
   const unsigned front_side = plan.face.side();
   if (behind.is_boundary()) {
     transaction.set_shape(result.vertex, behind.tag() == 0 ? shape::kSkin : shape::kWall);
-    result.parts[0] = split_around(transaction, plan.face.tet(), 15U & ~(1U << front_side), result.vertex);
+    result.parts[0] = split_around(transaction, plan.face.tet(), 15U & ~(1U << front_side), result.vertex, result.vertex);
     for (const TetId child : result.parts[0].children) {
       if (child.is_valid()) {
         transaction.set_link({child, front_side}, behind);
@@ -328,8 +351,8 @@ SplitFaceResult apply(Transaction& transaction, const SplitFacePlan& plan) {
   for (unsigned k = 0; k < 3; ++k) {
     corners[k] = {mesh.corner_of(plan.face.tet(), vertices[k]), mesh.corner_of(behind.side().tet(), vertices[k])};
   }
-  result.parts[0] = split_around(transaction, plan.face.tet(), 15U & ~(1U << front_side), result.vertex);
-  result.parts[1] = split_around(transaction, behind.side().tet(), 15U & ~(1U << back_side), result.vertex);
+  result.parts[0] = split_around(transaction, plan.face.tet(), 15U & ~(1U << front_side), result.vertex, result.vertex);
+  result.parts[1] = split_around(transaction, behind.side().tet(), 15U & ~(1U << back_side), result.vertex, {});
   for (const auto& [front, back] : corners) {
     transaction.join({result.parts[0].children[front], front_side}, {result.parts[1].children[back], back_side});
   }
@@ -362,7 +385,7 @@ SplitTetResult apply(Transaction& transaction, const SplitTetPlan& plan) {
   const TetVertices vertices = transaction.mesh().vertices(plan.tet);
   SplitTetResult result;
   result.vertex = transaction.add_vertex(vertices, plan.weights, plan.rest, plan.current);
-  result.parts = split_around(transaction, plan.tet, 15U, result.vertex);
+  result.parts = split_around(transaction, plan.tet, 15U, result.vertex, result.vertex);
   return result;
 }
 

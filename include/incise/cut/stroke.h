@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,15 @@ struct Stroke {
 
 /// Whether a stroke keeps the promises above and is finite; the error names the time and point.
 Status check(const Stroke& stroke);
+
+/// The triangles that a stroke sweeps, without empty ones.
+struct SweptTriangles {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `points`
+};
+
+/// The sweep of a sound stroke (see `check`). Cost: O(points).
+SweptTriangles swept_triangles(const Stroke& stroke);
 
 /// A stroke that cuts through everything in `bounds` along the plane n·x = d, in one step.
 ///

@@ -12,6 +12,9 @@ namespace incise::inline v0 {
 // Within one step a follower applies the records in the order of the members of `Step`:
 //   born, moved, copied, consumed, produced, rewired, opened, died.
 // Each list is in the order in which things happened, and may refer to what stands before it.
+// A step of maintenance changes the same place several times: it has `edits` besides, each with its own tets before and
+// after. Followers that carry state from tet to tet apply the edits one by one, instead of moved, consumed, produced and
+// rewired; those that rebuild what changed take the lists, which give the net effect.
 
 struct BornVertex {
   VertexId id;
@@ -56,6 +59,19 @@ struct OpenedFace {
   std::uint32_t tag;  ///< stroke number, as in `Link::tag`
 };
 
+/// One of the changes that a step of maintenance made, one after the other.
+struct Edit {
+  enum class Kind : std::uint8_t {
+    kMove,    ///< a vertex moved: `moved[vertex]`; the tets around it keep their vertices
+    kRemesh,  ///< the tets of a cavity gave way to others that fill the same space
+  };
+  Kind kind = Kind::kMove;
+  std::uint32_t vertex = kInvalidIndex;  ///< kMove: index into `moved`; kRemesh: into `born` where one was put in
+  /// kRemesh: one past its last tet in `edit_consumed` and `edit_produced`; the first one follows the edit before. A tet
+  /// that lives on with another vertex stands in both.
+  std::uint32_t consumed_end = 0, produced_end = 0;
+};
+
 /// A tet slot as it was.
 struct TetImage {
   TetId id;
@@ -91,6 +107,10 @@ struct Step {
   std::vector<RewiredTet> rewired;
   std::vector<OpenedFace> opened;
   std::vector<VertexId> died;
+
+  std::vector<Edit> edits;  ///< empty where the lists above tell the whole order
+  std::vector<ConsumedTet> edit_consumed;
+  std::vector<ProducedTet> edit_produced;  ///< `parent` is a tet consumed by the same edit
 
   StepImage before, after;  ///< `after` is filled by the first undo
   std::size_t free_tets_common = 0, free_vertices_common = 0;

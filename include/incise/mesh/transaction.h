@@ -16,7 +16,9 @@ namespace incise::inline v0 {
 /// Slots freed here are not reused before the commit. One transaction at a time per mesh.
 class Transaction {
  public:
-  explicit Transaction(TetMesh& mesh);
+  /// `keeps_edits`: the step lists every change by itself (`Step::edits`); for edits that meet in one place. Then only
+  /// `move` and verbs that call `note_remesh` may be used.
+  explicit Transaction(TetMesh& mesh, bool keeps_edits = false);
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
   ~Transaction();
@@ -48,6 +50,11 @@ class Transaction {
   /// position and followers' values are sampled there. `rest` is that place, given exactly.
   void move(VertexId vertex, const Vec3& rest, const TetVertices& basis, const std::array<double, 4>& weights);
 
+  /// Lists the replacement of a cavity, where edits are kept: called before it with the tets that it consumes, after it
+  /// with those that it produced, their parents and the vertex that it put in, if any.
+  void note_consumed(std::span<const TetId> tets);
+  void note_produced(std::span<const TetId> tets, std::span<const TetId> parents, VertexId born = {});
+
   /// Slots taken so far.
   [[nodiscard]] const std::vector<TetId>& new_tets() const { return step_.new_tets; }
   [[nodiscard]] const std::vector<VertexId>& new_vertices() const { return step_.new_vertices; }
@@ -62,6 +69,7 @@ class Transaction {
  private:
   void touch(TetId tet);
   void touch(VertexId vertex);
+  void note_edit(Edit::Kind kind, std::uint32_t vertex);
   void record_tets();
   void record_vertices();
   void record_opened();
@@ -78,6 +86,7 @@ class Transaction {
   std::vector<TetId> removed_tets_;
   std::vector<VertexId> removed_vertices_;
   std::vector<OpenedFace> opened_;
+  bool keeps_edits_ = false;
   bool is_open_ = true;
 };
 

@@ -16,6 +16,8 @@ enum class Refusal : std::uint8_t {
   kWouldInvert,  ///< a tet would be inverted, or has no volume to divide
   kStarIsWhole,  ///< nothing separates the star
   kNoStar,       ///< the vertex has no tets, or they were not face-connected at load: its star cannot be walked
+  kOnSurface,    ///< a boundary or a border between regions would not stay where it is
+  kLinkCondition,  ///< the topology would change
 };
 
 /// One tet that a split replaces, with its two halves.

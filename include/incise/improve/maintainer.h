@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "incise/core/profile.h"
+#include "incise/geom/triangle_tree.h"
+#include "incise/improve/options.h"
+#include "incise/mesh/journal.h"
+
+namespace incise::inline v0 {
+
+/// Keeps the neighbourhood of cuts fit to simulate: local, worst tets first, within a budget, monotone.
+///
+/// Every accepted change replaces a few tets by others whose worst L/r is smaller than theirs was; stopping at any point
+/// leaves a valid and better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed stay so.
+/// Vertices move within what they are part of: interior ones freely, those of a wall or of the skin in their surface,
+/// those where surfaces meet along the line, corners not; the volume on either side of every wall is kept.
+/// What a budget left undone waits for the next call. Not thread-safe; the result does not depend on threads or clocks.
+/// **Source:** Paper §2.5 and §3; M. Wicke et al., "Dynamic local remeshing for elastoplastic simulation", 2010;
+/// B. Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 2007. Differs from the paper: vertices are
+/// inserted and removed, and no average decides.
+class Maintainer {
+ public:
+  explicit Maintainer(MaintainOptions options = {});
+  Maintainer(Maintainer&&) noexcept;
+  Maintainer& operator=(Maintainer&&) noexcept;
+  ~Maintainer();
+
+  /// The surface that the walls of a stroke shall stay close to, in the rest shape.
+  void set_reference(std::uint32_t stroke, TriangleTree sweep);
+
+  /// Takes the surroundings of what the journal's steps from `first_step` on changed into care. Cost: O(their tets).
+  void take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step);
+  /// Takes the whole mesh into care. Cost: O(tets).
+  void take_up_all(const TetMesh& mesh);
+
+  /// Works on what is in care until it is done or `work_units` are spent (by at most one operation more), and appends
+  /// journal steps. Cost: about 20 ns per unit.
+  MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times);
+
+  /// Whether tets wait for another `run`.
+  [[nodiscard]] bool has_work() const;
+  /// Drops what is in care: after an undo.
+  void forget();
+
+ private:
+  class Queue;
+  std::unique_ptr<Queue> queue_;
+};
+
+}  // namespace incise::inline v0

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/improve/options.h"
+
+namespace incise::inline v0 {
+
+MaintainStatistics& MaintainStatistics::operator+=(const MaintainStatistics& other) {
+  work_units += other.work_units;
+  collapsed_edges += other.collapsed_edges;
+  moved_vertices += other.moved_vertices;
+  removed_edges += other.removed_edges;
+  removed_faces += other.removed_faces;
+  inserted_vertices += other.inserted_vertices;
+  waiting_tets = other.waiting_tets;
+  created_tets += other.created_tets;
+  return *this;
+}
+
+}  // namespace incise::inline v0
