@@ -82,6 +82,7 @@ Measurement measure(const TetMesh& mesh, const Plane& plane, unsigned runs, Betw
   out.tets = mesh.tet_count();
   EngineOptions options;
   options.cut.snap = plane.snap;
+  options.maintain.merge = options.maintain.improve = false;  // cutting alone is measured
   Result<Engine> engine = Engine::create(mesh, options);
   const Result<Stroke> stroke = plane_stroke(rest_bounds(mesh), plane.normal, plane.offset);
   if (!engine || !stroke) {

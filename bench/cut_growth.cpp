@@ -59,6 +59,7 @@ Outcome run_cut(const TetMesh& mesh, const Body& body, const CutCase& cut, doubl
   Outcome out;
   EngineOptions options;
   options.cut.snap = snap;
+  options.maintain.merge = options.maintain.improve = false;  // cutting alone is measured
   Result<Engine> engine = Engine::create(mesh, options);
   if (!engine) {
     return out;

@@ -13,7 +13,9 @@ int main() {
   const std::size_t before = mesh->tet_count();
   const auto plane = incise::plane_stroke(incise::rest_bounds(*mesh), incise::Vec3(1, 0, 0), 0.5);
 
-  auto engine = incise::Engine::create(std::move(mesh).value());
+  incise::EngineOptions options;
+  options.maintain.merge = options.maintain.improve = false;  // cut, and leave the new tets as they come
+  auto engine = incise::Engine::create(std::move(mesh).value(), options);
   const auto report = engine->cut(*plane);
   if (!report.ok()) {
     std::fprintf(stderr, "%s\n", report.error().message.c_str());

@@ -21,6 +21,7 @@ TetMesh build(TetSoup soup) {
 Engine make_engine(TetSoup soup, double snap, Profile profile) {
   EngineOptions options;
   options.cut = {profile, snap};
+  options.maintain.merge = options.maintain.improve = false;
   Result<Engine> engine = Engine::create(build(std::move(soup)), options);
   EXPECT_TRUE(engine.ok());
   return std::move(engine).value();

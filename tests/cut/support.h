@@ -15,7 +15,7 @@ namespace incise::test {
 
 TetMesh build(TetSoup soup);
 
-/// An engine on a body that must be sound. `snap` is ignored by the paper profile.
+/// An engine that cuts and maintains nothing, on a body that must be sound. `snap` is ignored by the paper profile.
 Engine make_engine(TetSoup soup, double snap = 0.2, Profile profile = Profile::kIncise);
 
 /// The volume of a mesh, summed with compensation.

@@ -77,6 +77,7 @@ bool run(const Scene& scene, Profile profile, unsigned threads) {
   const char* name = profile == Profile::kPaper ? "paper" : "incise";
   EngineOptions options;
   options.cut.profile = profile;
+  options.maintain.merge = options.maintain.improve = false;  // the lines are of cutting alone
   options.threads = threads;
   Result<TetMesh> mesh = TetMesh::build(scene.body);
   Result<Engine> engine = Engine::create(std::move(mesh).value(), options);

@@ -115,6 +115,7 @@ void soak(const TetMesh& mesh, const std::string& name, CutOptions options, std:
           const Clock& clock, Tally& tally) {
   EngineOptions engine_options;
   engine_options.cut = options;
+  engine_options.maintain.merge = engine_options.maintain.improve = false;  // what cutting alone promises
   Result<Engine> engine = Engine::create(mesh, engine_options);
   const State before = examine(mesh);
   const std::uint64_t hash = mesh.hash();
