@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "improve/inradius_ratio.h"
+#include "improve/reference.h"
+#include "improve/surfaces.h"
+#include "incise/improve/options.h"
+#include "incise/mesh/star.h"
+#include "incise/mesh/transaction.h"
+
+namespace incise::inline v0 {
+
+/// What the operations of maintenance work with: one mesh under one open transaction.
+struct Care {
+  Transaction& transaction;
+  const TetMesh& mesh;
+  const References& references;
+  StarWalker& walker;
+  MaintainStatistics& statistics;
+  std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
+
+  /// Counts evaluations of tets.
+  void spend(std::size_t units) { statistics.work_units += units; }
+};
+
+/// An operation is accepted where the worst tet after it is better than the worst before by more than this share.
+inline constexpr double kLeastGain = 1e-3;
+
+/// No operation may leave a tet below this: what rounding could take for positive.
+inline constexpr double kLeastRatio = 1e-9;
+
+/// The worst of a set of tets as they stand.
+inline double worst_of(Care& care, const std::vector<TetId>& tets) {
+  double worst = 2.0;
+  for (const TetId tet : tets) {
+    worst = std::min(worst, inradius_ratio(care.mesh, care.mesh.vertices(tet)));
+  }
+  care.spend(tets.size());
+  return worst;
+}
+
+/// Whether a tet stands deformed without being inverted; true at rest.
+bool is_sound_now(const TetMesh& mesh, const TetVertices& vertices);
+
+}  // namespace incise::inline v0

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "improve/edge_collapse.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "improve/smooth.h"
+#include "incise/geom/quality.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Edges of a tet that are tried, shortest first.
+constexpr std::size_t kEdgesTried = 3;
+/// No new edge is longer than the longest of the vertex by more than this factor.
+constexpr double kLengthCap = 1.5;
+/// Surfaces leave their place by at most this share of the longest edge of the vertex.
+constexpr double kSurfaceTolerance = 0.01;
+/// New faces turn away from their surface by less than the angle with this cosine: 60 degrees.
+constexpr double kFaceCosine = 0.5;
+constexpr unsigned kBoundary = shape::kSkin | shape::kWall;
+
+struct RankedEdge {
+  double length2;
+  VertexId a, b;
+};
+
+std::array<RankedEdge, 6> edges_by_length(const TetMesh& mesh, TetId tet) {
+  std::array<RankedEdge, 6> edges{};
+  const TetVertices& v = mesh.vertices(tet);
+  for (unsigned e = 0; e < 6; ++e) {
+    const auto [i, j] = kEdgeCorners[e];
+    edges[e] = {(mesh.rest(v[i]) - mesh.rest(v[j])).squaredNorm(), v[i], v[j]};
+  }
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const RankedEdge& x, const RankedEdge& y) { return x.length2 < y.length2; });
+  return edges;
+}
+
+/// Calls `visit(tag, tet, side)` for the surface sides of tets that contain `with`, and do not contain `without`.
+template <class Visit>
+void for_each_face(const TetMesh& mesh, const std::vector<TetId>& tets, VertexId with, VertexId without, Visit&& visit) {
+  for (const TetId tet : tets) {
+    const TetVertices& v = mesh.vertices(tet);
+    for (unsigned s = 0; s < 4; ++s) {
+      const unsigned other = mesh.corner_of(tet, without);
+      if (v[s] == with || (other < 4 && other != s)) {
+        continue;
+      }
+      const std::int64_t tag = surface_tag(mesh, {tet, s});
+      if (tag >= 0) {
+        visit(static_cast<std::uint32_t>(tag), Side(tet, s));
+      }
+    }
+  }
+}
+
+Facet facet_of(const TetMesh& mesh, Side side) {
+  const auto v = mesh.vertices(side);
+  return {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])};
+}
+
+Facet facet_with(const TetMesh& mesh, Side side, VertexId vertex, const Vec3& place) {
+  Facet facet = facet_of(mesh, side);
+  const auto v = mesh.vertices(side);
+  for (unsigned k = 0; k < 3; ++k) {
+    if (v[k] == vertex) facet[k] = place;
+  }
+  return facet;
+}
+
+Vec3 vector_area2(const Facet& f) {
+  return (f[1] - f[0]).cross(f[2] - f[0]);
+}
+
+}  // namespace
+
+bool EdgeCollapser::improve(Care& care, TetId tet) {
+  const auto edges = edges_by_length(care.mesh, tet);
+  for (std::size_t i = 0; i < kEdgesTried; ++i) {
+    if (try_collapse(care, edges[i].a, edges[i].b) || try_collapse(care, edges[i].b, edges[i].a)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool EdgeCollapser::try_collapse(Care& care, VertexId from, VertexId into) {
+  const unsigned bits = care.mesh.shape_of(from), into_bits = care.mesh.shape_of(into);
+  if ((bits & (shape::kFront | shape::kPinched)) != 0 || ((bits & kBoundary) & ~into_bits) != 0) {
+    return false;
+  }
+  plan_.from = from;
+  plan_.into = into;
+  place_ = care.mesh.rest(into);
+  star_ = care.walker.star(care.mesh, from);
+  surfaces_ = surfaces_at(care.mesh, from, star_);
+  if (!may_merge(care)) {
+    return false;
+  }
+  collect_patches(care);
+  if (!keep_volume(care) || !is_short_enough(care) || !improves(care) || !keeps_surfaces(care)) {
+    return false;
+  }
+  planner_.plan(care.mesh, from, into, plan_);
+  return plan_ && keeps_current(care) && carry_out(care);
+}
+
+/// Whether the edge lies on all surfaces of `from`: one of its two faces on each of two, or both on one.
+bool EdgeCollapser::may_merge(const Care& care) const {
+  if (surfaces_.count == 0) {
+    return true;
+  }
+  if (surfaces_.mobility == Mobility::kFixed) {
+    return false;
+  }
+  std::array<unsigned, 3> faces{};
+  for (const TetId tet : star_) {
+    const unsigned into = care.mesh.corner_of(tet, plan_.into);
+    for (unsigned s = 0; s < 4 && into < 4; ++s) {
+      const std::int64_t tag =
+          s == into || care.mesh.vertices(tet)[s] == plan_.from ? -1 : surface_tag(care.mesh, {tet, s});
+      if (tag >= 0) {
+        const Vec3 normal = incise::vector_area2(care.mesh, {tet, s}).normalized();
+        ++faces[std::min(2U, surfaces_.find(static_cast<std::uint32_t>(tag), normal))];
+      }
+    }
+  }
+  return surfaces_.count == 1 ? faces[0] == 2 : faces[0] == 1 && faces[1] == 1;
+}
+
+/// What becomes of the faces of every surface, and the volume that this costs.
+void EdgeCollapser::collect_patches(const Care& care) {
+  longest_ = 0;
+  for (const TetId tet : star_) {
+    for (const VertexId v : care.mesh.vertices(tet)) {
+      longest_ = std::max(longest_, (care.mesh.rest(v) - care.mesh.rest(plan_.from)).squaredNorm());
+    }
+  }
+  longest_ = std::sqrt(longest_);
+  for (Patch& patch : patches_) {
+    patch.before.clear();
+    patch.after.clear();
+    patch.lost6 = 0;
+  }
+  if (surfaces_.count == 0 || surfaces_.is_flat()) {
+    return;
+  }
+  for_each_face(care.mesh, star_, plan_.from, VertexId(), [&](std::uint32_t tag, Side side) {
+    const Facet facet = facet_of(care.mesh, side);
+    const unsigned at = surfaces_.find(tag, vector_area2(facet).normalized());
+    if (at >= surfaces_.count) return;
+    Patch& patch = patches_[at];
+    patch.before.push_back(facet);
+    const auto v = care.mesh.vertices(side);
+    if (std::find(v.begin(), v.end(), plan_.into) == v.end()) {
+      patch.after.push_back(facet_with(care.mesh, side, plan_.from, place_));
+      patch.lost6 += (facet[0] - place_).cross(facet[1] - place_).dot(facet[2] - place_);
+    }
+  });
+}
+
+/// Finds the place of the merged vertex that keeps the volume under every surface; false where there is none nearby.
+/// The volume is linear in the vertex, with its vector area as gradient.
+bool EdgeCollapser::keep_volume(const Care& care) {
+  if (surfaces_.count == 0 || surfaces_.is_flat()) {
+    return true;
+  }
+  around_ = care.walker.star(care.mesh, plan_.into);
+  VertexSurfaces merged;
+  std::array<double, 2> lost6{};
+  const auto add = [&](std::uint32_t tag, const Facet& facet) { add_face(merged, tag, vector_area2(facet)); };
+  for_each_face(care.mesh, star_, plan_.from, plan_.into, [&](std::uint32_t tag, Side side) {
+    add(tag, facet_with(care.mesh, side, plan_.from, place_));
+  });
+  for_each_face(care.mesh, around_, plan_.into, plan_.from,
+                [&](std::uint32_t tag, Side side) { add(tag, facet_of(care.mesh, side)); });
+  for (unsigned i = 0; i < surfaces_.count; ++i) {
+    const unsigned at = merged.find(surfaces_.surfaces[i].tag, surfaces_.surfaces[i].first_normal);
+    if (at >= std::min(merged.count, 2U)) {
+      return false;
+    }
+    lost6[at] += patches_[i].lost6;
+  }
+  Vec3 step = Vec3::Zero();
+  const Vec3& p = merged.surfaces[0].vector_area;
+  const Vec3& q = merged.surfaces[1].vector_area;
+  if (merged.count == 1) {
+    step = (lost6[0] / p.squaredNorm()) * p;
+  } else if (merged.count == 2) {
+    const double pp = p.dot(p), pq = p.dot(q), qq = q.dot(q), determinant = pp * qq - pq * pq;
+    if (!(determinant > 0.03 * pp * qq)) {
+      return false;
+    }
+    step = ((lost6[0] * qq - lost6[1] * pq) * p + (lost6[1] * pp - lost6[0] * pq) * q) / determinant;
+  } else {
+    return false;
+  }
+  place_ += step;
+  return step.norm() <= kSurfaceTolerance * longest_;
+}
+
+bool EdgeCollapser::is_short_enough(const Care& care) const {
+  const double cap = kLengthCap * longest_;
+  return std::all_of(star_.begin(), star_.end(), [&](TetId tet) {
+    const TetVertices& v = care.mesh.vertices(tet);
+    return std::all_of(v.begin(), v.end(), [&](VertexId id) {
+      return id == plan_.from || (care.mesh.rest(id) - place_).squaredNorm() <= cap * cap;
+    });
+  });
+}
+
+/// Whether the worst tet after the collapse is better than the worst before.
+bool EdgeCollapser::improves(Care& care) const {
+  double before = worst_of(care, star_);
+  if (moves(care)) {
+    before = std::min(before, worst_of(care, around_));
+  }
+  const double bound = std::max(before * (1.0 + kLeastGain), kLeastRatio);
+  const auto is_better = [&](TetId tet, VertexId vertex) {
+    care.spend(1);
+    return inradius_ratio_with(care.mesh, tet, vertex, place_) > bound;
+  };
+  const auto keeps = [&](TetId tet) {
+    return care.mesh.corner_of(tet, plan_.into) < 4 || is_better(tet, plan_.from);
+  };
+  return std::all_of(star_.begin(), star_.end(), keeps) &&
+         (!moves(care) || std::all_of(around_.begin(), around_.end(), [&](TetId tet) {
+           return care.mesh.corner_of(tet, plan_.from) < 4 || is_better(tet, plan_.into);
+         }));
+}
+
+bool EdgeCollapser::keeps_surfaces(const Care& care) const {
+  for (unsigned i = 0; i < surfaces_.count && !surfaces_.is_flat(); ++i) {
+    const SurfaceAt& surface = surfaces_.surfaces[i];
+    const Vec3 normal = surface.vector_area.normalized();
+    for (const Facet& facet : patches_[i].after) {
+      const Vec3 area2 = vector_area2(facet);
+      if (!(normal.dot(area2) > kFaceCosine * area2.norm())) {
+        return false;
+      }
+    }
+    if (!surface.is_flat && !care.references.allows(surface.tag, patches_[i].before, patches_[i].after,
+                                                    kSurfaceTolerance * longest_)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Whether tets that stand upright now stay so.
+bool EdgeCollapser::keeps_current(const Care& care) const {
+  return std::all_of(plan_.fan.begin(), plan_.fan.end(), [&](TetId tet) {
+    TetVertices merged = care.mesh.vertices(tet);
+    merged[care.mesh.corner_of(tet, plan_.from)] = plan_.into;
+    return is_sound_now(care.mesh, merged) || !is_sound_now(care.mesh, care.mesh.vertices(tet));
+  });
+}
+
+bool EdgeCollapser::carry_out(Care& care) {
+  if (moves(care) && !move_vertex(care, plan_.into, place_, plan_.around)) {
+    return false;
+  }
+  incise::apply(care.transaction, plan_);
+  ++care.statistics.collapsed_edges;
+  care.changed = plan_.fan;
+  if (moves(care)) {
+    care.changed = care.walker.star(care.mesh, plan_.into);
+  }
+  return true;
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "improve/edge_removal.h"
+
+#include <algorithm>
+
+namespace incise::inline v0 {
+
+namespace {
+
+bool has_one_region(const TetMesh& mesh, const std::vector<TetId>& tets) {
+  return !mesh.has_regions() || std::all_of(tets.begin(), tets.end(), [&](TetId tet) {
+    return mesh.region(tet) == mesh.region(tets.front());
+  });
+}
+
+/// Whether the two boundary faces at the ends of an open fan lie in one plane and carry one tag.
+bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
+  const std::size_t last = ring.tets.size() - 1;
+  const Side first_face(ring.tets.front(), mesh.corner_of(ring.tets.front(), ring.vertices[1]));
+  const Side last_face(ring.tets.back(), mesh.corner_of(ring.tets.back(), ring.vertices[last]));
+  const Vec3 n = vector_area2(mesh, first_face), m = vector_area2(mesh, last_face);
+  return mesh.link(first_face).tag() == mesh.link(last_face).tag() && n.dot(m) > 0 &&
+         n.cross(m).squaredNorm() <= kFlat * kFlat * n.squaredNorm() * m.squaredNorm();
+}
+
+}  // namespace
+
+bool keeps_current(const TetMesh& mesh, const RemeshPlan& plan) {
+  const bool was_sound = std::all_of(plan.consumed.begin(), plan.consumed.end(),
+                                     [&](TetId tet) { return is_sound_now(mesh, mesh.vertices(tet)); });
+  return !was_sound || std::all_of(plan.produced.begin(), plan.produced.end(),
+                                   [&](const NewTet& tet) { return is_sound_now(mesh, tet.vertices); });
+}
+
+bool EdgeRemover::improve(Care& care, TetId tet) {
+  const TetVertices v = care.mesh.vertices(tet);
+  return std::any_of(kEdgeCorners.begin(), kEdgeCorners.end(),
+                     [&](const auto& edge) { return try_edge(care, v[edge[0]], v[edge[1]], tet); });
+}
+
+bool EdgeRemover::try_edge(Care& care, VertexId a, VertexId b, TetId seed) {
+  find_edge_ring(care.mesh, a, b, seed, ring_);
+  if (!is_removable(care)) {
+    return false;
+  }
+  const double before = worst_of(care, ring_.tets);
+  if (!triangulate(care, a, b, std::max(before * (1.0 + kLeastGain), kLeastRatio))) {
+    return false;
+  }
+  fill_edge_removal(care.mesh, a, b, ring_, triangles_, plan_);
+  if (!keeps_current(care.mesh, plan_)) {
+    return false;
+  }
+  apply(care.transaction, plan_, care.changed);
+  ++care.statistics.removed_edges;
+  return true;
+}
+
+bool EdgeRemover::is_removable(const Care& care) const {
+  const std::size_t n = ring_.vertices.size();
+  return n >= 3 && n <= kMostVertices && has_one_region(care.mesh, ring_.tets) &&
+         (ring_.is_closed || has_flat_ends(care.mesh, ring_));
+}
+
+/// The worse of the two tets that a triangle of the ring makes with the ends of the edge; 0 where it is below the bound.
+double EdgeRemover::rate(Care& care, VertexId a, VertexId b, unsigned i, unsigned j, unsigned k, double bound) const {
+  const TetMesh& mesh = care.mesh;
+  const VertexId p = ring_.vertices[i], q = ring_.vertices[j], r = ring_.vertices[k];
+  care.spend(1);
+  const double below = inradius_ratio(mesh, {a, p, q, r});
+  if (!(below > bound)) {
+    return 0.0;
+  }
+  care.spend(1);
+  const double above = inradius_ratio(mesh, {p, q, r, b});
+  return above > bound ? std::min(below, above) : 0.0;
+}
+
+/// Finds the triangulation of the ring whose worst tet is best; false where none is better than the bound.
+bool EdgeRemover::triangulate(Care& care, VertexId a, VertexId b, double bound) {
+  const auto n = static_cast<unsigned>(ring_.vertices.size());
+  for (unsigned i = 0; i + 1 < n; ++i) {
+    best_[i][i + 1] = 2.0;
+  }
+  for (unsigned width = 2; width < n; ++width) {
+    for (unsigned i = 0; i + width < n; ++i) {
+      const unsigned k = i + width;
+      best_[i][k] = 0.0;
+      for (unsigned j = i + 1; j < k; ++j) {
+        const double parts = std::min(best_[i][j], best_[j][k]);
+        if (!(parts > std::max(best_[i][k], bound))) {
+          continue;
+        }
+        const double worst = std::min(parts, rate(care, a, b, i, j, k, bound));
+        if (worst > best_[i][k]) {
+          best_[i][k] = worst;
+          apex_[i][k] = static_cast<std::uint8_t>(j);
+        }
+      }
+    }
+  }
+  triangles_.clear();
+  if (!(best_[0][n - 1] > bound)) {
+    return false;
+  }
+  collect_triangles(0, n - 1);
+  return true;
+}
+
+void EdgeRemover::collect_triangles(unsigned i, unsigned k) {
+  if (k - i < 2) {
+    return;
+  }
+  const unsigned j = apex_[i][k];
+  triangles_.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j), static_cast<std::uint8_t>(k)});
+  collect_triangles(i, j);
+  collect_triangles(j, k);
+}
+
+bool FaceRemover::improve(Care& care, TetId tet) {
+  for (unsigned s = 0; s < 4; ++s) {
+    if (try_face(care, {tet, s})) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool FaceRemover::try_face(Care& care, Side face) {
+  const TetMesh& mesh = care.mesh;
+  const Link behind = mesh.link(face);
+  if (behind.is_boundary() || mesh.region(face.tet()) != mesh.region(behind.side().tet())) {
+    return false;
+  }
+  const TetId other = behind.side().tet();
+  const VertexId p = mesh.vertices(face.tet())[face.side()], q = mesh.vertices(other)[behind.side().side()];
+  const auto [x, y, z] = mesh.vertices(face);
+  const double before =
+      std::min(inradius_ratio(mesh, mesh.vertices(face.tet())), inradius_ratio(mesh, mesh.vertices(other)));
+  const double bound = std::max(before * (1.0 + kLeastGain), kLeastRatio);
+  plan_.consumed.assign({face.tet(), other});
+  plan_.produced.assign({{{x, y, p, q}, 0}, {{y, z, p, q}, 0}, {{z, x, p, q}, 1}});
+  care.spend(5);
+  const bool is_better = std::all_of(plan_.produced.begin(), plan_.produced.end(), [&](const NewTet& tet) {
+    return inradius_ratio(mesh, tet.vertices) > bound;
+  });
+  if (!is_better || !keeps_current(mesh, plan_)) {
+    return false;
+  }
+  apply(care.transaction, plan_, care.changed);
+  ++care.statistics.removed_faces;
+  return true;
+}
+
+}  // namespace incise::inline v0

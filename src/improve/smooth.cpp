@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "improve/smooth.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "incise/geom/predicates.h"
+#include "incise/geom/quality.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Newton steps per attempt; further ones gain little.
+constexpr unsigned kMaxSteps = 5;
+/// A step is halved so often before it is given up.
+constexpr unsigned kMaxHalvings = 5;
+/// A step that gains less than this share of the energy is the last.
+constexpr double kLeastDescent = 1e-2;
+/// A move must make the worst tet better by this share: smaller gains cost more than they are worth.
+constexpr double kLeastSmoothingGain = 0.01;
+/// Surfaces leave their place by at most this share of the star's mean edge.
+constexpr double kSurfaceTolerance = 0.01;
+
+/// The part of a step that the vertex may take.
+Vec3 restrict_step(const Vec3& step, const VertexSurfaces& surfaces) {
+  switch (surfaces.mobility) {
+    case Mobility::kFree:
+      return step;
+    case Mobility::kSurface:
+      return step - surfaces.along.dot(step) * surfaces.along;
+    case Mobility::kLine:
+      return surfaces.along.dot(step) * surfaces.along;
+    case Mobility::kFixed:
+      break;
+  }
+  return Vec3::Zero();
+}
+
+/// The Newton step within what the vertex may do.
+Vec3 newton_step(const StarEnergy::Value& value, const VertexSurfaces& surfaces) {
+  Eigen::Matrix3d hessian = value.hessian;
+  Vec3 gradient = value.gradient;
+  if (surfaces.mobility == Mobility::kLine) {
+    const Vec3& u = surfaces.along;
+    return -(gradient.dot(u) / u.dot(hessian * u)) * u;
+  }
+  if (surfaces.mobility == Mobility::kSurface) {
+    // Solved with the normal's row and column replaced: H' = P H P + s n nᵀ, P = 1 − n nᵀ.
+    const Vec3& n = surfaces.along;
+    const Eigen::Matrix3d project = Eigen::Matrix3d::Identity() - n * n.transpose();
+    const double scale = hessian.trace();
+    hessian = project * hessian * project + scale * n * n.transpose();
+    gradient = project * gradient;
+  }
+  return restrict_step(-hessian.llt().solve(gradient), surfaces);
+}
+
+/// A rest point in the barycentric coordinates of a tet.
+struct MaterialPoint {
+  TetVertices basis;
+  std::array<double, 4> weights{};
+};
+
+MaterialPoint coordinates_in(const TetMesh& mesh, TetId tet, const Vec3& place) {
+  const TetVertices& v = mesh.vertices(tet);
+  std::array<Vec3, 4> p = {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
+  const double whole = signed_volume6(p[0], p[1], p[2], p[3]);
+  MaterialPoint point{v, {}};
+  for (unsigned c = 0; c < 4; ++c) {
+    const Vec3 kept = p[c];
+    p[c] = place;
+    point.weights[c] = signed_volume6(p[0], p[1], p[2], p[3]) / whole;
+    p[c] = kept;
+  }
+  return point;
+}
+
+double least_weight(const MaterialPoint& point) {
+  return *std::min_element(point.weights.begin(), point.weights.end());
+}
+
+double mean_edge(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star) {
+  double sum = 0;
+  for (const TetId tet : star) {
+    for (const VertexId v : mesh.vertices(tet)) sum += (mesh.rest(v) - mesh.rest(vertex)).norm();
+  }
+  return sum / static_cast<double>(3 * star.size());
+}
+
+}  // namespace
+
+bool is_sound_now(const TetMesh& mesh, const TetVertices& v) {
+  const bool is_at_rest = mesh.current(v[0]) == mesh.rest(v[0]) && mesh.current(v[1]) == mesh.rest(v[1]) &&
+                          mesh.current(v[2]) == mesh.rest(v[2]) && mesh.current(v[3]) == mesh.rest(v[3]);
+  return is_at_rest ||
+         signed_volume6(mesh.current(v[0]), mesh.current(v[1]), mesh.current(v[2]), mesh.current(v[3])) > 0;
+}
+
+void StarEnergy::add(const Vec3& p, const Vec3& q, const Vec3& r) {
+  const Vec3 normal = (q - p).cross(r - p), centroid = (p + q + r) / 3.0;
+  const double sides2 = (q - p).squaredNorm() + (r - p).squaredNorm() + (r - q).squaredNorm();
+  // Σ |x − pᵢ|² = 3 |x − c|² + Σ |pᵢ − c|², and the last sum is a third of the sides'.
+  faces_.push_back({normal, normal.dot(p), centroid, sides2 + sides2 / 3.0});
+}
+
+double StarEnergy::energy(const Vec3& centre) const {
+  double sum = 0;
+  for (const Face& face : faces_) {
+    const double volume6 = face.normal.dot(centre) - face.offset;
+    if (!(volume6 > 0)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const double sides2 = 3.0 * (centre - face.centroid).squaredNorm() + face.constant;
+    const double ratio = sides2 * sides2 * sides2 / (volume6 * volume6);
+    sum += ratio * ratio;
+  }
+  return sum;
+}
+
+StarEnergy::Value StarEnergy::evaluate(const Vec3& centre) const {
+  Value value;
+  for (const Face& face : faces_) {
+    const double volume6 = face.normal.dot(centre) - face.offset;
+    const Vec3 arm = centre - face.centroid;
+    const double sides2 = 3.0 * arm.squaredNorm() + face.constant;
+    const double ratio = sides2 * sides2 * sides2 / (volume6 * volume6), energy = ratio * ratio;
+    // log E = 6 log S − 4 log V; of its Hessian the negative part is left out.
+    const Vec3 by_volume = face.normal / volume6;
+    const Vec3 gradient = (36.0 / sides2) * arm - 4.0 * by_volume;
+    value.energy += energy;
+    value.gradient += energy * gradient;
+    value.hessian += energy * (gradient * gradient.transpose() + 4.0 * by_volume * by_volume.transpose());
+    value.hessian.diagonal().array() += energy * 36.0 / sides2;
+  }
+  return value;
+}
+
+namespace {
+
+MaterialPoint locate(const TetMesh& mesh, const Vec3& place, const std::vector<TetId>& star) {
+  MaterialPoint best = coordinates_in(mesh, star.front(), place);
+  for (std::size_t i = 1; i < star.size() && !(least_weight(best) >= 0); ++i) {
+    const MaterialPoint point = coordinates_in(mesh, star[i], place);
+    if (!(least_weight(best) >= least_weight(point))) {
+      best = point;
+    }
+  }
+  return best;
+}
+
+Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point) {
+  Vec3 current = Vec3::Zero();
+  for (unsigned c = 0; c < 4; ++c) {
+    current += point.weights[c] * mesh.current(point.basis[c]);
+  }
+  return current;
+}
+
+/// Whether the star stands deformed without inverted tets once its centre stands for another material point.
+bool stays_sound(const TetMesh& mesh, VertexId vertex, const MaterialPoint& point, const std::vector<TetId>& star) {
+  const Vec3 moved = current_at(mesh, point);
+  return std::all_of(star.begin(), star.end(), [&](TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
+    const auto at = [&](unsigned c) -> const Vec3& { return v[c] == vertex ? moved : mesh.current(v[c]); };
+    return signed_volume6(at(0), at(1), at(2), at(3)) > 0 || !is_sound_now(mesh, v);
+  });
+}
+
+bool is_deformed(const TetMesh& mesh, const std::vector<TetId>& star) {
+  return std::any_of(star.begin(), star.end(), [&](TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
+    return std::any_of(v.begin(), v.end(), [&](VertexId id) { return mesh.current(id) != mesh.rest(id); });
+  });
+}
+
+}  // namespace
+
+bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vector<TetId>& star) {
+  const MaterialPoint point = locate(care.mesh, place, star);
+  if (is_deformed(care.mesh, star) && !stays_sound(care.mesh, vertex, point, star)) {
+    return false;
+  }
+  care.transaction.move(vertex, place, point.basis, point.weights);
+  ++care.statistics.moved_vertices;
+  return true;
+}
+
+bool Smoother::improve(Care& care, VertexId vertex) {
+  star_ = care.walker.star(care.mesh, vertex);
+  surfaces_ = surfaces_at(care.mesh, vertex, star_);
+  if (surfaces_.mobility == Mobility::kFixed) {
+    return false;
+  }
+  const double before = worst_of(care, star_);
+  if (!(before > 0)) {
+    return false;
+  }
+  collect(care, vertex);
+  const Vec3 place = find_place(care, vertex);
+  const double bound = std::max(before * (1.0 + kLeastSmoothingGain), kLeastRatio);
+  if (place == care.mesh.rest(vertex) || !(worst_at(care, vertex, place, bound) > bound) ||
+      !keeps_surfaces(care, vertex, place) || !move_vertex(care, vertex, place, star_)) {
+    return false;
+  }
+  care.changed = star_;
+  return true;
+}
+
+void Smoother::collect(const Care& care, VertexId vertex) {
+  energy_.clear();
+  for (const TetId tet : star_) {
+    // Seen from outside the side turns counter-clockwise: its normal points away from the centre.
+    const auto [p, q, r] = care.mesh.vertices(Side(tet, care.mesh.corner_of(tet, vertex)));
+    energy_.add(care.mesh.rest(p), care.mesh.rest(r), care.mesh.rest(q));
+  }
+}
+
+Vec3 Smoother::find_place(Care& care, VertexId vertex) const {
+  Vec3 place = care.mesh.rest(vertex);
+  for (unsigned i = 0; i < kMaxSteps; ++i) {
+    const StarEnergy::Value here = energy_.evaluate(place);
+    care.spend(energy_.size() / 2);
+    if (!(here.energy < std::numeric_limits<double>::infinity())) {
+      return care.mesh.rest(vertex);
+    }
+    Vec3 step = newton_step(here, surfaces_);
+    double reached = energy_.energy(place + step);
+    for (unsigned k = 0; k < kMaxHalvings && !(reached < here.energy); ++k) {
+      step *= 0.5;
+      reached = energy_.energy(place + step);
+      care.spend(energy_.size() / 4);
+    }
+    if (!(reached < here.energy)) {
+      break;
+    }
+    place += step;
+    if (reached > (1.0 - kLeastDescent) * here.energy) {
+      break;
+    }
+  }
+  return place;
+}
+
+double Smoother::worst_at(Care& care, VertexId vertex, const Vec3& place, double bound) const {
+  double worst = 2.0;
+  for (const TetId tet : star_) {
+    worst = std::min(worst, inradius_ratio_with(care.mesh, tet, vertex, place));
+    care.spend(1);
+    if (!(worst > bound)) {
+      break;
+    }
+  }
+  return worst;
+}
+
+/// Whether the boundary around the vertex stays where it is, within the tolerance; in a plane it does by itself.
+bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& place) {
+  if (surfaces_.mobility == Mobility::kFree || surfaces_.is_flat()) {
+    return true;
+  }
+  const double tolerance = kSurfaceTolerance * mean_edge(care.mesh, vertex, star_);
+  for (unsigned i = 0; i < surfaces_.count; ++i) {
+    before_.clear();
+    after_.clear();
+    for (const TetId tet : star_) {
+      for (unsigned s = 0; s < 4; ++s) {
+        if (care.mesh.vertices(tet)[s] == vertex || surface_tag(care.mesh, {tet, s}) != surfaces_.surfaces[i].tag) {
+          continue;
+        }
+        const auto v = care.mesh.vertices(Side(tet, s));
+        Facet facet = {care.mesh.rest(v[0]), care.mesh.rest(v[1]), care.mesh.rest(v[2])};
+        before_.push_back(facet);
+        for (unsigned k = 0; k < 3; ++k) {
+          if (v[k] == vertex) facet[k] = place;
+        }
+        after_.push_back(facet);
+      }
+    }
+    if (!care.references.allows(surfaces_.surfaces[i].tag, before_, after_, tolerance)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace incise::inline v0
