@@ -51,6 +51,11 @@ std::uint64_t fingerprint_of(const Step& step) {
     add(hash, t.vertices);
   }
   for (const VertexId v : step.died) hash.add(std::uint64_t{v.value});
+  for (const Edit& e : step.edits) hash.add((std::uint64_t{e.consumed_end} << 32U) | e.produced_end);
+  for (const ProducedTet& t : step.edit_produced) {
+    hash.add((std::uint64_t{t.id.value} << 32U) | t.parent.value);
+    add(hash, t.vertices);
+  }
   return hash.value();
 }
 
@@ -89,6 +94,17 @@ class Attributes::Stepper {
   Stepper(Attributes& all, const Step& step, Record& record) : all_(all), step_(step), record_(record) {}
 
   void run() {
+    if (step_.edits.empty()) {
+      apply_lists();
+    } else {
+      apply_edits();
+    }
+  }
+
+ private:
+  using Weights = std::array<double, 4>;
+
+  void apply_lists() {
     tabulate();
     touch_all();
     for (Attribute& attribute : all_.attributes_) {
@@ -109,8 +125,22 @@ class Attributes::Stepper {
     retire();
   }
 
- private:
-  using Weights = std::array<double, 4>;
+  /// One edit after the other: each finds the values and places that the one before it left.
+  void apply_edits() {
+    std::size_t consumed = 0, produced = 0;
+    for (const Edit& edit : step_.edits) {
+      consumed_ = std::span(step_.edit_consumed).subspan(consumed, edit.consumed_end - consumed);
+      produced_ = std::span(step_.edit_produced).subspan(produced, edit.produced_end - produced);
+      consumed = edit.consumed_end;
+      produced = edit.produced_end;
+      if (edit.kind == Edit::Kind::kMove) {
+        resample(step_.moved[edit.vertex]);
+      } else {
+        remesh(edit);
+      }
+    }
+    retire();
+  }
 
   static double* at(Attribute& attribute, std::uint32_t slot) {
     return attribute.values.data() + std::size_t{slot} * attribute.spec.width;
@@ -351,6 +381,143 @@ class Attributes::Stepper {
     }
   }
 
+  void resample(const MovedVertex& moved) {
+    all_.touch(record_, moved.id);
+    for (Attribute& attribute : all_.attributes_) {
+      if (attribute.spec.domain == Domain::kVertex && attribute.spec.transfer == Transfer::kInterpolate) {
+        mix(attribute, moved.id, moved.basis, moved.weights);
+      }
+    }
+    exchange(moved);
+  }
+
+  /// A cavity gives way to its new tets: what it held becomes theirs.
+  void remesh(const Edit& edit) {
+    touch_cavity();
+    if (edit.vertex != kInvalidIndex) bear(step_.born[edit.vertex]);
+    find_parents();
+    measure_cavity();
+    relink();
+    for (Attribute& attribute : all_.attributes_) {
+      if (attribute.spec.domain == Domain::kTet) {
+        refill_tets(attribute);
+      } else if (attribute.spec.transfer == Transfer::kConserve) {
+        for (std::uint32_t k = 0; k < attribute.spec.width; ++k) refill_vertices(attribute, k);
+      }
+    }
+    lump_cavity();
+  }
+  void touch_cavity() {
+    const auto touch = [&](const auto& tet) {
+      all_.touch(record_, tet.id);
+      for (const VertexId v : tet.vertices) all_.touch(record_, v);
+    };
+    for (const ConsumedTet& tet : consumed_) touch(tet);
+    for (const ProducedTet& tet : produced_) touch(tet);
+  }
+  void bear(const BornVertex& born) {
+    all_.rest_[born.id] = born.rest;
+    for (Attribute& attribute : all_.attributes_) {
+      if (attribute.spec.domain == Domain::kVertex) give_birth(attribute, born);
+    }
+  }
+  /// Parents stand in about the order of their children, so the search goes on where it found the last one.
+  void find_parents() {
+    parent_of_.clear();
+    std::uint32_t at = 0;
+    for (const ProducedTet& child : produced_) {
+      for (std::size_t tries = 0; consumed_[at].id != child.parent && tries < consumed_.size(); ++tries) {
+        at = at + 1 == consumed_.size() ? 0 : at + 1;
+      }
+      parent_of_.push_back(at);
+    }
+  }
+  /// The cavity is one family, unless it spans a border between regions: only splits do, where every tet has its own.
+  void measure_cavity() {
+    const std::int32_t region = produced_.front().region;
+    is_one_family_ =
+        std::all_of(produced_.begin(), produced_.end(), [&](const ProducedTet& t) { return t.region == region; });
+    families_.assign(is_one_family_ ? 1 : consumed_.size(), Family{});
+    old_volumes_.clear();
+    volumes_.clear();
+    for (const ConsumedTet& tet : consumed_) old_volumes_.push_back(all_.volume(tet.vertices));
+    for (std::size_t i = 0; i < produced_.size(); ++i) {
+      volumes_.push_back(all_.volume(produced_[i].vertices));
+      Family& family = families_[family_of(parent_of_[i])];
+      family.children_volume += volumes_.back();
+      ++family.children;
+    }
+  }
+  [[nodiscard]] std::size_t family_of(std::size_t consumed) const { return is_one_family_ ? 0 : consumed; }
+  [[nodiscard]] double share_in_family(std::size_t produced) const {
+    const Family& family = families_[family_of(parent_of_[produced])];
+    return family.children_volume > 0 ? volumes_[produced] / family.children_volume : 1.0 / family.children;
+  }
+  /// Brings the connectivity up to date, and finds the vertices that are left without tets.
+  void relink() {
+    for (const ConsumedTet& tet : consumed_) all_.unlink(tet.id);
+    for (const ProducedTet& tet : produced_) all_.link(tet.id, tet.vertices);
+    orphans_.clear();
+    for (const ConsumedTet& tet : consumed_) {
+      for (const VertexId v : tet.vertices) {
+        const bool is_new = std::find(orphans_.begin(), orphans_.end(), v) == orphans_.end();
+        if (all_.first_corner_[v] == kInvalidIndex && is_new) orphans_.push_back(v);
+      }
+    }
+  }
+  void refill_tets(Attribute& attribute) {
+    const std::uint32_t width = attribute.spec.width;
+    held_.clear();
+    pools_.assign(families_.size() * width, 0.0);
+    for (std::size_t i = 0; i < consumed_.size(); ++i) {
+      const double* value = at(attribute, consumed_[i].id.value);
+      held_.insert(held_.end(), value, value + width);
+      for (std::uint32_t k = 0; k < width; ++k) pools_[family_of(i) * width + k] += value[k];
+      clear(attribute, consumed_[i].id.value);
+    }
+    for (std::size_t i = 0; i < produced_.size(); ++i) {
+      double* to = at(attribute, produced_[i].id.value);
+      if (is_field(attribute)) {
+        std::copy_n(held_.data() + parent_of_[i] * width, width, to);
+        continue;
+      }
+      start(attribute, produced_[i].id.value);
+      const double* pool = pools_.data() + family_of(parent_of_[i]) * width;
+      for (std::uint32_t k = 0; attribute.spec.transfer == Transfer::kConserve && k < width; ++k) {
+        to[k] = pool[k] * share_in_family(i);
+      }
+    }
+  }
+  void refill_vertices(Attribute& attribute, std::uint32_t k) {
+    pools_.assign(families_.size(), 0.0);
+    quarters_.resize(consumed_.size());
+    for (std::size_t i = 0; i < consumed_.size(); ++i) {
+      for (unsigned c = 0; c < 4; ++c) {
+        quarters_[i][c] = 0.25 * old_volumes_[i] * density(attribute, consumed_[i].vertices[c], k);
+        pools_[family_of(i)] += quarters_[i][c];
+      }
+    }
+    for (std::size_t i = 0; i < consumed_.size(); ++i) {
+      for (unsigned c = 0; c < 4; ++c) at(attribute, consumed_[i].vertices[c].value)[k] -= quarters_[i][c];
+    }
+    for (const VertexId v : orphans_) {  // what rounding, or tets without volume, left
+      pools_[0] += std::exchange(at(attribute, v.value)[k], 0.0);
+    }
+    for (std::size_t i = 0; i < produced_.size(); ++i) {
+      const double quarter = 0.25 * pools_[family_of(parent_of_[i])] * share_in_family(i);
+      for (const VertexId v : produced_[i].vertices) at(attribute, v.value)[k] += quarter;
+    }
+  }
+  void lump_cavity() {
+    for (std::size_t i = 0; i < consumed_.size(); ++i) {
+      for (const VertexId v : consumed_[i].vertices) all_.lumped_[v] -= 0.25 * old_volumes_[i];
+    }
+    for (std::size_t i = 0; i < produced_.size(); ++i) {
+      for (const VertexId v : produced_[i].vertices) all_.lumped_[v] += 0.25 * volumes_[i];
+    }
+    for (const VertexId v : orphans_) all_.lumped_[v] = 0;
+  }
+
   /// Moves a vertex with its copies; shrinking tets around it hand material to growing ones.
   void exchange(const MovedVertex& moved) {
     group_.assign(1, moved.id);
@@ -431,7 +598,7 @@ class Attributes::Stepper {
     std::fill_n(at(attribute, slot), attribute.spec.width, 0.0);
   }
 
-  /// A consumed tet and its children.
+  /// A consumed tet and its children; of an edit: all of its tets.
   struct Family {
     double volume = 0, children_volume = 0;
     std::uint32_t children = 0;
@@ -447,6 +614,14 @@ class Attributes::Stepper {
   std::vector<Family> families_;             // by consumed
   std::vector<double> volumes_;              // by produced
   std::vector<Weights> quarters_, rewired_quarters_;
+  // Of the edit at work:
+  std::span<const ConsumedTet> consumed_;
+  std::span<const ProducedTet> produced_;
+  std::vector<std::uint32_t> parent_of_;  // index into consumed_, by produced_
+  std::vector<double> old_volumes_;       // by consumed_
+  std::vector<VertexId> orphans_;
+  std::vector<double> held_, pools_;  // values by consumed_; sums by family
+  bool is_one_family_ = true;
   std::vector<VertexId> group_;
   std::vector<TetId> star_;
   std::vector<double> before_, after_;  // volumes, by star

@@ -253,11 +253,7 @@ void Transaction::record_tets() {
 }
 
 void Transaction::record_vertices() {
-  for (const VertexId id : removed_vertices_) {
-    if (vertex_mark_[id.value] == kTouched) {
-      step_.died.push_back(id);
-    }
-  }
+  step_.died = removed_vertices_;  // those born in the step too: other births may name them as parents
 }
 
 void Transaction::record_opened() {

@@ -62,6 +62,12 @@ struct AttributeSpec {
 /// uniform and momentum Σ m·v of a linear velocity field is kept. For tets: the parent's value by volume shares, and
 /// the same exchange. Values of dead slots are 0.
 ///
+/// A step with `Step::edits` is followed edit by edit. The consumed tets of an edit carry away their quarters at the
+/// densities before the edit; its produced tets get the sum in proportion to their rest volumes, a quarter per corner.
+/// For tets: the sum likewise, and labels and fields from the parent. Where an edit spans a border between regions each
+/// consumed tet hands on to its own children alone. A vertex that dies leaves nothing behind; where a cavity keeps its
+/// volume a uniform density stays uniform.
+///
 /// Not thread-safe; other followers may read the mesh at the same time.
 /// Memory: 32 bytes per tet and 36 per vertex besides the values, and what `follow` keeps for undo: O(step) per step.
 class Attributes {
@@ -99,10 +105,11 @@ class Attributes {
 
   /// Catches up with the journal, forwards or backwards; also where steps were undone and others took their place.
   ///
-  /// `mesh` is the journal's mesh as it stands. Records apply in the order of the members of `Step`; a transaction that
-  /// moves a vertex before it splits beside it is therefore followed with its shares, not its sums, approximate.
-  /// Several steps at once give what they give one by one. Errors: kBadArgument where the journal stands before the
-  /// position of construction; nothing changes. Cost: O(steps to go and the last one before them).
+  /// `mesh` is the journal's mesh as it stands. Where a step has no `edits`, records apply in the order of the members
+  /// of `Step`; a transaction that moves a vertex before it splits beside it is therefore followed with its shares, not
+  /// its sums, approximate. Several steps at once give what they give one by one. Errors: kBadArgument where the
+  /// journal stands before the position of construction; nothing changes. Cost: O(steps to go and the last one before
+  /// them).
   Status follow(const Journal& journal, const TetMesh& mesh);
 
  private:

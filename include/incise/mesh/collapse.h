@@ -26,9 +26,10 @@ class CollapsePlanner {
   /// surface in place, is up to the caller (`stays_positive`).
   ///
   /// Refuses where the link condition fails (kLinkCondition): Lk(a) ∩ Lk(b) = Lk(ab) in the complex that a vertex at
-  /// infinity closes along the boundary. An accepted collapse keeps the pieces, their Euler characteristics and the
-  /// manifold boundary. Refuses borders between regions (kOnSurface), pinched vertices (kNoStar) and edges that do not
-  /// exist (kNotAnEdge). The plan's vectors are reused. Cost: O(both stars), about 1 µs.
+  /// infinity closes along the boundary; and where no tet of `from` would remain. An accepted collapse keeps the
+  /// pieces, their Euler characteristics and the manifold boundary. Refuses borders between regions (kOnSurface),
+  /// pinched vertices (kNoStar) and edges that do not exist (kNotAnEdge). The plan's vectors are reused. Cost: O(both
+  /// stars), about 1 µs.
   /// **Source:** T. Dey, H. Edelsbrunner, S. Guha, D. Nekhayev, "Topology preserving edge contraction", 1999; the
   /// conditions of Paper §2.5 are necessary for it, but not sufficient.
   void plan(const TetMesh& mesh, VertexId from, VertexId into, CollapsePlan& plan);
