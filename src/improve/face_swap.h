@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "incise/improve/options.h"
+#include "incise/mesh/transaction.h"
+
+namespace incise::inline v0::paper {
+
+/// Face Swapping: turns two tets at a face into three around an edge, or three into two, where their average quality
+/// gets better by that.
+///
+/// One pass over `tets` in the order given; those that swaps made are not looked at again. Boundaries and borders
+/// between regions stay. Cost: O(tets). **Source:** Paper §3.3, Figure 8. Quality of a configuration: the average, as
+/// in Algorithm 3.
+MaintainStatistics swap_faces(Transaction& transaction, const std::vector<TetId>& tets);
+
+}  // namespace incise::inline v0::paper
