@@ -11,6 +11,7 @@
 #include "incise/app/blade_file.h"
 #include "incise/app/convert.h"
 #include "incise/app/cut_job.h"
+#include "incise/app/improve_job.h"
 #include "incise/app/mesh_info.h"
 #include "incise/app/text_file.h"
 #include "incise/mesh/bounds.h"
@@ -51,6 +52,9 @@ void print_notes(const std::vector<std::string>& notes, const std::string& file,
   for (const std::string& text : notes) terminal.note(file + ": " + text);
 }
 
+constexpr const char* kNoBudgetAsPaper =
+    "--budget-us has no effect with --profile paper, which maintains the mesh in one go";
+
 struct Plane {
   Vec3 normal;
   double offset = 0;
@@ -78,9 +82,6 @@ std::string usage_problem(const CutArguments& a) {
     return "--plane " + a.plane + ": four finite numbers nx,ny,nz,d are needed, the first three not all zero";
   }
   if (!std::isfinite(a.snap) || a.snap < 0 || a.snap > 0.4) return "--snap must lie between 0 and 0.4";
-  if (!a.output.empty() && !app::is_mesh_extension(a.output)) {
-    return a.output + ": unknown extension; use " + app::kMeshExtensions;
-  }
   return {};
 }
 
@@ -90,6 +91,36 @@ bool has_folder(const std::string& file) {
   const fs::path folder = fs::path(file).parent_path();
   std::error_code code;
   return folder.empty() || fs::is_directory(folder, code);
+}
+
+/// Whether both outputs can be written, as far as their names tell; else says why and gives the exit code.
+std::optional<ExitCode> refuse_outputs(const std::string& mesh, const std::string& report, const Terminal& terminal) {
+  if (!mesh.empty() && !app::is_mesh_extension(mesh)) {
+    terminal.error(mesh + ": unknown extension; use " + app::kMeshExtensions);
+    return kUsage;
+  }
+  for (const std::string& file : {mesh, report}) {
+    if (has_folder(file)) continue;
+    terminal.error(file + ": its folder does not exist; create it first");
+    return kFailure;
+  }
+  return std::nullopt;
+}
+
+Profile profile_of(const std::string& name) {
+  return name == "paper" ? Profile::kPaper : Profile::kIncise;
+}
+
+/// Says which of the flags change nothing beside the others.
+void note_idle_flags(const CutArguments& a, const Terminal& terminal) {
+  const bool is_paper = a.profile == "paper";
+  if (is_paper && a.has_snap) terminal.note("--snap has no effect with --profile paper, which never snaps");
+  if (a.budget_us == 0) return;
+  if (a.no_merge && a.no_improve) {
+    terminal.note("--budget-us has no effect with --no-merge and --no-improve, which leave nothing to bound");
+  } else if (is_paper) {
+    terminal.note(kNoBudgetAsPaper);
+  }
 }
 
 Result<std::vector<Stroke>> strokes_of(const CutArguments& a, const TetMesh& mesh) {
@@ -103,10 +134,13 @@ Result<std::vector<Stroke>> strokes_of(const CutArguments& a, const TetMesh& mes
 app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Terminal& terminal) {
   app::CutJob job;
   job.strokes = std::move(strokes);
-  job.engine.cut.profile = a.profile == "paper" ? Profile::kPaper : Profile::kIncise;
+  job.engine.cut.profile = profile_of(a.profile);
   job.engine.cut.snap = a.snap;
+  job.engine.maintain.merge = !a.no_merge;
+  job.engine.maintain.improve = !a.no_improve;
   job.engine.threads = a.threads;
   job.engine.log = terminal.log_sink();
+  job.budget_us = a.budget_us;
   job.options.seed = a.seed;
   job.options.blade = a.blade;
   job.options.plane = a.plane;
@@ -114,27 +148,32 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
   return job;
 }
 
-Status write_results(const CutArguments& a, const app::CutResult& result, const Terminal& terminal) {
+Status write_results(const std::string& output, const std::string& report, const app::JobResult& result,
+                     const Terminal& terminal) {
   const WritingZone zone;
-  if (!a.output.empty() && result.report.change.ok) {
-    if (const Status status = io::write_mesh(a.output, result.mesh); !status.ok()) return status;
+  if (!output.empty() && result.report.change.ok) {
+    if (const Status status = io::write_mesh(output, result.mesh); !status.ok()) return status;
   }
-  if (a.report == "-") {
+  if (report == "-") {
     terminal.data(app::to_json(result.report));
-  } else if (!a.report.empty()) {
-    return app::write_text_file(a.report, app::to_json(result.report));
+  } else if (!report.empty()) {
+    return app::write_text_file(report, app::to_json(result.report));
   }
   return {};
 }
 
-int finish_cut(const CutArguments& a, const app::CutResult& result, const Terminal& terminal) {
-  if (const Status status = write_results(a, result, terminal); !status.ok()) {
+/// Writes what a job gave and says how it went; `work` names it in messages.
+int finish_job(const std::string& output, const std::string& report, const std::string& work,
+               const app::JobResult& result, const Terminal& terminal) {
+  if (const Status status = write_results(output, report, result, terminal); !status.ok()) {
     return fail(terminal, status.error(), status.error().code == ErrorCode::kBadArgument ? kUsage : kFailure);
   }
-  if (a.report != "-" && !terminal.is_quiet) terminal.data(app::to_text(result.report));
+  if (report != "-" && !terminal.is_quiet) terminal.data(app::to_text(result.report));
   if (result.report.change.ok) return kDone;
-  return fail(terminal, "the cut broke the validity contract, so no mesh was written; see `validity` in the report",
-              kCheckFailed);
+  return fail(
+      terminal,
+      "the " + work + " broke the validity contract, so no mesh was written; see `validity` in the report (--report)",
+      kCheckFailed);
 }
 
 }  // namespace
@@ -158,21 +197,32 @@ int run_check(const InfoArguments& arguments, const Terminal& terminal) {
 
 int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
-  for (const std::string& file : {arguments.output, arguments.report}) {
-    if (!has_folder(file)) return fail(terminal, file + ": its folder does not exist; create it first", kFailure);
-  }
-  if (arguments.profile == "paper" && arguments.has_snap) {
-    terminal.note("--snap has no effect with --profile paper, which never snaps");
-  }
+  if (const auto code = refuse_outputs(arguments.output, arguments.report, terminal)) return *code;
+  note_idle_flags(arguments, terminal);
   Result<app::LoadedMesh> loaded = app::load_mesh(arguments.mesh);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
   print_notes(loaded->source.notes, arguments.mesh, terminal);
   Result<std::vector<Stroke>> strokes = strokes_of(arguments, loaded->mesh);
   if (!strokes.ok()) return fail(terminal, strokes.error(), kBadInput);
   const app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal);
-  const Result<app::CutResult> result = app::run_cut(std::move(loaded).value(), job, !arguments.output.empty());
-  if (result.ok()) return finish_cut(arguments, *result, terminal);
+  const Result<app::JobResult> result = app::run_cut(std::move(loaded).value(), job, !arguments.output.empty());
+  if (result.ok()) return finish_job(arguments.output, arguments.report, "cut", *result, terminal);
   return fail(terminal, result.error(), result.error().code == ErrorCode::kBadArgument ? kBadInput : kFailure);
+}
+
+int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
+  if (const auto code = refuse_outputs(arguments.output, arguments.report, terminal)) return *code;
+  if (arguments.profile == "paper" && arguments.budget_us > 0) terminal.note(kNoBudgetAsPaper);
+  Result<app::LoadedMesh> loaded = app::load_mesh(arguments.mesh);
+  if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
+  print_notes(loaded->source.notes, arguments.mesh, terminal);
+  app::ImproveJob job;
+  job.engine.cut.profile = profile_of(arguments.profile);
+  job.engine.log = terminal.log_sink();
+  job.budget_us = arguments.budget_us;
+  const Result<app::JobResult> result = app::run_improve(std::move(loaded).value(), job, !arguments.output.empty());
+  if (!result.ok()) return fail(terminal, result.error(), kFailure);
+  return finish_job(arguments.output, arguments.report, "improvement", *result, terminal);
 }
 
 int run_convert(const ConvertArguments& arguments, const Terminal& terminal) {

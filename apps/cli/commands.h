@@ -18,8 +18,16 @@ struct CutArguments {
   std::string profile = "incise";
   double snap = 0.2;
   bool has_snap = false;
+  bool no_merge = false, no_improve = false;
+  std::uint64_t budget_us = 0;  // 0: none
   std::uint64_t seed = 0;
   unsigned threads = 1;
+};
+
+struct ImproveArguments {
+  std::string mesh, output, report;
+  std::string profile = "incise";
+  std::uint64_t budget_us = 0;  // 0: none
 };
 
 struct ConvertArguments {
@@ -30,6 +38,7 @@ struct ConvertArguments {
 int run_info(const InfoArguments& arguments, const Terminal& terminal);
 int run_check(const InfoArguments& arguments, const Terminal& terminal);
 int run_cut(const CutArguments& arguments, const Terminal& terminal);
+int run_improve(const ImproveArguments& arguments, const Terminal& terminal);
 int run_convert(const ConvertArguments& arguments, const Terminal& terminal);
 
 }  // namespace incise_cli

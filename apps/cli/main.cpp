@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "incise/app/cut_job.h"
 #include "incise/version.h"
 #include "terminal.h"
 
@@ -16,10 +17,9 @@ namespace {
 struct Arguments {
   InfoArguments info, check;
   CutArguments cut;
+  ImproveArguments improve;
   ConvertArguments convert;
   std::string unbuilt_record, unbuilt_picture;
-  std::uint64_t unbuilt_budget = 0;
-  bool no_merge = false, no_improve = false;  // what this version does anyway
 };
 
 constexpr const char* kExitCodes =
@@ -44,28 +44,57 @@ void add_info(CLI::App& root, Arguments& a) {
   check->add_flag("--json", a.check.as_json, "Print JSON");
 }
 
+void add_profile(CLI::App& command, std::string& profile) {
+  command.add_option("--profile", profile, "incise (default), or paper: the published method")
+      ->check(CLI::IsMember({"incise", "paper"}));
+}
+
+void add_budget(CLI::App& command, std::uint64_t& budget_us, const std::string& what) {
+  command.add_option("--budget-us", budget_us, what)->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxBudgetUs));
+}
+
 void add_cut(CLI::App& root, Arguments& a) {
   CLI::App* cut = add_command(root, "cut", "Cut a mesh along a blade's path or a plane",
                               "  incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
                               "  incise cut bunny.node --blade scenes/bunny_stroke.json -o cut.vtu --report cut.json\n"
-                              "  incise cut bunny.node --plane=-1,0,2,0.3 --profile paper --report -");
+                              "  incise cut bunny.node --plane=-1,0,2,0.3 --profile paper --report -\n"
+                              "  incise cut cube.mesh --plane 1,0,0,0.5 --no-merge --no-improve -o raw.vtu\n"
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --budget-us 2000 -o cut.vtu");
   cut->add_option("MESH", a.cut.mesh, "Mesh file; the format is found from its content")->required();
   cut->add_option("--blade", a.cut.blade, "Blade file: JSON of format incise-blade");
   cut->add_option("--plane", a.cut.plane, "nx,ny,nz,d: cut through everything along n.x = d, n of any length");
   cut->add_option("-o,--output", a.cut.output, "Write the cut mesh; the extension names the format");
-  cut->add_option("--profile", a.cut.profile, "incise (default), or paper: the published method")
-      ->check(CLI::IsMember({"incise", "paper"}));
+  add_profile(*cut, a.cut.profile);
   cut->add_option("--snap", a.cut.snap,
                   "Snapping distance as a fraction of the mean incident edge, 0 to 0.4 (default 0.2)");
-  cut->add_flag("--no-merge", a.no_merge, "Do not merge short edges after the cut (always so in this version)");
-  cut->add_flag("--no-improve", a.no_improve, "Do not improve the mesh after the cut (always so in this version)");
+  cut->add_flag("--no-merge", a.cut.no_merge, "Do not merge short edges after a stroke");
+  cut->add_flag("--no-improve", a.cut.no_improve, "Do not improve the mesh around a cut after a stroke");
   cut->add_option("--report", a.cut.report, "Write figures as JSON; - for stdout");
   cut->add_option("--seed", a.cut.seed, "Seed, repeated in the report");
   cut->add_option("--threads", a.cut.threads, "Worker threads, 1 to 256; the result does not depend on it")
       ->check(CLI::Range(1, 256));
   cut->add_option("--record", a.unbuilt_record, "Record the cut (not built yet)");
   cut->add_option("--picture", a.unbuilt_picture, "Draw the result (not built yet)");
-  cut->add_option("--budget-us", a.unbuilt_budget, "Time for maintenance per step (not built yet)");
+  add_budget(
+      *cut, a.cut.budget_us,
+      "Microseconds for maintenance per stroke, 1 to 3600000000; what is left over may be spent later, what is not "
+      "done waits for the next stroke. The cut itself is never left undone");
+}
+
+void add_improve(CLI::App& root, Arguments& a) {
+  CLI::App* improve =
+      add_command(root, "improve", "Maintain a whole mesh: merge short edges and make the worst tets better",
+                  "  incise improve liver.msh -o better.msh\n"
+                  "  incise improve cut.vtu -o better.vtu --report better.json\n"
+                  "  incise improve liver.msh --budget-us 500000 -o better.msh\n"
+                  "  incise improve liver.msh --profile paper --report -");
+  improve->add_option("MESH", a.improve.mesh, "Mesh file; the format is found from its content")->required();
+  improve->add_option("-o,--output", a.improve.output, "Write the mesh; the extension names the format");
+  add_profile(*improve, a.improve.profile);
+  improve->add_option("--report", a.improve.report, "Write figures as JSON; - for stdout");
+  add_budget(
+      *improve, a.improve.budget_us,
+      "Microseconds for the work, 1 to 3600000000; the worst tets come first, what is not done is left as it was");
 }
 
 void add_convert(CLI::App& root, Arguments& a) {
@@ -78,18 +107,18 @@ void add_convert(CLI::App& root, Arguments& a) {
 
 /// Commands of the contract that later versions bring: they are named, and refuse.
 void add_unbuilt(CLI::App& root) {
-  for (const char* name : {"improve", "simulate", "replay"}) {
+  for (const char* name : {"simulate", "replay"}) {
     root.add_subcommand(name, "(not built yet)")->allow_extras()->prefix_command();
   }
 }
 
 /// The first thing that was asked for but is not built, or nothing.
 std::string find_unbuilt(const CLI::App& root) {
-  for (const char* name : {"improve", "simulate", "replay"}) {
+  for (const char* name : {"simulate", "replay"}) {
     if (root.got_subcommand(name)) return std::string("the command ") + name;
   }
   const CLI::App* cut = root.get_subcommand("cut");
-  for (const char* flag : {"--record", "--picture", "--budget-us"}) {
+  for (const char* flag : {"--record", "--picture"}) {
     if (cut->count(flag) > 0) return flag;
   }
   return {};
@@ -102,6 +131,7 @@ int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
   }
   if (root.got_subcommand("info")) return run_info(a.info, terminal);
   if (root.got_subcommand("check")) return run_check(a.check, terminal);
+  if (root.got_subcommand("improve")) return run_improve(a.improve, terminal);
   if (root.got_subcommand("convert")) return run_convert(a.convert, terminal);
   a.cut.has_snap = root.get_subcommand("cut")->count("--snap") > 0;
   return run_cut(a.cut, terminal);
@@ -116,10 +146,11 @@ int run(int argc, char** argv) {
   root.add_flag("-v,--verbose", terminal.is_verbose, "Print more of what happens");
   root.require_subcommand(1);
   root.footer(std::string("Examples:\n  incise info liver.msh\n  incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
-                          "  incise cut --help\n\n") +
+                          "  incise improve halves.vtu -o better.vtu\n  incise cut --help\n\n") +
               kExitCodes);
   add_info(root, arguments);
   add_cut(root, arguments);
+  add_improve(root, arguments);
   add_convert(root, arguments);
   add_unbuilt(root);
   try {

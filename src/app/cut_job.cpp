@@ -1,48 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/app/cut_job.h"
 
-#include <chrono>
 #include <utility>
 
-#include "incise/app/mesh_export.h"
-#include "incise/mesh/components.h"
+#include "app/job_internal.h"
 
 namespace incise::inline v0 {
 namespace app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-MeshCounts counts_of(const TetMesh& mesh, const Components& pieces) {
-  return {mesh.vertex_count(), mesh.tet_count(), pieces.count()};
-}
-
-void measure_before(const TetMesh& mesh, CutReport& report) {
-  report.before = counts_of(mesh, find_components(mesh));
-  report.quality_before = measure_quality(mesh);
-  report.validity_before = validate(mesh, ValidateLevel::kGeometry);
-  report.volume_before = report.validity_before.volume;
-}
-
-void measure_after(const TetMesh& mesh, const Components& pieces, CutReport& report) {
-  report.after = counts_of(mesh, pieces);
-  for (std::size_t i = 0; i < pieces.count(); ++i) report.pieces.push_back({pieces.tet_count[i], pieces.volume[i]});
-  report.quality_cut = report.quality_after = measure_quality(mesh);  // until there is a stage that maintains it
-  report.quality_incision = measure_quality(mesh, [&](TetId tet) { return touches_cut(mesh, tet); });
-  ValidateOptions options;
-  options.expected_volume = report.volume_before;
-  report.validity_after = validate(mesh, ValidateLevel::kGeometry, options);
-  report.volume_after = report.validity_after.volume;
-  report.change = compare_with_input(report.validity_before, report.validity_after);
-  report.hash = mesh.hash();
-}
-
-void add_stroke(const StrokeReport& stroke, CutReport& report) {
-  report.cut += stroke.cut;
-  report.times += stroke.times;
-  report.step_ms.insert(report.step_ms.end(), stroke.step_ms.begin(), stroke.step_ms.end());
-  report.stage_ms.push_back(stroke.times);
-}
 
 Error in_stroke(Error error, const CutJob& job, std::size_t index) {
   const std::string& name = job.strokes[index].name;
@@ -50,14 +15,25 @@ Error in_stroke(Error error, const CutJob& job, std::size_t index) {
   return error;
 }
 
-Status cut_all(Engine& engine, const CutJob& job, CutReport& report) {
+/// Cuts along one stroke and maintains the mesh; the last cut is measured in between, off the clock.
+Status cut_one(Engine& engine, const CutJob& job, std::size_t index, detail::Upkeep& upkeep, JobReport& report) {
+  const detail::Stopwatch watch;
+  const Result<StrokeReport> stroke = engine.cut(job.strokes[index]);
+  const double cut_ms = watch.ms();
+  if (!stroke.ok()) return in_stroke(stroke.error(), job, index);
+  report.cut += stroke->cut;
+  if (index + 1 == job.strokes.size()) detail::measure_cut(engine.mesh(), report);
+  MaintainReport maintained{stroke->maintain, stroke->times};
+  const double maintain_ms = upkeep.run(engine, maintained);
+  detail::add_operation(maintained, cut_ms + maintain_ms, report);
+  return {};
+}
+
+Status cut_all(Engine& engine, const CutJob& job, JobReport& report) {
+  detail::Upkeep upkeep(job.engine, job.budget_us);
   for (std::size_t i = 0; i < job.strokes.size(); ++i) {
     if (job.progress) job.progress(i, job.strokes.size());
-    const Clock::time_point start = Clock::now();
-    const Result<StrokeReport> stroke = engine.cut(job.strokes[i]);
-    report.total_ms += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    if (!stroke.ok()) return in_stroke(stroke.error(), job, i);
-    add_stroke(*stroke, report);
+    if (const Status status = cut_one(engine, job, i, upkeep, report); !status.ok()) return status;
   }
   if (job.progress) job.progress(job.strokes.size(), job.strokes.size());
   return {};
@@ -65,24 +41,17 @@ Status cut_all(Engine& engine, const CutJob& job, CutReport& report) {
 
 }  // namespace
 
-Result<CutResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh) {
-  CutResult result;
-  CutReport& report = result.report;
-  report.input = loaded.source.file;
-  report.input_format = loaded.source.format;
-  report.notes = loaded.source.notes;
+Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh) {
+  JobResult result;
+  JobReport& report = result.report;
   report.options = job.options;
-  report.options.profile = job.engine.cut.profile;
-  report.options.snap = job.engine.cut.snap;
-  report.options.threads = job.engine.threads;
+  detail::describe_job(loaded, job.engine, job.budget_us, report);
   report.strokes = job.strokes.size();
-  measure_before(loaded.mesh, report);
-  Result<Engine> engine = Engine::create(std::move(loaded.mesh), job.engine);
+  detail::measure_before(loaded.mesh, report);
+  Result<Engine> engine = Engine::create(std::move(loaded.mesh), detail::without_upkeep(job.engine));
   if (!engine.ok()) return engine.error();
   if (const Status status = cut_all(*engine, job, report); !status.ok()) return status.error();
-  const Components pieces = find_components(engine->mesh());
-  measure_after(engine->mesh(), pieces, report);
-  if (wants_mesh) result.mesh = to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
+  detail::finish(*engine, loaded, wants_mesh, result);
   return result;
 }
 

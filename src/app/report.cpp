@@ -24,13 +24,16 @@ Json json_of(const Percentiles& p) {
   return {{"p50", p.p50}, {"p99", p.p99}, {"p999", p.p999}, {"max", p.max}};
 }
 
-Json json_of(const ReportOptions& options) {
+Json options_json(const JobReport& report) {
+  const ReportOptions& options = report.options;
   Json root = {{"profile", options.profile == Profile::kPaper ? "paper" : "incise"},
-               {"snap", options.snap},
-               {"merge", false},
-               {"improve", false},
-               {"threads", options.threads},
-               {"seed", options.seed}};
+               {"merge", options.merge},
+               {"improve", options.improve},
+               {"budget_us", options.budget_us > 0 ? Json(options.budget_us) : Json()}};
+  if (report.strokes == 0) return root;  // the others are about cutting
+  root["snap"] = options.snap;
+  root["threads"] = options.threads;
+  root["seed"] = options.seed;
   if (!options.blade.empty()) root["blade"] = options.blade;
   if (!options.plane.empty()) root["plane"] = options.plane;
   return root;
@@ -49,6 +52,28 @@ Json json_of(const CutStatistics& cut) {
           {"pinched_edges", cut.pinched_edges},
           {"latent_faces", cut.latent_faces},
           {"sheets", cut.sheets}};
+}
+
+Json maintain_json(const JobReport& report) {
+  const MaintainStatistics& done = report.maintain;
+  return {{"work_units", done.work_units},
+          {"collapsed_edges", done.collapsed_edges},
+          {"moved_vertices", done.moved_vertices},
+          {"removed_edges", done.removed_edges},
+          {"removed_faces", done.removed_faces},
+          {"inserted_vertices", done.inserted_vertices},
+          {"waiting_tets", done.waiting_tets},
+          {"created_tets", done.created_tets},
+          {"units_per_stroke", report.units_per_stroke}};
+}
+
+Json quality_json(const JobReport& report) {
+  Json root = {{"before", encode(report.quality_before)},
+               {"cut", encode(report.quality_cut)},
+               {"after", encode(report.quality_after)}};
+  root["cut"]["incision"] = encode(report.quality_cut_incision);
+  root["after"]["incision"] = encode(report.quality_incision);
+  return root;
 }
 
 Json json_of(const StageTimes& times, double total_ms) {
@@ -76,13 +101,13 @@ Json json_of(const std::vector<PieceFigures>& pieces) {
   return list;
 }
 
-double relative_error(const CutReport& report) {
+double relative_error(const JobReport& report) {
   if (!(report.volume_before > 0)) return 0;
   return std::abs(report.volume_after - report.volume_before) / report.volume_before;
 }
 
-// `ok` is about what the cut did: violations that the input brought along are listed, but do not count.
-Json validity_json(const CutReport& report) {
+// `ok` is about what the job did: violations that the input brought along are listed, but do not count.
+Json validity_json(const JobReport& report) {
   Json root;
   root["ok"] = report.change.ok;
   root["before"] = encode(report.validity_before)["violations"];
@@ -97,6 +122,50 @@ Json validity_json(const CutReport& report) {
   return root;
 }
 
+std::string sizes_text(const JobReport& report) {
+  std::string text =
+      fmt::format("{} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", report.before.tets, report.after.tets,
+                  report.before.vertices, report.after.vertices, report.before.components, report.after.components);
+  for (std::size_t i = 0; i < report.pieces.size() && i < kMaxPiecesShown; ++i) {
+    text += fmt::format("  piece {}: {} tets, volume {:.9g}\n", i, report.pieces[i].tets, report.pieces[i].volume);
+  }
+  if (report.pieces.size() > kMaxPiecesShown) {
+    text += fmt::format("  and {} more\n", report.pieces.size() - kMaxPiecesShown);
+  }
+  return text;
+}
+
+std::string work_text(const JobReport& report) {
+  const CutStatistics& cut = report.cut;
+  const MaintainStatistics& done = report.maintain;
+  std::string text;
+  if (report.strokes > 0) {
+    text = fmt::format("cut {} tets in {} steps: {} faces opened, {} vertices snapped, {} bent\n", cut.cut_tets,
+                       cut.steps, cut.incision_faces, cut.snapped_vertices, cut.bent_vertices);
+  }
+  if (report.options.merge || report.options.improve) {
+    text += fmt::format("maintained: {} edges collapsed, {} swapped away, {} faces swapped away, {} vertices moved\n",
+                        done.collapsed_edges, done.removed_edges, done.removed_faces, done.moved_vertices);
+  }
+  if (done.waiting_tets > 0) text += fmt::format("{} tets wait for maintenance\n", done.waiting_tets);
+  return text;
+}
+
+std::string quality_row(const char* name, const QualityStats& q) {
+  if (q.tets == q.flat_tets) return {};
+  return fmt::format("{:<16}{:>10}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.3g}{:>10.3g}{:>10.4g}\n", name, q.tets, q.lr_mean,
+                     q.lr_p99, q.lr_max, q.lr_over_200_pct, q.dihedral_min_deg, q.dihedral_max_deg);
+}
+
+std::string quality_text(const JobReport& report) {
+  const bool is_cut = report.strokes > 0;
+  return fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "tets", "L/r mean", "p99", "max",
+                     "% > 200", "angle min", "max") +
+         quality_row("before", report.quality_before) + (is_cut ? quality_row("cut", report.quality_cut) : "") +
+         quality_row("after", report.quality_after) + quality_row("at walls, cut", report.quality_cut_incision) +
+         quality_row("at walls, after", report.quality_incision);
+}
+
 }  // namespace
 
 Percentiles percentiles(std::vector<double> sample) {
@@ -109,21 +178,19 @@ Percentiles percentiles(std::vector<double> sample) {
   return {rank(0.5), rank(0.99), rank(0.999), sample.back()};
 }
 
-std::string to_json(const CutReport& report) {
+std::string to_json(const JobReport& report) {
   Json root;
   root["format"] = "incise-report";
   root["version"] = 1;
   root["program"] = "incise " INCISE_VERSION;
   root["input"] = {{"file", report.input}, {"format", report.input_format}, {"notes", report.notes}};
-  root["options"] = json_of(report.options);
+  root["options"] = options_json(report);
   root["strokes"] = report.strokes;
   root["mesh"] = {{"before", json_of(report.before)}, {"after", json_of(report.after)}};
   root["pieces"] = json_of(report.pieces);
   root["cut"] = json_of(report.cut);
-  root["quality"] = {{"before", encode(report.quality_before)},
-                     {"cut", encode(report.quality_cut)},
-                     {"after", encode(report.quality_after)}};
-  root["quality"]["after"]["incision"] = encode(report.quality_incision);
+  root["maintain"] = maintain_json(report);
+  root["quality"] = quality_json(report);
   root["volume"] = {{"before", encode(report.volume_before)},
                     {"after", encode(report.volume_after)},
                     {"relative_error", encode(relative_error(report))}};
@@ -135,25 +202,11 @@ std::string to_json(const CutReport& report) {
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string to_text(const CutReport& report) {
-  std::string text =
-      fmt::format("{} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", report.before.tets, report.after.tets,
-                  report.before.vertices, report.after.vertices, report.before.components, report.after.components);
-  for (std::size_t i = 0; i < report.pieces.size() && i < kMaxPiecesShown; ++i) {
-    text += fmt::format("  piece {}: {} tets, volume {:.9g}\n", i, report.pieces[i].tets, report.pieces[i].volume);
-  }
-  if (report.pieces.size() > kMaxPiecesShown) {
-    text += fmt::format("  and {} more\n", report.pieces.size() - kMaxPiecesShown);
-  }
-  text +=
-      fmt::format("cut {} tets in {} steps: {} faces opened, {} vertices snapped, {} bent\n", report.cut.cut_tets,
-                  report.cut.steps, report.cut.incision_faces, report.cut.snapped_vertices, report.cut.bent_vertices);
-  text += fmt::format("L/r max {:.4g} -> {:.4g}, {:.3g} -> {:.3g} % over 200\n", report.quality_before.lr_max,
-                      report.quality_after.lr_max, report.quality_before.lr_over_200_pct,
-                      report.quality_after.lr_over_200_pct);
-  text += fmt::format("volume changed by {:.2g} (relative); {}\n", relative_error(report),
-                      report.change.ok ? "valid" : "INVALID");
-  return text + fmt::format("{:.3f} ms, hash {:016x}\n", report.total_ms, report.hash);
+std::string to_text(const JobReport& report) {
+  return sizes_text(report) + work_text(report) + quality_text(report) +
+         fmt::format("volume changed by {:.2g} (relative); {}\n", relative_error(report),
+                     report.change.ok ? "valid" : "INVALID") +
+         fmt::format("{:.3f} ms, hash {:016x}\n", report.total_ms, report.hash);
 }
 
 }  // namespace app

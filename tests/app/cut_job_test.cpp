@@ -25,13 +25,15 @@ io::MeshFile cube_file() {
   return file;
 }
 
-app::CutResult cut_cube(Profile profile) {
+/// The paper's cube, cut in half and not maintained.
+app::JobResult cut_cube(Profile profile) {
   Result<app::LoadedMesh> loaded = app::build_mesh(cube_file(), "cube");
   EXPECT_TRUE(loaded.ok());
   app::CutJob job;
   job.engine.cut.profile = profile;
+  job.engine.maintain.merge = job.engine.maintain.improve = false;
   job.strokes.push_back(*plane_stroke(rest_bounds(loaded->mesh), Vec3(2, 0, 0), 1));
-  Result<app::CutResult> result = app::run_cut(std::move(loaded).value(), job, true);
+  Result<app::JobResult> result = app::run_cut(std::move(loaded).value(), job, true);
   EXPECT_TRUE(result.ok());
   return std::move(result).value();
 }
@@ -50,8 +52,8 @@ TEST(Percentiles, are_nearest_ranks) {
 
 TEST(CutJob, cuts_the_papers_cube_with_both_profiles) {
   for (const Profile profile : {Profile::kPaper, Profile::kIncise}) {
-    const app::CutResult result = cut_cube(profile);
-    const app::CutReport& report = result.report;
+    const app::JobResult result = cut_cube(profile);
+    const app::JobReport& report = result.report;
     EXPECT_EQ(report.before.tets, 750U);
     EXPECT_EQ(report.after.tets, 1300U);
     EXPECT_EQ(report.after.components, 2U);
@@ -87,8 +89,8 @@ TEST(CutJob, report_has_every_key_of_the_contract) {
   const json report = json::parse(app::to_json(cut_cube(Profile::kIncise).report));
   EXPECT_EQ(report["format"], "incise-report");
   EXPECT_EQ(report["version"], 1);
-  for (const char* key : {"program", "options", "mesh", "cut", "quality", "volume", "validity", "time_ms", "step_ms",
-                          "stage_ms", "hash"}) {
+  for (const char* key : {"program", "options", "mesh", "cut", "maintain", "quality", "volume", "validity", "time_ms",
+                          "step_ms", "stage_ms", "hash"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   const auto expect_keys = [&](const char* pointer, std::vector<std::string> keys) {
@@ -97,16 +99,22 @@ TEST(CutJob, report_has_every_key_of_the_contract) {
   };
   const std::vector<std::string> quality = {"lr_min",          "lr_mean",          "lr_p99",          "lr_max",
                                             "lr_over_200_pct", "dihedral_min_deg", "dihedral_max_deg"};
-  for (const char* at : {"/quality/before", "/quality/cut", "/quality/after", "/quality/after/incision"}) {
+  for (const char* at :
+       {"/quality/before", "/quality/cut", "/quality/cut/incision", "/quality/after", "/quality/after/incision"}) {
     expect_keys(at, quality);
   }
   for (const char* at : {"/mesh/before", "/mesh/after"}) expect_keys(at, {"vertices", "tets", "components"});
   expect_keys("/cut", {"steps", "cut_tets", "created_tets", "new_vertices", "incision_faces", "snapped_vertices",
                        "bent_vertices"});
+  expect_keys("/maintain", {"work_units", "collapsed_edges", "moved_vertices", "removed_edges", "removed_faces",
+                            "inserted_vertices", "waiting_tets", "created_tets", "units_per_stroke"});
+  expect_keys("/options", {"profile", "snap", "merge", "improve", "budget_us", "threads", "seed"});
   expect_keys("/volume", {"before", "after", "relative_error"});
   expect_keys("/time_ms", {"collision", "subdivide", "separate", "merge", "improve", "relax", "total"});
   expect_keys("/step_ms", {"p50", "p99", "p999", "max"});
-  expect_keys("/stage_ms/subdivide", {"p50", "p99", "p999", "max"});
+  for (const char* at : {"/stage_ms/subdivide", "/stage_ms/merge", "/stage_ms/improve"}) {
+    expect_keys(at, {"p50", "p99", "p999", "max"});
+  }
   EXPECT_EQ(report["validity"]["ok"], true);
   EXPECT_EQ(report["hash"].get<std::string>().size(), 16U);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -12,24 +13,45 @@
 namespace incise::inline v0 {
 namespace app {
 
+/// The greatest budget of time for maintenance, in microseconds: an hour.
+inline constexpr std::uint64_t kMaxBudgetUs = 3'600'000'000;
+
+/// Work units that a job does at a time, between two looks at the clock. A job with and one without a budget of time
+/// that do the same work in all end with the same mesh, since the portions are the same.
+inline constexpr std::uint64_t kMaintenancePortion = 100;
+
 struct CutJob {
   std::vector<Stroke> strokes;
   EngineOptions engine;
-  ReportOptions options;  ///< repeated in the report; profile, snap and threads are taken from `engine`
+  /// Microseconds for the maintenance that follows each stroke, at most `kMaxBudgetUs`; what one stroke leaves over the
+  /// next may spend. 0: no clock, `engine.maintain.work_units` are the budget of each stroke. Cutting is never bounded,
+  /// nor is the paper's maintenance.
+  std::uint64_t budget_us = 0;
+  ReportOptions options;  ///< repeated in the report; what `engine` and `budget_us` say is taken from them
   /// Called before each stroke and after the last: strokes done, strokes in all. May be empty.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
-struct CutResult {
-  CutReport report;
-  io::MeshData mesh;  ///< what `incise cut -o` writes; empty where not asked for
+/// What a job on a mesh gives back.
+struct JobResult {
+  JobReport report;
+  io::MeshData mesh;  ///< what `-o` writes; empty where not asked for
 };
 
-/// Cuts a loaded mesh along all strokes, in order, and measures it before and after.
+/// By how much a job may change the total volume, relative: part of the validity contract.
 ///
-/// @param wants_mesh  whether `CutResult::mesh` is filled.
+/// 1e-12 where the mesh is not maintained. Maintenance of the profile incise moves vertices of walls and skin so that
+/// the volume is kept, up to the rounding of very many moves: 1e-9. The paper's moves them freely on the surface: 1e-2.
+[[nodiscard]] double volume_tolerance(const EngineOptions& options);
+
+/// Cuts a loaded mesh along all strokes, in order, and measures it before, after the last cut and after its
+/// maintenance.
+///
+/// Measuring counts in no time of the report. With `budget_us` the result depends on the clock; the report has the work
+/// that was done after each stroke.
+/// @param wants_mesh  whether `JobResult::mesh` is filled.
 /// Errors: as `Engine::create` and `Engine::cut`, naming the stroke. Cost: the cuts, plus about 3 µs per tet.
-[[nodiscard]] Result<CutResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh);
+[[nodiscard]] Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh);
 
 }  // namespace app
 }  // namespace incise::inline v0

@@ -7,6 +7,7 @@
 
 #include "incise/core/profile.h"
 #include "incise/cut/options.h"
+#include "incise/improve/options.h"
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/validate.h"
 
@@ -32,38 +33,46 @@ struct Percentiles {
 struct ReportOptions {
   Profile profile = Profile::kIncise;
   double snap = 0.2;
+  bool merge = true;
+  bool improve = true;
+  std::uint64_t budget_us = 0;  ///< per stroke; 0: none
   unsigned threads = 1;
   std::uint64_t seed = 0;
   std::string blade;  ///< the file, or empty
   std::string plane;  ///< "nx,ny,nz,d", or empty
 };
 
-/// Everything that `incise cut` reports.
-struct CutReport {
+/// Everything that `incise cut` and `incise improve` report.
+struct JobReport {
   std::string input;  ///< the mesh file
   std::string input_format;
   std::vector<std::string> notes;  ///< from loading
   ReportOptions options;
-  std::uint64_t strokes = 0;
+  std::uint64_t strokes = 0;  ///< 0 for an improvement
   MeshCounts before, after;
   std::vector<PieceFigures> pieces;  ///< after, by label
   CutStatistics cut;
-  QualityStats quality_before, quality_cut, quality_after, quality_incision;
+  MaintainStatistics maintain;                  ///< summed over the strokes
+  std::vector<std::uint64_t> units_per_stroke;  ///< work of maintenance; one entry for an improvement
+  QualityStats quality_before;
+  QualityStats quality_cut;    ///< right after the last cut, before its maintenance; as before for an improvement
+  QualityStats quality_after;  ///< at the end
+  QualityStats quality_cut_incision, quality_incision;  ///< of the tets that touch a wall, after cut and at the end
   double volume_before = 0, volume_after = 0;
   ValidityReport validity_before, validity_after;
   ValidityChange change;  ///< `ok` is the report's verdict
   StageTimes times;
-  double total_ms = 0;  ///< by the clock around all strokes
-  std::vector<double> step_ms;
+  double total_ms = 0;               ///< by the clock, over all strokes with their maintenance
+  std::vector<double> step_ms;       ///< of each stroke with its maintenance
   std::vector<StageTimes> stage_ms;  ///< one sample per entry
   std::uint64_t hash = 0;            ///< of the mesh after
 };
 
 /// The report as JSON, format "incise-report" version 1, with a newline at the end. Cost: O(steps + pieces).
-[[nodiscard]] std::string to_json(const CutReport& report);
+[[nodiscard]] std::string to_json(const JobReport& report);
 
-/// A few lines for people.
-[[nodiscard]] std::string to_text(const CutReport& report);
+/// A few lines for people, with a table of the quality before, after cutting and after maintenance.
+[[nodiscard]] std::string to_text(const JobReport& report);
 
 }  // namespace app
 }  // namespace incise::inline v0

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/job_internal.h"
+
+#include <algorithm>
+
+#include "incise/app/mesh_export.h"
+
+namespace incise::inline v0 {
+namespace app {
+namespace detail {
+namespace {
+
+bool maintains(const EngineOptions& options) {
+  return options.maintain.merge || options.maintain.improve;
+}
+
+void add(const MaintainReport& more, MaintainReport& sum) {
+  sum.maintain += more.maintain;
+  sum.times += more.times;
+}
+
+MeshCounts counts_of(const TetMesh& mesh, const Components& pieces) {
+  return {mesh.vertex_count(), mesh.tet_count(), pieces.count()};
+}
+
+QualityStats measure_incision(const TetMesh& mesh) {
+  return measure_quality(mesh, [&](TetId tet) { return touches_cut(mesh, tet); });
+}
+
+}  // namespace
+
+Upkeep::Upkeep(const EngineOptions& wanted, std::uint64_t budget_us)
+    : is_on_(maintains(wanted)),
+      has_clock_(budget_us > 0 && wanted.cut.profile != Profile::kPaper),
+      work_units_(wanted.maintain.work_units),
+      budget_us_(static_cast<double>(budget_us)) {}
+
+double Upkeep::run(Engine& engine, MaintainReport& sum) {
+  if (!is_on_) return 0;
+  const Stopwatch watch;
+  left_us_ += budget_us_;
+  std::uint64_t left_units = work_units_;
+  while (engine.has_maintenance() && left_units > 0 && !(has_clock_ && 1e3 * watch.ms() >= left_us_)) {
+    const MaintainReport portion = engine.maintain(std::min(kMaintenancePortion, left_units));
+    const std::uint64_t spent = portion.maintain.work_units;
+    add(portion, sum);
+    if (spent == 0) break;  // what waits cannot be helped now
+    left_units -= std::min(left_units, spent);
+  }
+  left_us_ -= 1e3 * watch.ms();
+  return watch.ms();
+}
+
+EngineOptions without_upkeep(EngineOptions options) {
+  options.maintain.work_units = 0;
+  return options;
+}
+
+void describe_job(const LoadedMesh& loaded, const EngineOptions& engine, std::uint64_t budget_us, JobReport& report) {
+  report.input = loaded.source.file;
+  report.input_format = loaded.source.format;
+  report.notes = loaded.source.notes;
+  report.options.profile = engine.cut.profile;
+  report.options.snap = engine.cut.snap;
+  report.options.merge = engine.maintain.merge;
+  report.options.improve = engine.maintain.improve;
+  report.options.budget_us = budget_us;
+  report.options.threads = engine.threads;
+}
+
+void measure_before(const TetMesh& mesh, JobReport& report) {
+  report.before = counts_of(mesh, find_components(mesh));
+  report.quality_before = report.quality_cut = measure_quality(mesh);
+  report.validity_before = validate(mesh, ValidateLevel::kGeometry);
+  report.volume_before = report.validity_before.volume;
+}
+
+void measure_cut(const TetMesh& mesh, JobReport& report) {
+  report.quality_cut = measure_quality(mesh);
+  report.quality_cut_incision = measure_incision(mesh);
+}
+
+void measure_after(const TetMesh& mesh, const Components& pieces, double volume_tolerance, JobReport& report) {
+  report.after = counts_of(mesh, pieces);
+  for (std::size_t i = 0; i < pieces.count(); ++i) report.pieces.push_back({pieces.tet_count[i], pieces.volume[i]});
+  report.quality_after = measure_quality(mesh);
+  report.quality_incision = measure_incision(mesh);
+  ValidateOptions options;
+  options.expected_volume = report.volume_before;
+  options.volume_tolerance = volume_tolerance;
+  report.validity_after = validate(mesh, ValidateLevel::kGeometry, options);
+  report.volume_after = report.validity_after.volume;
+  report.change = compare_with_input(report.validity_before, report.validity_after);
+  report.hash = mesh.hash();
+}
+
+void add_operation(const MaintainReport& maintained, double ms, JobReport& report) {
+  report.maintain += maintained.maintain;
+  report.units_per_stroke.push_back(maintained.maintain.work_units);
+  report.times += maintained.times;
+  report.stage_ms.push_back(maintained.times);
+  report.step_ms.push_back(ms);
+  report.total_ms += ms;
+}
+
+void finish(const Engine& engine, const LoadedMesh& loaded, bool wants_mesh, JobResult& result) {
+  const Components pieces = find_components(engine.mesh());
+  measure_after(engine.mesh(), pieces, volume_tolerance(engine.options()), result.report);
+  if (wants_mesh) result.mesh = to_mesh_data(engine.mesh(), pieces, loaded.file_vertex);
+}
+
+}  // namespace detail
+
+double volume_tolerance(const EngineOptions& options) {
+  constexpr double kCutting = 1e-12, kMaintaining = 1e-9, kAsPaper = 1e-2;
+  if (!detail::maintains(options)) return kCutting;
+  return options.cut.profile == Profile::kPaper ? kAsPaper : kMaintaining;
+}
+
+}  // namespace app
+}  // namespace incise::inline v0

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the jobs on a mesh share: figures before and after, and maintenance against a clock.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "incise/app/cut_job.h"
+#include "incise/mesh/components.h"
+
+namespace incise::inline v0 {
+namespace app {
+namespace detail {
+
+/// Milliseconds since its construction.
+class Stopwatch {
+ public:
+  [[nodiscard]] double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// Maintains a mesh after each stroke, within a budget.
+///
+/// The engine counts work, not time: it gets portion after portion while the clock, if there is a budget of time,
+/// allows. The sum of the portions says later what was done, whatever the clock was.
+class Upkeep {
+ public:
+  /// `wanted` is what the job asks for; the engine itself must have no work units: see `without_upkeep`.
+  Upkeep(const EngineOptions& wanted, std::uint64_t budget_us);
+
+  /// Maintains until nothing waits or the budget is spent, and adds what was done to `sum`. Returns its milliseconds.
+  double run(Engine& engine, MaintainReport& sum);
+
+ private:
+  bool is_on_, has_clock_;
+  std::uint64_t work_units_;
+  double budget_us_;
+  double left_us_ = 0;  // over from earlier strokes; below 0 where the last portion took longer
+};
+
+/// The same options for an engine that only cuts, so that the mesh can be measured before its maintenance.
+[[nodiscard]] EngineOptions without_upkeep(EngineOptions options);
+
+/// The fields of a report that say what was loaded and what was asked for.
+void describe_job(const LoadedMesh& loaded, const EngineOptions& engine, std::uint64_t budget_us, JobReport& report);
+
+void measure_before(const TetMesh& mesh, JobReport& report);
+/// `quality.cut`: between the last cut and its maintenance.
+void measure_cut(const TetMesh& mesh, JobReport& report);
+void measure_after(const TetMesh& mesh, const Components& pieces, double volume_tolerance, JobReport& report);
+
+/// Adds one operation, a stroke or an improvement, that took `ms` in all.
+void add_operation(const MaintainReport& maintained, double ms, JobReport& report);
+
+/// Measures what an engine ends with, and packs it where it is wanted.
+void finish(const Engine& engine, const LoadedMesh& loaded, bool wants_mesh, JobResult& result);
+
+}  // namespace detail
+}  // namespace app
+}  // namespace incise::inline v0
