@@ -12,13 +12,21 @@ namespace {
 using namespace incise_test;
 using nlohmann::json;
 
+/// Cuts and leaves the mesh as the cut left it.
+Outcome run_plain_cut(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "cut");
+  arguments.insert(arguments.end(), {"--no-merge", "--no-improve"});
+  return run(arguments);
+}
+
 TEST(Cli, cuts_the_papers_cube_with_both_profiles) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(5));
   for (const std::string profile : {"paper", "incise"}) {
     const std::string out = folder / (profile + ".vtu");
     const std::string report = folder / (profile + ".json");
-    const Outcome cut = run({"cut", cube, "--plane", "1,0,0,0.5", "--profile", profile, "-o", out, "--report", report});
+    const Outcome cut =
+        run_plain_cut({cube, "--plane", "1,0,0,0.5", "--profile", profile, "-o", out, "--report", report});
     EXPECT_EQ(cut.code, 0) << cut.err;
     EXPECT_NE(cut.out.find("750 -> 1300 tets"), std::string::npos) << cut.out;
     const json figures = json::parse(read(report));
@@ -39,14 +47,14 @@ TEST(Cli, takes_planes_of_any_length_and_sign) {
   const std::string cube = folder.write("cube.mesh", cube_mesh(5));
   std::string hash;
   for (const std::string plane : {"1,0,0,0.5", "4,0,0,2", "1e0,0.0,-0,5e-1"}) {
-    const Outcome cut = run({"cut", cube, "--plane", plane, "--report", "-"});
+    const Outcome cut = run_plain_cut({cube, "--plane", plane, "--report", "-"});
     ASSERT_EQ(cut.code, 0) << plane << cut.err;
     EXPECT_EQ(json::parse(cut.out)["mesh"]["after"]["tets"], 1300) << plane;
   }
   for (const std::string plane : {"--plane=-1,0,0,-0.5", "--plane=0,-3,0,-1.5"}) {
-    EXPECT_NE(run({"cut", cube, plane}).out.find("-> 1300 tets"), std::string::npos) << plane;
+    EXPECT_NE(run_plain_cut({cube, plane}).out.find("-> 1300 tets"), std::string::npos) << plane;
   }
-  EXPECT_NE(run({"cut", cube, "--plane", "-1,0,0,-0.5"}).out.find("-> 1300 tets"), std::string::npos);
+  EXPECT_NE(run_plain_cut({cube, "--plane", "-1,0,0,-0.5"}).out.find("-> 1300 tets"), std::string::npos);
 }
 
 TEST(Cli, a_plane_or_blade_that_misses_changes_nothing) {
@@ -57,6 +65,7 @@ TEST(Cli, a_plane_or_blade_that_misses_changes_nothing) {
   const json report = json::parse(cut.out);
   EXPECT_EQ(report["mesh"]["after"], report["mesh"]["before"]);
   EXPECT_TRUE(report["quality"]["after"]["incision"]["lr_max"].is_null());
+  EXPECT_TRUE(report["quality"]["cut"]["incision"]["lr_max"].is_null());
 }
 
 TEST(Cli, cuts_along_every_scene_of_the_cube) {
@@ -85,15 +94,86 @@ TEST(Cli, equal_calls_give_equal_bytes) {
   EXPECT_FALSE(read(folder / "1.msh").empty());
 }
 
-TEST(Cli, accepts_flags_that_ask_for_what_is_so) {
+TEST(Cli, says_which_flags_have_no_effect) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(2));
-  const Outcome cut =
-      run({"cut", cube, "--plane", "1,0,0,0.3", "--no-merge", "--no-improve", "--seed", "7", "--snap", "0"});
-  EXPECT_EQ(cut.code, 0) << cut.err;
-  const Outcome paper = run({"cut", cube, "--plane", "1,0,0,0.3", "--profile", "paper", "--snap", "0.1"});
+  const std::vector<std::string> cut = {"cut", cube, "--plane", "1,0,0,0.3", "--seed", "7"};
+  const auto err_of = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), cut.begin(), cut.end());
+    const Outcome outcome = run(more);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_EQ(err_of({"--no-merge", "--no-improve", "--snap", "0"}), "");
+  EXPECT_EQ(err_of({"--no-merge", "--budget-us", "100000"}), "");
+  EXPECT_NE(err_of({"--profile", "paper", "--snap", "0.1"}).find("--snap has no effect"), std::string::npos);
+  EXPECT_NE(err_of({"--profile", "paper", "--budget-us", "9"}).find("--budget-us has no effect"), std::string::npos);
+  EXPECT_NE(err_of({"--no-merge", "--no-improve", "--budget-us", "9"}).find("no effect"), std::string::npos);
+}
+
+TEST(Cli, without_maintenance_writes_the_cutters_mesh_and_says_so) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  const Outcome cut = run_plain_cut({cube, "--plane", "1,2,3,2.9", "--report", "-"});
+  ASSERT_EQ(cut.code, 0) << cut.err;
+  const json report = json::parse(cut.out);
+  EXPECT_EQ(report["options"]["merge"], false);
+  EXPECT_EQ(report["options"]["improve"], false);
+  EXPECT_EQ(report["maintain"]["work_units"], 0);
+  EXPECT_EQ(report["quality"]["cut"], report["quality"]["after"]);
+  EXPECT_EQ(report["mesh"]["after"]["tets"], 750 + report["cut"]["created_tets"].get<int>());
+  EXPECT_LE(report["volume"]["relative_error"].get<double>(), 1e-12);
+}
+
+TEST(Cli, maintains_each_stroke_within_its_budget) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  const std::string blade = INCISE_SCENES "/cube_cross.json";
+  std::string hash;
+  for (const std::string budget : {"", "--budget-us=1", "--budget-us=3600000000"}) {
+    std::vector<std::string> arguments = {"cut", cube, "--blade", blade, "--snap", "0", "--report", "-"};
+    if (!budget.empty()) arguments.push_back(budget);
+    const Outcome cut = run(arguments);
+    ASSERT_EQ(cut.code, 0) << budget << cut.err;
+    const json report = json::parse(cut.out);
+    EXPECT_EQ(report["mesh"]["after"]["components"], 4) << budget;  // cutting is never left undone
+    EXPECT_EQ(report["maintain"]["units_per_stroke"].size(), report["strokes"]);
+    if (budget.empty()) hash = report["hash"];
+    if (budget == "--budget-us=3600000000") {
+      EXPECT_EQ(report["hash"], hash);
+    }
+  }
+}
+
+TEST(Cli, improves_a_mesh) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(4));
+  const std::string raw = folder / "raw.vtu";
+  ASSERT_EQ(run_plain_cut({cube, "--plane", "1,2,3,2.9", "--snap", "0", "-o", raw, "-q"}).code, 0);
+  for (const std::string profile : {"incise", "paper"}) {
+    const std::string out = folder / (profile + ".msh");
+    const std::string figures = folder / (profile + ".json");
+    const Outcome outcome = run({"improve", raw, "-o", out, "--profile", profile, "--report", figures});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("L/r mean"), std::string::npos) << outcome.out;
+    const json report = json::parse(read(figures));
+    EXPECT_EQ(report["validity"]["ok"], true);
+    EXPECT_EQ(report["options"]["profile"], profile);
+    EXPECT_EQ(report["mesh"]["after"]["components"], 2);
+    EXPECT_EQ(run({"check", out}).code, 0);
+  }
+}
+
+TEST(Cli, improves_within_a_budget_and_to_stdout) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(3));
+  const Outcome outcome = run({"improve", cube, "--budget-us", "5", "--report", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out)["options"]["budget_us"], 5);
+  const Outcome paper = run({"improve", cube, "--budget-us", "5", "--profile", "paper"});
   EXPECT_EQ(paper.code, 0);
-  EXPECT_NE(paper.err.find("no effect"), std::string::npos);
+  EXPECT_NE(paper.err.find("--budget-us has no effect"), std::string::npos) << paper.err;
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"cube.mesh"}));
 }
 
 TEST(Cli, quiet_says_nothing) {
@@ -174,11 +254,15 @@ TEST(Cli, converts_a_mesh_to_its_boundary) {
 
 TEST(Cli, helps_and_tells_its_version) {
   EXPECT_EQ(run({"--version"}).out.substr(0, 9), "incise 0.");
-  for (const std::string command : {"info", "check", "cut", "convert"}) {
+  for (const std::string command : {"info", "check", "cut", "improve", "convert"}) {
     const Outcome help = run({command, "-h"});
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.out.find("Examples:"), std::string::npos) << command;
   }
+  for (const char* flag : {"--budget-us", "--profile", "--report", "incise improve "}) {
+    EXPECT_NE(run({"improve", "--help"}).out.find(flag), std::string::npos) << flag;
+  }
+  EXPECT_EQ(run({"cut", "--help"}).out.find("always so"), std::string::npos);
   EXPECT_NE(run({"-h"}).out.find("Exit codes"), std::string::npos);
 }
 

@@ -44,27 +44,42 @@ TEST_F(CliErrors, usage) {
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--threads", "0"}, 2, "threads");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--threads", "257"}, 2, "threads");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--unknown"}, 2, "not expected");
+  for (const std::string budget : {"0", "-3", "1.5", "fast", "3600000001"}) {
+    expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--budget-us=" + budget}, 2, "--budget-us");
+    expect_refused({"improve", cube_, "--budget-us=" + budget}, 2, "--budget-us");
+  }
   EXPECT_EQ(run({}).code, 2);
   EXPECT_EQ(run({"carve"}).code, 2);
   EXPECT_EQ(run({"info"}).code, 2);
+  EXPECT_EQ(run({"improve"}).code, 2);
   EXPECT_EQ(run({"convert", cube_}).code, 2);
 }
 
 TEST_F(CliErrors, what_is_not_built_says_so) {
-  for (const std::string flag : {"--record=r.jsonl", "--picture=p.png", "--budget-us=10"}) {
+  for (const std::string flag : {"--record=r.jsonl", "--picture=p.png"}) {
     expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", flag}, 2, "not built yet");
   }
-  for (const std::string command : {"improve", "simulate", "replay"}) {
+  for (const std::string command : {"simulate", "replay"}) {
     const Outcome outcome = run({command, cube_, "--frames", "3"});
     EXPECT_EQ(outcome.code, 2) << command;
     EXPECT_NE(outcome.err.find("not built yet"), std::string::npos) << outcome.err;
   }
 }
 
+TEST_F(CliErrors, improve_has_no_flags_of_cutting) {
+  for (const std::string flag : {"--threads=2", "--seed=1", "--snap=0.1", "--no-merge", "--plane=1,0,0,0.5"}) {
+    expect_refused({"improve", cube_, flag}, 2, "not expected");
+  }
+  expect_refused({"improve", cube_, "--profile", "best"}, 2, "profile");
+}
+
 TEST_F(CliErrors, unknown_extensions) {
   const Outcome cut = run({"cut", cube_, "--plane", "1,0,0,0.5", "-o", folder_ / "out.xyz"});
   EXPECT_EQ(cut.code, 2);
   EXPECT_NE(cut.err.find(".vtu"), std::string::npos);
+  const Outcome improve = run({"improve", cube_, "-o", folder_ / "out.stl"});
+  EXPECT_EQ(improve.code, 2);
+  EXPECT_NE(improve.err.find("out.stl: unknown extension"), std::string::npos) << improve.err;
   EXPECT_EQ(run({"convert", cube_, folder_ / "out"}).code, 2);
 }
 
@@ -91,6 +106,7 @@ TEST_F(CliErrors, meshes_that_cannot_be_read) {
             "Tetrahedra\n1\n1 2 3 3 0\nEnd\n"}}) {
     const std::string path = folder_.write(name, text);
     expect_refused({"cut", path, "--plane", "1,0,0,0.5"}, 3, name);
+    expect_refused({"improve", path}, 3, name);
     const int info = run({"info", path}).code;
     EXPECT_EQ(info, name == "twice.mesh" ? 0 : 3) << name;  // a tet with a repeated corner is dirty, but readable
     EXPECT_EQ(run({"check", path}).code, 3) << name;
@@ -132,6 +148,8 @@ TEST_F(CliErrors, outputs_that_cannot_be_written) {
   EXPECT_EQ(cut.code, 1);
   EXPECT_NE(cut.err.find("folder does not exist"), std::string::npos) << cut.err;
   EXPECT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.5", "--report", folder_ / "no/r.json"}).code, 1);
+  EXPECT_EQ(run({"improve", cube_, "-o", folder_ / "no/out.vtu"}).code, 1);
+  EXPECT_EQ(run({"improve", cube_, "--report", folder_ / "no/r.json"}).code, 1);
   EXPECT_EQ(run({"convert", cube_, folder_ / "no/out.vtu"}).code, 1);
 }
 
