@@ -134,6 +134,115 @@ TEST(Engine, reports_counts_that_the_mesh_confirms) {
   expect_valid(engine.mesh(), 1.0);
 }
 
+// --- maintenance
+// -------------------------------------------------------------------------------------------------------------
+
+/// Cuts that leave slivers, on an engine that maintains.
+Engine make_maintaining_engine(std::uint64_t work_units, Profile profile = Profile::kIncise) {
+  EngineOptions options;
+  options.cut = {profile, 0.0};
+  options.maintain.work_units = work_units;
+  return Engine::create(build(jittered_cube(5, 9)), options).value();
+}
+
+/// The volume as maintenance keeps it.
+double tolerance_of(Profile profile) {
+  return profile == Profile::kPaper ? 1e-2 : 1e-9;
+}
+
+TEST(EngineMaintenance, is_taken_back_with_its_stroke_and_applied_again) {
+  for (const Profile profile : {Profile::kIncise, Profile::kPaper}) {
+    Engine engine = make_maintaining_engine(kUnlimitedWork, profile);
+    std::vector<std::uint64_t> hashes = {engine.mesh().hash()};
+    for (const Vec3& normal : {Vec3(1, 0.1, 0.2), Vec3(0.2, 1, -0.1), Vec3(-0.1, 0.2, 1)}) {
+      ASSERT_TRUE(engine.cut(plane(engine, normal, 0.57)).ok());
+      expect_valid(engine.mesh(), 1.0, tolerance_of(profile));
+      hashes.push_back(engine.mesh().hash());
+    }
+    for (std::size_t i = 3; i > 0; --i) {
+      ASSERT_TRUE(engine.undo());
+      EXPECT_EQ(engine.mesh().hash(), hashes[i - 1]);
+    }
+    for (std::size_t i = 1; i <= 3; ++i) {
+      ASSERT_TRUE(engine.redo());
+      EXPECT_EQ(engine.mesh().hash(), hashes[i]);
+    }
+    expect_valid(engine.mesh(), 1.0, tolerance_of(profile));
+  }
+}
+
+TEST(EngineMaintenance, in_portions_belongs_to_the_last_stroke) {
+  Engine engine = make_maintaining_engine(0);
+  const std::uint64_t before = engine.mesh().hash();
+  const Result<StrokeReport> report = engine.cut(plane(engine, Vec3(1, 0.1, 0.2), 0.57));
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->maintain.work_units, 0U);
+  MaintainStatistics sum;
+  while (engine.has_maintenance()) {
+    const MaintainReport portion = engine.maintain(100);
+    ASSERT_GT(portion.maintain.work_units, 0U) << "what waits must be worked on";
+    sum += portion.maintain;
+  }
+  EXPECT_EQ(sum.waiting_tets, 0U);
+  EXPECT_EQ(engine.stroke_count(), 1U);
+  expect_valid(engine.mesh(), 1.0, 1e-9);
+  const std::uint64_t after = engine.mesh().hash();
+  ASSERT_TRUE(engine.undo());
+  EXPECT_EQ(engine.mesh().hash(), before);
+  ASSERT_TRUE(engine.redo());
+  EXPECT_EQ(engine.mesh().hash(), after);
+  EXPECT_FALSE(engine.redo());
+}
+
+TEST(EngineMaintenance, that_waits_is_dropped_by_an_undo) {
+  for (const Profile profile : {Profile::kIncise, Profile::kPaper}) {
+    Engine engine = make_maintaining_engine(0, profile);
+    const std::uint64_t before = engine.mesh().hash();
+    ASSERT_TRUE(engine.cut(plane(engine, Vec3(1, 0.1, 0.2), 0.57)).ok());
+    ASSERT_TRUE(engine.undo());
+    EXPECT_FALSE(engine.has_maintenance());
+    EXPECT_EQ(engine.maintain().maintain.work_units, 0U);
+    EXPECT_EQ(engine.mesh().hash(), before);
+    expect_valid(engine.mesh(), 1.0);
+  }
+}
+
+TEST(EngineMaintenance, switched_off_does_nothing_when_asked) {
+  for (const Profile profile : {Profile::kIncise, Profile::kPaper}) {
+    Engine engine = make_engine(jittered_cube(4, 9), 0.0, profile);
+    cut(engine, plane(engine, Vec3(1, 0.1, 0.2), 0.57));
+    const std::uint64_t hash = engine.mesh().hash();
+    engine.maintain();
+    EXPECT_EQ(engine.mesh().hash(), hash);
+    engine.improve();
+    EXPECT_EQ(engine.mesh().hash(), hash);
+  }
+}
+
+TEST(EngineMaintenance, of_the_whole_mesh_is_an_operation_but_no_stroke) {
+  for (const Profile profile : {Profile::kIncise, Profile::kPaper}) {
+    Engine engine = make_maintaining_engine(kUnlimitedWork, profile);
+    const std::uint64_t before = engine.mesh().hash();
+    engine.improve();
+    const std::uint64_t after = engine.mesh().hash();
+    expect_valid(engine.mesh(), 1.0, tolerance_of(profile));
+    EXPECT_EQ(engine.stroke_count(), 0U);
+    ASSERT_TRUE(engine.undo());
+    EXPECT_EQ(engine.mesh().hash(), before);
+    ASSERT_TRUE(engine.redo());
+    EXPECT_EQ(engine.mesh().hash(), after);
+  }
+}
+
+TEST(EngineMaintenance, accounts_for_the_tets_that_it_takes_away) {
+  Engine engine = make_maintaining_engine(kUnlimitedWork);
+  const auto tets = [&] { return static_cast<std::int64_t>(engine.mesh().tet_count()); };
+  const std::int64_t before = tets();
+  const Result<StrokeReport> report = engine.cut(plane(engine, Vec3(1, 0.1, 0.2), 0.57));
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(tets(), before + static_cast<std::int64_t>(report->cut.created_tets) + report->maintain.created_tets);
+}
+
 // --- refusals
 // ----------------------------------------------------------------------------------------------------------------
 
