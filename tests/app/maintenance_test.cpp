@@ -137,6 +137,21 @@ TEST(Maintenance, counted_in_work_units_needs_no_clock) {
   EXPECT_GT(once.maintain.waiting_tets, 0U);
 }
 
+TEST(Maintenance, bounded_by_a_clock_can_be_done_again_from_the_report) {
+  app::CutJob job = three_cuts(Profile::kIncise);
+  job.budget_us = 2000;
+  const app::JobReport report = cut(job).report;
+  job.engine.maintain.work_units = 0;
+  Engine engine = Engine::create(load(rough_cube()).mesh, job.engine).value();
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_TRUE(engine.cut(job.strokes[i]).ok());
+    for (std::uint64_t spent = 0; spent < report.units_per_stroke[i];) {
+      spent += engine.maintain(app::kMaintenancePortion).maintain.work_units;
+    }
+  }
+  EXPECT_EQ(engine.mesh().hash(), report.hash);
+}
+
 TEST(Maintenance, of_the_paper_knows_no_budget) {
   app::CutJob job = three_cuts(Profile::kPaper);
   const std::uint64_t hash = cut(job).report.hash;
