@@ -13,57 +13,14 @@
 
 #include "incise/app/mesh_loader.h"
 #include "maintenance_cases.h"
+#include "maintenance_figures.h"
 #include "maintenance_measure.h"
+#include "maintenance_series.h"
 #include "report.h"
 
 namespace incise::bench {
 
 namespace {
-
-struct Settings {
-  std::filesystem::path folder = "bench-results";
-  std::string only;  ///< cases whose names contain this
-  bool is_quick = false;
-  CutOptions cut;
-  std::vector<std::string> boxes, bodies;
-
-  [[nodiscard]] bool wants(const std::string& name) const { return name.find(only) != std::string::npos; }
-};
-
-/// Small or large figures alike.
-std::string figure(double value) {
-  return value != 0 && (std::abs(value) < 1e-3 || value >= 1e6) ? fmt::format("{:.1e}", value)
-                                                                : fmt::format("{:.4g}", value);
-}
-
-/// The worst of a figure, and which case it came from.
-class Worst {
- public:
-  explicit Worst(bool is_low_bad = false) : is_low_bad_(is_low_bad) {}
-  void note(double value, const std::string& where) {
-    if (where_.empty() || (is_low_bad_ ? value < value_ : value > value_)) {
-      value_ = value;
-      where_ = where;
-    }
-  }
-  [[nodiscard]] bool has_value() const { return !where_.empty(); }
-  [[nodiscard]] double value() const { return value_; }
-  /// A line of acceptance; `is_met` is asked of the worst value.
-  [[nodiscard]] Acceptance line(const std::string& what, std::string must, std::string goal, bool is_met) const {
-    return {what + " (" + where_ + ")", std::move(must), std::move(goal), figure(value_), is_met};
-  }
-  [[nodiscard]] Acceptance at_most(const std::string& what, double must, const std::string& goal) const {
-    return line(what, "≤ " + figure(must), goal, value_ <= must);
-  }
-  [[nodiscard]] Acceptance at_least(const std::string& what, double must, const std::string& goal) const {
-    return line(what, "≥ " + figure(must), goal, value_ >= must);
-  }
-
- private:
-  bool is_low_bad_;
-  double value_ = 0;
-  std::string where_;
-};
 
 /// The worst figures over the cases of a kind.
 struct Tally {
@@ -74,7 +31,7 @@ struct Tally {
 
   void add(const std::string& name, const Measurement& m, bool is_cube, bool is_planar) {
     ++cases;
-    invalid += m.is_valid ? 0U : 1U;
+    invalid += m.is_valid() ? 0U : 1U;
     add_quality(name, m, is_cube);
     add_cost(name, m, is_planar);
     const bool is_exact = is_cube && is_planar && m.cut_work.bent_vertices == 0;
@@ -194,7 +151,7 @@ std::vector<std::string> cells_of(const std::string& name, double snap, const Me
           count(m.maintain_work.removed_faces),
           count(m.maintain_work.inserted_vertices),
           count(m.maintain_work.work_units),
-          m.is_valid ? "yes" : "NO"};
+          m.is_valid() ? "yes" : m.defects};
 }
 
 void print_head() {
@@ -211,7 +168,7 @@ void print_case(const std::string& name, const Measurement& m) {
       name.c_str(), m.input_tets, m.cut.tets, m.after.tets, m.growth(), m.new_per_cut_tet(),
       m.after.all.lr_mean / m.input.lr_mean, q.lr_mean, q.lr_max, q.lr_over_200_pct, q.dihedral_min_deg,
       q.dihedral_max_deg, m.neighbourhood.lr_max, m.us_per_cut_tet(m.cut_ms), m.us_per_cut_tet(m.maintain_ms),
-      m.volume_change(), m.wall_added(), m.is_valid ? "yes" : "NO");
+      m.volume_change(), m.wall_added(), m.is_valid() ? "yes" : m.defects.c_str());
   std::fflush(stdout);
 }
 
@@ -326,7 +283,7 @@ constexpr const char* kUsage =
     "usage: bench_maintenance [--out FOLDER] [--quick] [--only TEXT] [--profile incise|paper] [--box MESH]... "
     "[MESH]...\n"
     "Cuts and maintains Kuhn cubes, the box-shaped meshes named after --box, and other bodies.\n"
-    "  --quick      the cubes of 750 tets with one seed, fewer runs\n"
+    "  --quick      the cubes of 750 tets with one seed, fewer runs, no repeated cuts\n"
     "  --only TEXT  cases whose names contain TEXT, for instance kuhn5/seed1/A\n";
 
 /// Takes one option with its value; false where it is unknown.
@@ -359,23 +316,48 @@ bool parse(int argc, char** argv, Settings& settings) {
   return true;
 }
 
+void run_body(const Settings& settings, const std::string& file, Study& study) {
+  const Result<app::LoadedMesh> body = load(file);
+  if (!body) {
+    return;
+  }
+  const std::string name = std::filesystem::path(file).stem().string();
+  for (const BodyStroke& stroke : make_body_strokes(body->mesh, body->mesh.tet_count())) {
+    run_case(settings, name + "/" + stroke.name, body->mesh, stroke.stroke, settings.cut, 2, false, stroke.is_planar,
+             study.bodies, study.table);
+  }
+}
+
+/// Cases beyond what a release must reach.
+void report_stress(const Tally& tally, const std::filesystem::path& folder) {
+  std::vector<Acceptance> lines;
+  accept_tally("cubes, snap 0", tally, true, lines);
+  Table table("maintenance_stress", "Without snapping: a stress, no part of the acceptance",
+              {"figure", "as above", "measured", "met"});
+  for (const Acceptance& line : lines) {
+    table.add({line.figure, line.must, line.measured, line.is_met ? "yes" : "no"});
+  }
+  table.print();
+  table.write_csv(folder);
+}
+
 void run_studies(const Settings& settings) {
   Study study;
+  std::vector<Acceptance> lines;
+  const std::vector<Cube> cubes = make_cubes(settings);
   print_head();
-  for (const Cube& cube : make_cubes(settings)) {
+  for (const Cube& cube : cubes) {
     run_cube(settings, cube, study);
   }
-  study.table.write_csv(settings.folder);
-  std::vector<Acceptance> lines, stress;
-  accept_tally("cubes", study.cubes, true, lines);
-  accept_tally("cubes, snap 0", study.stress, true, stress);
-  Table stress_table("maintenance_stress", "Stress, no part of the acceptance",
-                     {"figure", "as above", "measured", "met"});
-  for (const Acceptance& line : stress) {
-    stress_table.add({line.figure, line.must, line.measured, line.is_met ? "yes" : "no"});
+  for (const std::string& file : settings.bodies) {
+    run_body(settings, file, study);
   }
-  stress_table.print();
-  stress_table.write_csv(settings.folder);
+  study.table.write_csv(settings.folder);
+  accept_tally("cubes", study.cubes, true, lines);
+  accept_tally("bodies", study.bodies, false, lines);
+  study_anytime(settings, cubes, lines);
+  study_repeated(settings, lines);
+  report_stress(study.stress, settings.folder);
   report_acceptance("maintenance", lines, settings.folder);
 }
 

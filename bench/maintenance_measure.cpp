@@ -57,19 +57,50 @@ std::vector<double> edge_lengths(const TetMesh& mesh, const std::vector<Wall>& w
   return sums;
 }
 
-WallDistance wall_distance(const TetMesh& mesh, std::uint32_t tag, const TriangleTree& sweep) {
-  const std::vector<Wall> walls = walls_of(mesh, tag);
-  const std::vector<double> lengths = edge_lengths(mesh, walls);
-  WallDistance out;
-  for (const auto& [i, j, k] : walls) {
+std::vector<WallSample> sample_walls(const TetMesh& mesh, std::uint32_t tag, const TriangleTree& sweep) {
+  std::vector<WallSample> samples;
+  for (const auto& [i, j, k] : walls_of(mesh, tag)) {
     const Vec3 &a = mesh.rest(i), &b = mesh.rest(j), &c = mesh.rest(k);
-    const double edge = (lengths[i.value] + lengths[j.value] + lengths[k.value]) / 3;
-    const std::array<Vec3, 7> samples = {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3};
-    for (const Vec3& sample : samples) {
-      const double distance = std::sqrt(sweep.closest(sample).distance2) / edge;
-      out.greatest = std::max(out.greatest, distance);
-      out.mean += distance / (7.0 * static_cast<double>(walls.size()));
+    const std::array<Vec3, 7> places = {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3};
+    for (const Vec3& place : places) {
+      samples.push_back({place, std::sqrt(sweep.closest(place).distance2)});
     }
+  }
+  return samples;
+}
+
+/// The local length unit along the walls of a stroke: the mean of their edges around.
+class WallUnit {
+ public:
+  WallUnit(const TetMesh& mesh, std::uint32_t tag) {
+    const std::vector<Wall> walls = walls_of(mesh, tag);
+    const std::vector<double> lengths = edge_lengths(mesh, walls);
+    std::vector<Vec3> points;
+    std::vector<TriangleTree::Triangle> triangles;
+    for (const Wall& wall : walls) {
+      const auto first = static_cast<std::uint32_t>(points.size());
+      for (const VertexId v : wall) points.push_back(mesh.rest(v));
+      triangles.push_back({first, first + 1, first + 2});
+      units_.push_back((lengths[wall[0].value] + lengths[wall[1].value] + lengths[wall[2].value]) / 3);
+    }
+    tree_ = TriangleTree(points, triangles);
+  }
+  [[nodiscard]] double at(const Vec3& place) const {
+    const TriangleTree::Hit hit = tree_.closest(place);
+    return hit.is_valid() ? units_[hit.triangle] : 1.0;
+  }
+
+ private:
+  TriangleTree tree_;
+  std::vector<double> units_;
+};
+
+WallDistance wall_distance(const std::vector<WallSample>& samples, const WallUnit& unit) {
+  WallDistance out;
+  for (const WallSample& sample : samples) {
+    const double distance = sample.distance / unit.at(sample.place);
+    out.greatest = std::max(out.greatest, distance);
+    out.mean += distance / static_cast<double>(samples.size());
   }
   return out;
 }
@@ -88,7 +119,7 @@ Snapshot take_snapshot(const Engine& engine, const TriangleTree& sweep) {
   out.all = measure_quality(mesh);
   out.touched = touched.quality(mesh);
   out.volumes = piece_volumes(mesh);
-  out.wall = wall_distance(mesh, engine.stroke_count(), sweep);
+  out.walls = sample_walls(mesh, engine.stroke_count(), sweep);
   return out;
 }
 
@@ -188,9 +219,12 @@ void measure_input(const TetMesh& mesh, Measurement& out) {
 
 void measure_result(const TetMesh& input, const Engine& engine, const TriangleTree& sweep, Measurement& out) {
   out.after = take_snapshot(engine, sweep);
+  const WallUnit unit(engine.mesh(), engine.stroke_count());
+  out.cut.wall = wall_distance(out.cut.walls, unit);
+  out.after.wall = wall_distance(out.after.walls, unit);
   out.neighbourhood = ChangedPlaces(input, engine).quality(input);
   out.above_input = count_above(engine, std::max(25.0, out.input.lr_max));
-  out.is_valid = is_still_valid(validate(input, ValidateLevel::kGeometry), engine.mesh());
+  out.defects = new_defects(validate(input, ValidateLevel::kGeometry), engine.mesh());
 }
 
 }  // namespace
@@ -251,8 +285,16 @@ double Measurement::lr_bound(bool is_cube) const {
   return is_cube ? 25.0 : std::max(25.0, neighbourhood.lr_max);
 }
 
-bool is_still_valid(const ValidityReport& input, const TetMesh& mesh) {
-  return compare_with_input(input, validate(mesh, ValidateLevel::kGeometry)).ok;
+std::string new_defects(const ValidityReport& input, const TetMesh& mesh) {
+  const ValidityChange change = compare_with_input(input, validate(mesh, ValidateLevel::kGeometry));
+  std::string text;
+  for (std::size_t kind = 0; kind < kViolationKinds; ++kind) {
+    if (change.grown[kind] > 0) {
+      text += (text.empty() ? "" : " ") + std::string(name_of(static_cast<ViolationKind>(kind))) + ":" +
+              std::to_string(change.grown[kind]);
+    }
+  }
+  return change.ok || !text.empty() ? text : "unnamed";
 }
 
 Measurement measure_maintenance(const TetMesh& mesh, const Stroke& stroke, const CutOptions& cut, unsigned runs) {

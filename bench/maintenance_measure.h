@@ -27,10 +27,17 @@ class Touched {
   std::vector<bool> is_touched_;
 };
 
-/// How far the walls of a stroke lie from its sweep, in mean lengths of the walls' edges around.
+/// Places on the walls of a stroke: corners, middles of edges, centroids.
+struct WallSample {
+  Vec3 place;
+  double distance;  ///< from the sweep, in length units
+};
+
+/// How far the walls of a stroke lie from its sweep, in mean lengths of the walls' edges around, as they are in the
+/// end.
 struct WallDistance {
   double greatest = 0;
-  double mean = 0;  ///< over the samples: corners, middles of edges, centroids
+  double mean = 0;  ///< over the samples
 };
 
 /// A mesh at one moment of a stroke.
@@ -38,6 +45,7 @@ struct Snapshot {
   std::size_t tets = 0;
   QualityStats all, touched;
   std::vector<double> volumes;  ///< of the pieces, largest first
+  std::vector<WallSample> walls;
   WallDistance wall;
 };
 
@@ -52,7 +60,9 @@ struct Measurement {
   Snapshot cut, after;
   std::uint64_t above_input = 0;       ///< touched tets in the end with an L/r above both 25 and the input's worst
   double cut_ms = 0, maintain_ms = 0;  ///< processor time, the best of the runs
-  bool is_valid = false;
+  std::string defects;                 ///< as from `new_defects`
+
+  [[nodiscard]] bool is_valid() const { return defects.empty(); }
 
   [[nodiscard]] double growth() const;
   /// Tets added for each tet that was cut.
@@ -73,7 +83,7 @@ Measurement measure_maintenance(const TetMesh& mesh, const Stroke& stroke, const
 std::vector<double> measure_anytime(const TetMesh& mesh, const Stroke& stroke, const CutOptions& cut,
                                     const std::vector<double>& times, unsigned runs);
 
-/// Whether no defect came to those that the input had.
-bool is_still_valid(const ValidityReport& input, const TetMesh& mesh);
+/// The kinds of defects that came to those of the input, with their counts; empty where the mesh is as valid as it was.
+std::string new_defects(const ValidityReport& input, const TetMesh& mesh);
 
 }  // namespace incise::bench
