@@ -174,18 +174,18 @@ void print_case(const std::string& name, const Measurement& m) {
 
 /// One case: measured, printed, counted.
 void run_case(const Settings& settings, const std::string& name, const TetMesh& mesh, const Stroke& stroke,
-              const CutOptions& cut, unsigned runs, bool is_cube, bool is_planar, Tally& tally, Table& table) {
+              const EngineOptions& engine, unsigned runs, bool is_cube, bool is_planar, Tally& tally, Table& table) {
   if (!settings.wants(name)) {
     return;
   }
-  const Measurement m = measure_maintenance(mesh, stroke, cut, runs);
+  const Measurement m = measure_maintenance(mesh, stroke, engine, runs);
   if (!m.is_ok) {
     std::printf("%-34s failed\n", name.c_str());
     ++tally.invalid;
     return;
   }
   print_case(name, m);
-  table.add(cells_of(name, cut.snap, m));
+  table.add(cells_of(name, engine.cut.snap, m));
   tally.add(name, m, is_cube, is_planar);
 }
 
@@ -204,9 +204,10 @@ void run_cube(const Settings& settings, const Cube& cube, Study& study) {
       continue;
     }
     const std::string name = cube.name + "/" + trial.name;
-    CutOptions exact = settings.cut;
-    exact.snap = 0;
-    run_case(settings, name, *mesh, trial.stroke, settings.cut, runs, true, trial.is_planar, study.cubes, study.table);
+    EngineOptions exact = settings.engine;
+    exact.cut.snap = 0;
+    run_case(settings, name, *mesh, trial.stroke, settings.engine, runs, true, trial.is_planar, study.cubes,
+             study.table);
     run_case(settings, name + "/snap0", *mesh, trial.stroke, exact, 1, true, trial.is_planar, study.stress,
              study.table);
   }
@@ -280,10 +281,11 @@ void accept_tally(const std::string& kind, const Tally& t, bool is_cube, std::ve
 }
 
 constexpr const char* kUsage =
-    "usage: bench_maintenance [--out FOLDER] [--quick] [--only TEXT] [--profile incise|paper] [--box MESH]... "
+    "usage: bench_maintenance [--out FOLDER] [--quick] [--bare] [--only TEXT] [--profile incise|paper] [--box MESH]... "
     "[MESH]...\n"
     "Cuts and maintains Kuhn cubes, the box-shaped meshes named after --box, and other bodies.\n"
     "  --quick      the cubes of 750 tets with one seed, fewer runs, no repeated cuts\n"
+    "  --bare       without any maintenance: what cutting alone gives\n"
     "  --only TEXT  cases whose names contain TEXT, for instance kuhn5/seed1/A\n";
 
 /// Takes one option with its value; false where it is unknown.
@@ -295,7 +297,7 @@ bool take_option(const std::string& option, const std::string& value, Settings& 
   } else if (option == "--box") {
     settings.boxes.push_back(value);
   } else if (option == "--profile" && (value == "incise" || value == "paper")) {
-    settings.cut.profile = value == "paper" ? Profile::kPaper : Profile::kIncise;
+    settings.engine.cut.profile = value == "paper" ? Profile::kPaper : Profile::kIncise;
   } else {
     return false;
   }
@@ -307,6 +309,8 @@ bool parse(int argc, char** argv, Settings& settings) {
     const std::string argument = argv[i];
     if (argument == "--quick") {
       settings.is_quick = true;
+    } else if (argument == "--bare") {
+      settings.engine.maintain.merge = settings.engine.maintain.improve = false;
     } else if (argument.rfind("--", 0) != 0) {
       settings.bodies.push_back(argument);
     } else if (i + 1 >= argc || !take_option(argument, argv[++i], settings)) {
@@ -323,7 +327,7 @@ void run_body(const Settings& settings, const std::string& file, Study& study) {
   }
   const std::string name = std::filesystem::path(file).stem().string();
   for (const BodyStroke& stroke : make_body_strokes(body->mesh, body->mesh.tet_count())) {
-    run_case(settings, name + "/" + stroke.name, body->mesh, stroke.stroke, settings.cut, 2, false, stroke.is_planar,
+    run_case(settings, name + "/" + stroke.name, body->mesh, stroke.stroke, settings.engine, 2, false, stroke.is_planar,
              study.bodies, study.table);
   }
 }

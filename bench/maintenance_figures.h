@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "incise/cut/options.h"
+#include "incise/engine/engine.h"
 #include "report.h"
 
 namespace incise::bench {
@@ -15,7 +15,7 @@ struct Settings {
   std::filesystem::path folder = "bench-results";
   std::string only;  ///< cases whose names contain this
   bool is_quick = false;
-  CutOptions cut;
+  EngineOptions engine;
   std::vector<std::string> boxes, bodies;
 
   [[nodiscard]] bool wants(const std::string& name) const { return name.find(only) != std::string::npos; }

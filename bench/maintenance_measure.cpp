@@ -17,9 +17,7 @@ namespace incise::bench {
 
 namespace {
 
-EngineOptions cut_only(const CutOptions& cut) {
-  EngineOptions options;
-  options.cut = cut;
+EngineOptions cut_only(EngineOptions options) {
   options.maintain.work_units = 0;
   return options;
 }
@@ -297,11 +295,12 @@ std::string new_defects(const ValidityReport& input, const TetMesh& mesh) {
   return change.ok || !text.empty() ? text : "unnamed";
 }
 
-Measurement measure_maintenance(const TetMesh& mesh, const Stroke& stroke, const CutOptions& cut, unsigned runs) {
+Measurement measure_maintenance(const TetMesh& mesh, const Stroke& stroke, const EngineOptions& options,
+                                unsigned runs) {
   Measurement out;
   measure_input(mesh, out);
   const TriangleTree sweep = tree_of(stroke);
-  Result<Engine> engine = Engine::create(mesh, cut_only(cut));
+  Result<Engine> engine = Engine::create(mesh, cut_only(options));
   for (unsigned run = 0; run < runs; ++run) {
     if (run > 0) {
       engine->undo();
@@ -341,10 +340,10 @@ void note_anytime(Engine& engine, const std::vector<double>& times, std::vector<
 
 }  // namespace
 
-std::vector<double> measure_anytime(const TetMesh& mesh, const Stroke& stroke, const CutOptions& cut,
+std::vector<double> measure_anytime(const TetMesh& mesh, const Stroke& stroke, const EngineOptions& options,
                                     const std::vector<double>& times, unsigned runs) {
   std::vector<double> best(times.size(), 1e300);
-  Result<Engine> engine = Engine::create(mesh, cut_only(cut));
+  Result<Engine> engine = Engine::create(mesh, cut_only(options));
   for (unsigned run = 0; run < runs && engine.ok(); ++run) {
     if (!engine->cut(stroke).ok()) {
       break;

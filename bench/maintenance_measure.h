@@ -77,10 +77,10 @@ struct Measurement {
 };
 
 /// Cuts a mesh, then maintains it, and measures after each. `runs` ≥ 1: the stroke is taken back and made again.
-Measurement measure_maintenance(const TetMesh& mesh, const Stroke& stroke, const CutOptions& cut, unsigned runs);
+Measurement measure_maintenance(const TetMesh& mesh, const Stroke& stroke, const EngineOptions& options, unsigned runs);
 
 /// The worst L/r of the touched tets after each of some times of maintenance, in ms; the best of `runs`.
-std::vector<double> measure_anytime(const TetMesh& mesh, const Stroke& stroke, const CutOptions& cut,
+std::vector<double> measure_anytime(const TetMesh& mesh, const Stroke& stroke, const EngineOptions& options,
                                     const std::vector<double>& times, unsigned runs);
 
 /// The kinds of defects that came to those of the input, with their counts; empty where the mesh is as valid as it was.

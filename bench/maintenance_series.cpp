@@ -30,8 +30,8 @@ struct AnytimeTally {
 
 void run_anytime(const Settings& settings, const Cube& cube, const AnytimeDemand& demand, double snap, Table& table,
                  AnytimeTally& tally) {
-  CutOptions options = settings.cut;
-  options.snap = snap;
+  EngineOptions options = settings.engine;
+  options.cut.snap = snap;
   for (const char letter : {'A', 'B', 'C'}) {
     const Trial trial = make_trial(cube, letter);
     const std::string name = "anytime/" + cube.name + "/" + trial.name + (snap == 0 ? "/snap0" : "");
@@ -114,10 +114,8 @@ bool run_stroke(const Series& series, unsigned index, Engine& engine, const Stro
   return true;
 }
 
-SeriesTally run_series(const Series& series, const CutOptions& cut, Table& table) {
+SeriesTally run_series(const Series& series, const EngineOptions& options, Table& table) {
   SeriesTally tally;
-  EngineOptions options;
-  options.cut = cut;
   Result<TetMesh> mesh = TetMesh::build(make_cube(series.cells, 1).soup);
   const ValidityReport input = validate(*mesh, ValidateLevel::kGeometry);
   tally.reference_tets = mesh->tet_count();
@@ -155,7 +153,7 @@ void study_anytime(const Settings& settings, const std::vector<Cube>& cubes, std
     AnytimeTally tally, stress;
     for (const Cube& cube : cubes) {
       if (cube.cells == demand.cells) {
-        run_anytime(settings, cube, demand, settings.cut.snap, table, tally);
+        run_anytime(settings, cube, demand, settings.engine.cut.snap, table, tally);
         run_anytime(settings, cube, demand, 0, table, stress);
       }
     }
@@ -170,7 +168,7 @@ void study_repeated(const Settings& settings, std::vector<Acceptance>& lines) {
                "ms", "valid"});
   for (const Series& series : make_series()) {
     if (settings.wants(series.name) && !settings.is_quick) {
-      accept_series(series, run_series(series, settings.cut, table), lines);
+      accept_series(series, run_series(series, settings.engine, table), lines);
     }
   }
   table.write_csv(settings.folder);
