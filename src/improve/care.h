@@ -19,11 +19,19 @@ struct Care {
   const References& references;
   StarWalker& walker;
   MaintainStatistics& statistics;
+  double skin_tolerance;        ///< how far the skin may leave its place, as a share of the local edge
   std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
 
   /// Counts evaluations of tets.
   void spend(std::size_t units) { statistics.work_units += units; }
 };
+
+/// Cut walls leave their place by at most this share of the local edge.
+inline constexpr double kWallTolerance = 0.01;
+
+inline double surface_tolerance(const Care& care, std::uint32_t tag) {
+  return tag == 0 ? care.skin_tolerance : kWallTolerance;
+}
 
 /// An operation is accepted where the worst tet after it is better than the worst before by more than this share.
 inline constexpr double kLeastGain = 1e-3;

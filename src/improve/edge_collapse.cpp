@@ -15,8 +15,6 @@ namespace {
 constexpr std::size_t kEdgesTried = 3;
 /// No new edge is longer than the longest of the vertex by more than this factor.
 constexpr double kLengthCap = 1.5;
-/// Surfaces leave their place by at most this share of the longest edge of the vertex.
-constexpr double kSurfaceTolerance = 0.01;
 /// New faces turn away from their surface by less than the angle with this cosine: 60 degrees.
 constexpr double kFaceCosine = 0.5;
 constexpr unsigned kBoundary = shape::kSkin | shape::kWall;
@@ -40,7 +38,8 @@ std::array<RankedEdge, 6> edges_by_length(const TetMesh& mesh, TetId tet) {
 
 /// Calls `visit(tag, tet, side)` for the surface sides of tets that contain `with`, and do not contain `without`.
 template <class Visit>
-void for_each_face(const TetMesh& mesh, const std::vector<TetId>& tets, VertexId with, VertexId without, Visit&& visit) {
+void for_each_face(const TetMesh& mesh, const std::vector<TetId>& tets, VertexId with, VertexId without,
+                   Visit&& visit) {
   for (const TetId tet : tets) {
     const TetVertices& v = mesh.vertices(tet);
     for (unsigned s = 0; s < 4; ++s) {
@@ -70,6 +69,14 @@ Facet facet_with(const TetMesh& mesh, Side side, VertexId vertex, const Vec3& pl
   return facet;
 }
 
+void add_facet(Piece& piece, const Facet& f) {
+  piece.facets.push_back(f);
+  piece.samples.push_back((f[0] + f[1] + f[2]) / 3.0);
+  for (unsigned k = 0; k < 3; ++k) {
+    piece.samples.push_back(0.5 * (f[k] + f[(k + 1) % 3]));
+  }
+}
+
 Vec3 vector_area2(const Facet& f) {
   return (f[1] - f[0]).cross(f[2] - f[0]);
 }
@@ -78,6 +85,8 @@ Vec3 vector_area2(const Facet& f) {
 
 bool EdgeCollapser::improve(Care& care, TetId tet) {
   const auto edges = edges_by_length(care.mesh, tet);
+  begun_ = VertexId();
+  least_gain_ = kLeastGain;
   for (std::size_t i = 0; i < kEdgesTried; ++i) {
     if (try_collapse(care, edges[i].a, edges[i].b) || try_collapse(care, edges[i].b, edges[i].a)) {
       return true;
@@ -86,21 +95,57 @@ bool EdgeCollapser::improve(Care& care, TetId tet) {
   return false;
 }
 
+bool EdgeCollapser::thin_out(Care& care, VertexId vertex) {
+  neighbours_.clear();
+  begun_ = VertexId();
+  begin(care, vertex);
+  for (const TetId tet : star_) {
+    for (const VertexId v : care.mesh.vertices(tet)) {
+      if (v != vertex && std::find(neighbours_.begin(), neighbours_.end(), v) == neighbours_.end()) {
+        neighbours_.push_back(v);
+      }
+    }
+  }
+  const Vec3& centre = care.mesh.rest(vertex);
+  std::sort(neighbours_.begin(), neighbours_.end(), [&](VertexId a, VertexId b) {
+    const double x = (care.mesh.rest(a) - centre).squaredNorm(), y = (care.mesh.rest(b) - centre).squaredNorm();
+    return x != y ? x < y : a.value < b.value;
+  });
+  least_gain_ = 0.0;
+  return std::any_of(neighbours_.begin(), neighbours_.end(), [&](VertexId v) { return try_collapse(care, vertex, v); });
+}
+
+/// Looks at the surroundings of a vertex once for all edges that may swallow it.
+void EdgeCollapser::begin(Care& care, VertexId from) {
+  plan_.from = from;
+  if (begun_ == from) {
+    return;
+  }
+  begun_ = from;
+  star_ = care.walker.star(care.mesh, from);
+  surfaces_ = surfaces_at(care.mesh, from, star_);
+  worst_ = worst_of(care, star_);
+  double longest2 = 0;
+  for (const TetId tet : star_) {
+    for (const VertexId v : care.mesh.vertices(tet)) {
+      longest2 = std::max(longest2, (care.mesh.rest(v) - care.mesh.rest(from)).squaredNorm());
+    }
+  }
+  longest_ = std::sqrt(longest2);
+}
+
 bool EdgeCollapser::try_collapse(Care& care, VertexId from, VertexId into) {
   const unsigned bits = care.mesh.shape_of(from), into_bits = care.mesh.shape_of(into);
   if ((bits & (shape::kFront | shape::kPinched)) != 0 || ((bits & kBoundary) & ~into_bits) != 0) {
     return false;
   }
-  plan_.from = from;
+  begin(care, from);
   plan_.into = into;
   place_ = care.mesh.rest(into);
-  star_ = care.walker.star(care.mesh, from);
-  surfaces_ = surfaces_at(care.mesh, from, star_);
-  if (!may_merge(care)) {
+  if (!may_merge(care) || !is_short_enough(care) || !improves(care)) {
     return false;
   }
-  collect_patches(care);
-  if (!keep_volume(care) || !is_short_enough(care) || !improves(care) || !keeps_surfaces(care)) {
+  if (is_curved() && !(keep_volume(care) && improves(care) && keeps_surfaces(care))) {
     return false;
   }
   planner_.plan(care.mesh, from, into, plan_);
@@ -132,30 +177,22 @@ bool EdgeCollapser::may_merge(const Care& care) const {
 
 /// What becomes of the faces of every surface, and the volume that this costs.
 void EdgeCollapser::collect_patches(const Care& care) {
-  longest_ = 0;
-  for (const TetId tet : star_) {
-    for (const VertexId v : care.mesh.vertices(tet)) {
-      longest_ = std::max(longest_, (care.mesh.rest(v) - care.mesh.rest(plan_.from)).squaredNorm());
-    }
-  }
-  longest_ = std::sqrt(longest_);
   for (Patch& patch : patches_) {
     patch.before.clear();
+    patch.before.samples.push_back(care.mesh.rest(plan_.from));
     patch.after.clear();
     patch.lost6 = 0;
-  }
-  if (surfaces_.count == 0 || surfaces_.is_flat()) {
-    return;
   }
   for_each_face(care.mesh, star_, plan_.from, VertexId(), [&](std::uint32_t tag, Side side) {
     const Facet facet = facet_of(care.mesh, side);
     const unsigned at = surfaces_.find(tag, vector_area2(facet).normalized());
     if (at >= surfaces_.count) return;
     Patch& patch = patches_[at];
-    patch.before.push_back(facet);
+    add_facet(patch.before, facet);
+    patch.before.samples.push_back(care.mesh.rest(plan_.from));
     const auto v = care.mesh.vertices(side);
     if (std::find(v.begin(), v.end(), plan_.into) == v.end()) {
-      patch.after.push_back(facet_with(care.mesh, side, plan_.from, place_));
+      add_facet(patch.after, facet_with(care.mesh, side, plan_.from, place_));
       patch.lost6 += (facet[0] - place_).cross(facet[1] - place_).dot(facet[2] - place_);
     }
   });
@@ -164,16 +201,13 @@ void EdgeCollapser::collect_patches(const Care& care) {
 /// Finds the place of the merged vertex that keeps the volume under every surface; false where there is none nearby.
 /// The volume is linear in the vertex, with its vector area as gradient.
 bool EdgeCollapser::keep_volume(const Care& care) {
-  if (surfaces_.count == 0 || surfaces_.is_flat()) {
-    return true;
-  }
+  collect_patches(care);
   around_ = care.walker.star(care.mesh, plan_.into);
   VertexSurfaces merged;
   std::array<double, 2> lost6{};
   const auto add = [&](std::uint32_t tag, const Facet& facet) { add_face(merged, tag, vector_area2(facet)); };
-  for_each_face(care.mesh, star_, plan_.from, plan_.into, [&](std::uint32_t tag, Side side) {
-    add(tag, facet_with(care.mesh, side, plan_.from, place_));
-  });
+  for_each_face(care.mesh, star_, plan_.from, plan_.into,
+                [&](std::uint32_t tag, Side side) { add(tag, facet_with(care.mesh, side, plan_.from, place_)); });
   for_each_face(care.mesh, around_, plan_.into, plan_.from,
                 [&](std::uint32_t tag, Side side) { add(tag, facet_of(care.mesh, side)); });
   for (unsigned i = 0; i < surfaces_.count; ++i) {
@@ -198,7 +232,7 @@ bool EdgeCollapser::keep_volume(const Care& care) {
     return false;
   }
   place_ += step;
-  return step.norm() <= kSurfaceTolerance * longest_;
+  return step.norm() <= kWallTolerance * longest_;
 }
 
 bool EdgeCollapser::is_short_enough(const Care& care) const {
@@ -213,18 +247,16 @@ bool EdgeCollapser::is_short_enough(const Care& care) const {
 
 /// Whether the worst tet after the collapse is better than the worst before.
 bool EdgeCollapser::improves(Care& care) const {
-  double before = worst_of(care, star_);
+  double before = worst_;
   if (moves(care)) {
     before = std::min(before, worst_of(care, around_));
   }
-  const double bound = std::max(before * (1.0 + kLeastGain), kLeastRatio);
+  const double bound = std::max(before * (1.0 + least_gain_), kLeastRatio);
   const auto is_better = [&](TetId tet, VertexId vertex) {
     care.spend(1);
     return inradius_ratio_with(care.mesh, tet, vertex, place_) > bound;
   };
-  const auto keeps = [&](TetId tet) {
-    return care.mesh.corner_of(tet, plan_.into) < 4 || is_better(tet, plan_.from);
-  };
+  const auto keeps = [&](TetId tet) { return care.mesh.corner_of(tet, plan_.into) < 4 || is_better(tet, plan_.from); };
   return std::all_of(star_.begin(), star_.end(), keeps) &&
          (!moves(care) || std::all_of(around_.begin(), around_.end(), [&](TetId tet) {
            return care.mesh.corner_of(tet, plan_.from) < 4 || is_better(tet, plan_.into);
@@ -232,17 +264,17 @@ bool EdgeCollapser::improves(Care& care) const {
 }
 
 bool EdgeCollapser::keeps_surfaces(const Care& care) const {
-  for (unsigned i = 0; i < surfaces_.count && !surfaces_.is_flat(); ++i) {
+  for (unsigned i = 0; i < surfaces_.count; ++i) {
     const SurfaceAt& surface = surfaces_.surfaces[i];
     const Vec3 normal = surface.vector_area.normalized();
-    for (const Facet& facet : patches_[i].after) {
+    for (const Facet& facet : patches_[i].after.facets) {
       const Vec3 area2 = vector_area2(facet);
       if (!(normal.dot(area2) > kFaceCosine * area2.norm())) {
         return false;
       }
     }
     if (!surface.is_flat && !care.references.allows(surface.tag, patches_[i].before, patches_[i].after,
-                                                    kSurfaceTolerance * longest_)) {
+                                                    surface_tolerance(care, surface.tag) * longest_)) {
       return false;
     }
   }

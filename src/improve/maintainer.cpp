@@ -3,7 +3,7 @@
 #include "incise/improve/maintainer.h"
 
 #include <algorithm>
-#include <optional>
+#include <iterator>
 #include <utility>
 
 #include "improve/care.h"
@@ -15,8 +15,14 @@ namespace incise::inline v0 {
 
 namespace {
 
-/// Tets with an L/r below this are good enough: each further step costs more and gains less.
+/// Tets at the cut with an L/r below this are good enough: each further step costs more and gains less.
 constexpr double kGoal = kRegularLr / 11.0;
+/// Tets with an L/r above this come first of all; of those beside the cut no others are worked on.
+constexpr double kBad = kRegularLr / 20.0;
+/// The skin leaves its place by at most this share of the local edge, to mend bad tets by the greater one.
+constexpr double kFineTolerance = 0.01, kCoarseTolerance = 0.04;
+/// Vertices that cuts made are tried so often: a merge makes room for others.
+constexpr unsigned kThinningRounds = 2;
 /// Changes per journal step: what they free is used again from the next one on.
 constexpr std::uint64_t kChangesPerStep = 4096;
 
@@ -53,48 +59,57 @@ class Maintainer::Queue {
       add_with_neighbours(mesh, v, ring);
     }
     push_stars(mesh, ring);
+    std::copy_if(ring.begin(), ring.end(), std::back_inserter(crowd_),
+                 [&](VertexId v) { return !mesh.origin(v).is_valid(); });
+    thinning_round_ = 0;
+    next_in_crowd_ = 0;
   }
   void take_up_all(const TetMesh& mesh) {
     in_care_.ensure(mesh.vertex_slots());
-    mesh.for_each_vertex([&](VertexId v) { in_care_[v.value] = epoch_; });
+    mesh.for_each_vertex([&](VertexId v) { in_care_[v.value] = epoch_ * 4 + 2; });
     mesh.for_each_tet([&](TetId tet) { push(mesh, tet); });
   }
 
   MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times) {
     statistics_ = {};
+    work_units_ = work_units;
     const std::size_t tets_before = mesh.tet_count();
-    while (!heap_.empty() && statistics_.work_units < work_units) {
-      run_step(mesh, journal, work_units, times);
+    while (has_work() && has_budget()) {
+      run_step(mesh, journal, times);
     }
     statistics_.waiting_tets = heap_.size();
     statistics_.created_tets = static_cast<std::int64_t>(mesh.tet_count()) - static_cast<std::int64_t>(tets_before);
     return statistics_;
   }
-  [[nodiscard]] bool has_work() const { return !heap_.empty(); }
+  [[nodiscard]] bool has_work() const { return !heap_.empty() || !crowd_.empty(); }
   void forget() {
     heap_.clear();
+    crowd_.clear();
     ++epoch_;
   }
 
  private:
-  [[nodiscard]] bool is_in_care(VertexId v) const {
-    return v.value < in_care_.capacity() && in_care_[v.value] == epoch_;
+  /// How near a vertex is to what was taken up: 2 touched, 1 a neighbour, 0 not in care.
+  [[nodiscard]] unsigned nearness(VertexId v) const {
+    const bool is_known = v.value < in_care_.capacity() && in_care_[v.value] / 4 == epoch_;
+    return is_known ? in_care_[v.value] % 4 : 0;
   }
-  void add_to_care(VertexId v, std::vector<VertexId>& added) {
+  void add_to_care(VertexId v, unsigned near, std::vector<VertexId>& added) {
     in_care_.ensure(std::size_t{v.value} + 1);
-    if (in_care_[v.value] != epoch_) {
-      in_care_[v.value] = epoch_;
+    const unsigned known = nearness(v);
+    if (known == 0) {
       added.push_back(v);
     }
+    in_care_[v.value] = epoch_ * 4 + std::max(known, near);
   }
   /// Takes a touched vertex and its neighbours into care.
   void add_with_neighbours(const TetMesh& mesh, VertexId touched, std::vector<VertexId>& added) {
     if (!mesh.is_live(touched)) {
       return;
     }
-    add_to_care(touched, added);
+    add_to_care(touched, 2, added);
     for (const TetId tet : walker_.star(mesh, touched)) {
-      for (const VertexId v : mesh.vertices(tet)) add_to_care(v, added);
+      for (const VertexId v : mesh.vertices(tet)) add_to_care(v, 1, added);
     }
   }
   void push_stars(const TetMesh& mesh, const std::vector<VertexId>& centres) {
@@ -112,8 +127,10 @@ class Maintainer::Queue {
     for (const TetId tet : pushed) is_pushed_[tet.value] = 0;
   }
   void push(const TetMesh& mesh, TetId tet) {
-    const double ratio = inradius_ratio(mesh, mesh.vertices(tet));
-    if (ratio < kGoal && !mesh.is_flat_at_load(tet)) {
+    const TetVertices& v = mesh.vertices(tet);
+    const unsigned near = std::max({nearness(v[0]), nearness(v[1]), nearness(v[2]), nearness(v[3])});
+    const double ratio = inradius_ratio(mesh, v), goal = near == 2 ? kGoal : (near == 1 ? kBad : 0.0);
+    if (ratio < goal && !mesh.is_flat_at_load(tet)) {
       heap_.push_back({ratio, tet});
       std::push_heap(heap_.begin(), heap_.end());
     }
@@ -125,24 +142,42 @@ class Maintainer::Queue {
     return worst;
   }
 
-  void run_step(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times) {
+  [[nodiscard]] bool has_budget() const { return statistics_.work_units < work_units_; }
+
+  /// One journal step: bad tets first, then what the cut made needlessly dense, then the tets that could be better.
+  void run_step(TetMesh& mesh, Journal& journal, StageTimes& times) {
     Transaction transaction(mesh, true);
-    Care care{transaction, mesh, references_, walker_, statistics_, changed_};
-    for (std::uint64_t changes = 0;
-         !heap_.empty() && changes < kChangesPerStep && statistics_.work_units < work_units;) {
-      const Waiting worst = pop();
-      care.spend(1);
-      const bool is_stale =
-          !mesh.is_live(worst.tet) || inradius_ratio(mesh, mesh.vertices(worst.tet)) != worst.ratio;
-      if (is_stale || !improve(care, worst.tet, times)) {
-        continue;
+    Care care{transaction, mesh, references_, walker_, statistics_, kFineTolerance, changed_};
+    for (std::uint64_t changes = 0; has_work() && has_budget() && changes < kChangesPerStep;) {
+      const bool has_bad = !heap_.empty() && heap_.front().ratio < kBad;
+      const bool has_changed = has_bad || crowd_.empty() ? improve_worst(care, times) : thin_out_next(care, times);
+      if (has_changed) {
+        ++changes;
+        requeue(mesh);
       }
-      ++changes;
-      requeue(mesh);
     }
     if (Step step = transaction.commit(); !step.is_empty()) {
       journal.append(std::move(step));
     }
+  }
+  bool improve_worst(Care& care, StageTimes& times) {
+    const Waiting worst = pop();
+    care.spend(1);
+    const TetMesh& mesh = care.mesh;
+    const bool is_fresh = mesh.is_live(worst.tet) && inradius_ratio(mesh, mesh.vertices(worst.tet)) == worst.ratio;
+    care.skin_tolerance = worst.ratio < kBad ? kCoarseTolerance : kFineTolerance;
+    return is_fresh && improve(care, worst.tet, times);
+  }
+  bool thin_out_next(Care& care, StageTimes& times) {
+    const StageZone zone(times, Stage::kMerge);
+    care.skin_tolerance = kFineTolerance;
+    const VertexId vertex = crowd_[next_in_crowd_++];
+    const bool has_merged = options_.merge && care.mesh.is_live(vertex) && collapser_.thin_out(care, vertex);
+    if (next_in_crowd_ == crowd_.size()) {
+      next_in_crowd_ = 0;
+      if (++thinning_round_ == kThinningRounds) crowd_.clear();
+    }
+    return has_merged;
   }
   bool improve(Care& care, TetId tet, StageTimes& times) {
     if (options_.merge) {
@@ -162,10 +197,7 @@ class Maintainer::Queue {
   /// What the last operation changed is judged anew, as far as it is in care.
   void requeue(const TetMesh& mesh) {
     for (const TetId tet : changed_) {
-      const TetVertices& corners = mesh.vertices(tet);
-      if (std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return is_in_care(v); })) {
-        push(mesh, tet);
-      }
+      push(mesh, tet);
     }
   }
 
@@ -174,7 +206,11 @@ class Maintainer::Queue {
   MaintainStatistics statistics_;  // of the run in progress
   std::vector<Waiting> heap_;
   std::vector<TetId> changed_;
-  ZeroedArray<std::uint32_t> in_care_;   // per vertex slot: the epoch that took it up
+  std::vector<VertexId> crowd_;  // vertices that cuts made, to be merged where they are not needed
+  std::size_t next_in_crowd_ = 0;
+  unsigned thinning_round_ = 0;
+  std::uint64_t work_units_ = 0;         // of the run in progress
+  ZeroedArray<std::uint32_t> in_care_;   // per vertex slot: 4 · the epoch that took it up + nearness
   ZeroedArray<std::uint8_t> is_pushed_;  // scratch of `push_stars`, zero between calls
   std::uint32_t epoch_ = 1;
   StarWalker walker_;

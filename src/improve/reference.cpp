@@ -2,7 +2,6 @@
 #include "improve/reference.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "incise/geom/closest.h"
 
@@ -10,46 +9,38 @@ namespace incise::inline v0 {
 
 namespace {
 
-/// Calls `visit` with sample points of a facet.
-template <class Visit>
-void for_each_sample(const Facet& f, Visit&& visit) {
-  for (unsigned k = 0; k < 3; ++k) {
-    visit(f[k]);
-    visit(0.5 * (f[k] + f[(k + 1) % 3]));
-  }
-  visit((f[0] + f[1] + f[2]) / 3.0);
+bool is_near(const Vec3& p, const std::vector<Facet>& facets, double tolerance2) {
+  return std::any_of(facets.begin(), facets.end(),
+                     [&](const Facet& f) { return closest_on_triangle(p, f[0], f[1], f[2]).distance2 <= tolerance2; });
 }
 
-/// The greatest squared distance of samples of facets from whatever `distance2` measures.
-template <class Distance2>
-double farthest2(const std::vector<Facet>& facets, Distance2&& distance2) {
+bool are_near(const Piece& piece, const Piece& other, double tolerance2) {
+  return std::all_of(piece.samples.begin(), piece.samples.end(),
+                     [&](const Vec3& p) { return is_near(p, other.facets, tolerance2); });
+}
+
+/// The greatest squared distance of a piece's samples and corners from a sweep.
+double farthest2(const TriangleTree& sweep, const Piece& piece) {
   double farthest = 0;
-  for (const Facet& facet : facets) {
-    for_each_sample(facet, [&](const Vec3& p) { farthest = std::max(farthest, distance2(p)); });
+  for (const Vec3& p : piece.samples) {
+    farthest = std::max(farthest, sweep.closest(p).distance2);
   }
   return farthest;
 }
 
-double distance2_to(const std::vector<Facet>& facets, const Vec3& p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Facet& f : facets) {
-    nearest = std::min(nearest, closest_on_triangle(p, f[0], f[1], f[2]).distance2);
-  }
-  return nearest;
-}
-
 }  // namespace
 
-bool References::allows(std::uint32_t tag, const std::vector<Facet>& before, const std::vector<Facet>& after,
-                        double tolerance) const {
+bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance) const {
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end()) {
-    const auto off = [](const std::vector<Facet>& to) { return [&to](const Vec3& p) { return distance2_to(to, p); }; };
-    return std::max(farthest2(after, off(before)), farthest2(before, off(after))) <= tolerance * tolerance;
+    const double tolerance2 = tolerance * tolerance;
+    return are_near(after, before, tolerance2) && are_near(before, after, tolerance2);
   }
-  const auto off_sweep = [&](const Vec3& p) { return sweep->second.closest(p).distance2; };
-  const double limit2 = std::max(tolerance * tolerance, farthest2(before, off_sweep));
-  return farthest2(after, off_sweep) <= limit2;
+  const auto is_close = [&](const Vec3& p) { return sweep->second.closest(p, tolerance).is_valid(); };
+  if (std::all_of(after.samples.begin(), after.samples.end(), is_close)) {
+    return true;
+  }
+  return farthest2(sweep->second, after) <= farthest2(sweep->second, before);
 }
 
 }  // namespace incise::inline v0

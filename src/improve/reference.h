@@ -14,16 +14,27 @@ namespace incise::inline v0 {
 /// A triangle of a surface, by its corners.
 using Facet = std::array<Vec3, 3>;
 
+/// A piece of surface that an operation replaces: its facets, and where it may be furthest from the other piece. Both
+/// pieces have one rim, so that points inside are enough.
+struct Piece {
+  std::vector<Facet> facets;
+  std::vector<Vec3> samples;
+
+  void clear() {
+    facets.clear();
+    samples.clear();
+  }
+};
+
 /// The surfaces that boundaries shall stay close to: the sweep of each stroke, at rest.
 class References {
  public:
   void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = std::move(sweep); }
 
-  /// Whether the surface may change from `before` to `after` under a tag: no point of `after` lies further from the
-  /// reference than `tolerance`, or than `before` did. Where there is no reference, `before` is it.
-  /// Both are sampled at corners, middles of edges and centroids. Cost: O(|before|·|after|), or with a tree O(|after|).
-  [[nodiscard]] bool allows(std::uint32_t tag, const std::vector<Facet>& before, const std::vector<Facet>& after,
-                            double tolerance) const;
+  /// Whether the surface under a tag may change from `before` to `after`: no sample of `after` lies further from the
+  /// reference than `tolerance`, or than those of `before` did. Where there is no reference the pieces are compared
+  /// with each other. Cost: O(samples·facets), or with a tree O(samples of `after`).
+  [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance) const;
 
  private:
   std::map<std::uint32_t, TriangleTree> sweeps_;

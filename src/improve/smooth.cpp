@@ -20,9 +20,7 @@ constexpr unsigned kMaxHalvings = 5;
 /// A step that gains less than this share of the energy is the last.
 constexpr double kLeastDescent = 1e-2;
 /// A move must make the worst tet better by this share: smaller gains cost more than they are worth.
-constexpr double kLeastSmoothingGain = 0.01;
-/// Surfaces leave their place by at most this share of the star's mean edge.
-constexpr double kSurfaceTolerance = 0.01;
+constexpr double kLeastSmoothingGain = 0.03;
 
 /// The part of a step that the vertex may take.
 Vec3 restrict_step(const Vec3& step, const VertexSurfaces& surfaces) {
@@ -261,29 +259,42 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
   if (surfaces_.mobility == Mobility::kFree || surfaces_.is_flat()) {
     return true;
   }
-  const double tolerance = kSurfaceTolerance * mean_edge(care.mesh, vertex, star_);
+  const double edge = mean_edge(care.mesh, vertex, star_);
   for (unsigned i = 0; i < surfaces_.count; ++i) {
-    before_.clear();
-    after_.clear();
-    for (const TetId tet : star_) {
-      for (unsigned s = 0; s < 4; ++s) {
-        if (care.mesh.vertices(tet)[s] == vertex || surface_tag(care.mesh, {tet, s}) != surfaces_.surfaces[i].tag) {
-          continue;
-        }
-        const auto v = care.mesh.vertices(Side(tet, s));
-        Facet facet = {care.mesh.rest(v[0]), care.mesh.rest(v[1]), care.mesh.rest(v[2])};
-        before_.push_back(facet);
-        for (unsigned k = 0; k < 3; ++k) {
-          if (v[k] == vertex) facet[k] = place;
-        }
-        after_.push_back(facet);
-      }
+    const SurfaceAt& surface = surfaces_.surfaces[i];
+    if (surface.is_flat) {
+      continue;
     }
-    if (!care.references.allows(surfaces_.surfaces[i].tag, before_, after_, tolerance)) {
+    collect_pieces(care, vertex, place, surface.tag);
+    if (!care.references.allows(surface.tag, before_, after_, surface_tolerance(care, surface.tag) * edge)) {
       return false;
     }
   }
   return true;
+}
+
+/// The faces of one surface around the vertex, before and after its move. They differ most at the vertex and along the
+/// edges that lead to it.
+void Smoother::collect_pieces(const Care& care, VertexId vertex, const Vec3& place, std::uint32_t tag) {
+  const Vec3 old_place = care.mesh.rest(vertex);
+  before_.clear();
+  after_.clear();
+  before_.samples.push_back(old_place);
+  after_.samples.push_back(place);
+  for (const TetId tet : star_) {
+    for (unsigned s = 0; s < 4; ++s) {
+      if (care.mesh.vertices(tet)[s] == vertex || surface_tag(care.mesh, {tet, s}) != tag) {
+        continue;
+      }
+      const auto v = care.mesh.vertices(Side(tet, s));
+      const auto centre = static_cast<std::size_t>(std::find(v.begin(), v.end(), vertex) - v.begin());
+      const Vec3 &p = care.mesh.rest(v[(centre + 1) % 3]), &q = care.mesh.rest(v[(centre + 2) % 3]);
+      before_.facets.push_back({old_place, p, q});
+      before_.samples.push_back(0.5 * (old_place + p));
+      after_.facets.push_back({place, p, q});
+      after_.samples.push_back(0.5 * (place + p));
+    }
+  }
 }
 
 }  // namespace incise::inline v0

@@ -7,9 +7,9 @@
 
 namespace incise::inline v0 {
 
-/// The shape of a star as a function of the place of its centre: Σ 1/q⁶ over its tets, q their mean ratio; infinite where
-/// a tet has no positive volume. With the other vertices fixed the volume is linear and Σ l² quadratic, so that a tet
-/// costs a few operations; value, gradient and a positive definite stand-in for the Hessian come together.
+/// The shape of a star as a function of the place of its centre: Σ 1/q⁶ over its tets, q their mean ratio; infinite
+/// where a tet has no positive volume. With the other vertices fixed the volume is linear and Σ l² quadratic, so that a
+/// tet costs a few operations; value, gradient and a positive definite stand-in for the Hessian come together.
 class StarEnergy {
  public:
   struct Value {
@@ -29,7 +29,7 @@ class StarEnergy {
 
  private:
   struct Face {
-    Vec3 normal;    // 6 V = normal·x − offset
+    Vec3 normal;  // 6 V = normal·x − offset
     double offset;
     Vec3 centroid;  // Σ l² = 3 |x − centroid|² + constant
     double constant;
@@ -52,12 +52,13 @@ class Smoother {
   void collect(const Care& care, VertexId vertex);
   [[nodiscard]] Vec3 find_place(Care& care, VertexId vertex) const;
   [[nodiscard]] bool keeps_surfaces(const Care& care, VertexId vertex, const Vec3& place);
+  void collect_pieces(const Care& care, VertexId vertex, const Vec3& place, std::uint32_t tag);
   [[nodiscard]] double worst_at(Care& care, VertexId vertex, const Vec3& place, double bound) const;
 
   std::vector<TetId> star_;
   VertexSurfaces surfaces_;
   StarEnergy energy_;
-  std::vector<Facet> before_, after_;
+  Piece before_, after_;
 };
 
 /// Moves a vertex and samples what followers carry at the new place; `star` is its star. Returns false, and does

@@ -8,8 +8,8 @@ namespace incise::inline v0 {
 
 namespace {
 
-/// Faces whose normals have at least this cosine with the first of a surface are part of it: 40 degrees.
-constexpr double kSmoothCosine = 0.766;
+/// Faces whose normals have at least this cosine with the first of a surface are part of it: 60 degrees.
+constexpr double kSmoothCosine = 0.5;
 /// Two surfaces that meet at less than this sine have no line to slide along.
 constexpr double kLeastSine = 0.17;
 

@@ -10,10 +10,10 @@ namespace incise::inline v0 {
 
 /// A smooth part of a boundary, or of a border between regions, as one of its vertices sees it.
 struct SurfaceAt {
-  std::uint32_t tag = 0;              ///< of `Link`; `kBorderTag` for a border between regions
-  Vec3 vector_area = Vec3::Zero();    ///< twice the sum of its faces' vector areas, outwards
-  Vec3 first_normal = Vec3::Zero();   ///< unit
-  bool is_flat = true;                ///< all faces in one plane, within `kFlat`
+  std::uint32_t tag = 0;             ///< of `Link`; `kBorderTag` for a border between regions
+  Vec3 vector_area = Vec3::Zero();   ///< twice the sum of its faces' vector areas, outwards
+  Vec3 first_normal = Vec3::Zero();  ///< unit
+  bool is_flat = true;               ///< all faces in one plane, within `kFlat`
 };
 
 /// Unit normals whose cross product is this short belong to one plane.
