@@ -8,9 +8,8 @@ namespace incise::inline v0 {
 namespace {
 
 bool has_one_region(const TetMesh& mesh, const std::vector<TetId>& tets) {
-  return !mesh.has_regions() || std::all_of(tets.begin(), tets.end(), [&](TetId tet) {
-    return mesh.region(tet) == mesh.region(tets.front());
-  });
+  return !mesh.has_regions() || std::all_of(tets.begin(), tets.end(),
+                                            [&](TetId tet) { return mesh.region(tet) == mesh.region(tets.front()); });
 }
 
 /// Whether the two boundary faces at the ends of an open fan lie in one plane and carry one tag.
@@ -62,7 +61,8 @@ bool EdgeRemover::is_removable(const Care& care) const {
          (ring_.is_closed || has_flat_ends(care.mesh, ring_));
 }
 
-/// The worse of the two tets that a triangle of the ring makes with the ends of the edge; 0 where it is below the bound.
+/// The worse of the two tets that a triangle of the ring makes with the ends of the edge; 0 where it is below the
+/// bound.
 double EdgeRemover::rate(Care& care, VertexId a, VertexId b, unsigned i, unsigned j, unsigned k, double bound) const {
   const TetMesh& mesh = care.mesh;
   const VertexId p = ring_.vertices[i], q = ring_.vertices[j], r = ring_.vertices[k];
@@ -141,9 +141,8 @@ bool FaceRemover::try_face(Care& care, Side face) {
   plan_.consumed.assign({face.tet(), other});
   plan_.produced.assign({{{x, y, p, q}, 0}, {{y, z, p, q}, 0}, {{z, x, p, q}, 1}});
   care.spend(5);
-  const bool is_better = std::all_of(plan_.produced.begin(), plan_.produced.end(), [&](const NewTet& tet) {
-    return inradius_ratio(mesh, tet.vertices) > bound;
-  });
+  const bool is_better = std::all_of(plan_.produced.begin(), plan_.produced.end(),
+                                     [&](const NewTet& tet) { return inradius_ratio(mesh, tet.vertices) > bound; });
   if (!is_better || !keeps_current(mesh, plan_)) {
     return false;
   }

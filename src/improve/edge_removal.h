@@ -30,7 +30,7 @@ class EdgeRemover {
   EdgeRing ring_;
   RemeshPlan plan_;
   std::vector<RingTriangle> triangles_;
-  std::array<std::array<double, kMostVertices>, kMostVertices> best_{};         // worst tet of the polygon i..k
+  std::array<std::array<double, kMostVertices>, kMostVertices> best_{};        // worst tet of the polygon i..k
   std::array<std::array<std::uint8_t, kMostVertices>, kMostVertices> apex_{};  // of its triangle at the edge i, k
 };
 

@@ -12,15 +12,15 @@ namespace incise::inline v0 {
 /// 2√6, the L/r of the regular tet.
 inline constexpr double kRegularLr = 4.898979485566356;
 
-/// The measure that maintenance compares: 2√6 / (L/r), in [0, 1]. **Higher is better**; 1 for the regular tet, 0 or less
-/// for one that is flat or inverted. No libm but the root. Cost: about 12 ns. **Source:** Paper §3.1, inverted.
+/// The measure that maintenance compares: 2√6 / (L/r), in [0, 1]. **Higher is better**; 1 for the regular tet, 0 or
+/// less for one that is flat or inverted. No libm but the root. Cost: about 12 ns. **Source:** Paper §3.1, inverted.
 inline double inradius_ratio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b, cd = d - c;
   const Vec3 abc = ab.cross(ac);
   const double volume6 = abc.dot(ad);
   const double area2 = abc.norm() + ab.cross(ad).norm() + ac.cross(ad).norm() + bc.cross(bd).norm();
-  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), ad.squaredNorm(), bc.squaredNorm(),
-                                    bd.squaredNorm(), cd.squaredNorm()});
+  const double longest2 = std::max(
+      {ab.squaredNorm(), ac.squaredNorm(), ad.squaredNorm(), bc.squaredNorm(), bd.squaredNorm(), cd.squaredNorm()});
   const double scale = area2 * std::sqrt(longest2);
   return scale > 0 ? kRegularLr * volume6 / scale : 0.0;
 }
