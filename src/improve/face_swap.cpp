@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "improve/face_swap.h"
 
+#include <algorithm>
+
 #include "improve/paper_quality.h"
 #include "incise/mesh/remesh.h"
 
@@ -46,21 +48,21 @@ class FaceSwapper {
     return false;
   }
   bool swap(const RemeshPlan& plan) {
-    if (!plan || !(quality_after(plan) < quality_before(plan))) {
+    if (!plan || !(worst_after(plan) < worst_before(plan))) {
       return false;
     }
     apply(transaction_, plan, produced_);
     return true;
   }
-  double quality_before(const RemeshPlan& plan) {
-    double sum = 0;
-    for (const TetId tet : plan.consumed) sum += meter_.of(tet);
-    return sum / static_cast<double>(plan.consumed.size());
+  double worst_before(const RemeshPlan& plan) {
+    double worst = 0;
+    for (const TetId tet : plan.consumed) worst = std::max(worst, meter_.of(tet));
+    return worst;
   }
-  double quality_after(const RemeshPlan& plan) {
-    double sum = 0;
-    for (const NewTet& tet : plan.produced) sum += meter_.of(tet.vertices);
-    return sum / static_cast<double>(plan.produced.size());
+  double worst_after(const RemeshPlan& plan) {
+    double worst = 0;
+    for (const NewTet& tet : plan.produced) worst = std::max(worst, meter_.of(tet.vertices));
+    return worst;
   }
 
   Transaction& transaction_;
