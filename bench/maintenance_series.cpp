@@ -39,7 +39,7 @@ void run_anytime(const Settings& settings, const Cube& cube, const AnytimeDemand
     if (!settings.wants(name) || !mesh) {
       continue;
     }
-    const std::vector<double> worst = measure_anytime(*mesh, trial.stroke, options, demand.times, 3);
+    const std::vector<double> worst = measure_anytime(*mesh, trial.stroke, options, demand.times, 5);
     for (std::size_t i = 0; i < worst.size(); ++i) {
       table.add({name, figure(snap), figure(demand.times[i]), figure(worst[i])});
     }
@@ -154,7 +154,9 @@ void study_anytime(const Settings& settings, const std::vector<Cube>& cubes, std
     for (const Cube& cube : cubes) {
       if (cube.cells == demand.cells) {
         run_anytime(settings, cube, demand, settings.engine.cut.snap, table, tally);
-        run_anytime(settings, cube, demand, 0, table, stress);
+        if (settings.engine.cut.profile != Profile::kPaper) {
+          run_anytime(settings, cube, demand, 0, table, stress);
+        }
       }
     }
     accept_anytime(demand, tally, lines);
