@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/property_map/property_map.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +25,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -240,33 +240,18 @@ std::vector<Edge> find_ridges(const Soup& soup, const Patches& walls) {
 
 using VertexPair = std::pair<VertexHandle, VertexHandle>;
 
-/// CGAL's map of constrained edges; it has to be default constructible and copies must share what they hold.
-struct ConstrainedEdges {
-  using key_type = VertexPair;
-  using value_type = bool;
-  using reference = bool;
-  using category = boost::read_write_property_map_tag;
-
-  std::set<VertexPair>* edges = nullptr;
-
-  friend bool get(const ConstrainedEdges& map, const VertexPair& key) { return map.edges->count(key) != 0; }
-  friend void put(const ConstrainedEdges& map, const VertexPair& key, bool is_constrained) {
-    is_constrained ? (void)map.edges->insert(key) : (void)map.edges->erase(key);
-  }
-};
-
 /// Runs CGAL's remesher on the input's triangulation and returns the processor time in seconds.
 double remesh(Triangulation& triangulation, const Input& input, const std::vector<VertexHandle>& handles,
               double edge_length, unsigned iterations) {
-  std::set<VertexPair> edges;
+  std::map<VertexPair, bool> edges;
   for (const Edge& edge : find_ridges(input.soup, input.walls)) {
     // CGAL's builder puts the infinite vertex first.
-    edges.insert(CGAL::Tetrahedral_remeshing::make_vertex_pair(handles[edge[0] + 1], handles[edge[1] + 1]));
+    edges[CGAL::Tetrahedral_remeshing::make_vertex_pair(handles[edge[0] + 1], handles[edge[1] + 1])] = true;
   }
   const std::clock_t start = std::clock();
-  CGAL::tetrahedral_isotropic_remeshing(
-      triangulation, edge_length,
-      CGAL::parameters::number_of_iterations(iterations).edge_is_constrained_map(ConstrainedEdges{&edges}));
+  CGAL::tetrahedral_isotropic_remeshing(triangulation, edge_length,
+                                        CGAL::parameters::number_of_iterations(iterations)
+                                            .edge_is_constrained_map(boost::make_assoc_property_map(edges)));
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
