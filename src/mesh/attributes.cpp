@@ -515,7 +515,6 @@ class Attributes::Stepper {
     for (std::size_t i = 0; i < produced_.size(); ++i) {
       for (const VertexId v : produced_[i].vertices) all_.lumped_[v] += 0.25 * volumes_[i];
     }
-    for (const VertexId v : orphans_) all_.lumped_[v] = 0;
   }
 
   /// Moves a vertex with its copies; shrinking tets around it hand material to growing ones.
