@@ -432,21 +432,29 @@ class Attributes::Stepper {
       parent_of_.push_back(at);
     }
   }
-  /// The cavity is one family, unless it spans a border between regions: only splits do, where every tet has its own.
   void measure_cavity() {
-    const std::int32_t region = produced_.front().region;
-    is_one_family_ =
-        std::all_of(produced_.begin(), produced_.end(), [&](const ProducedTet& t) { return t.region == region; });
-    families_.assign(is_one_family_ ? 1 : consumed_.size(), Family{});
+    families_.assign(consumed_.size(), Family{});
     old_volumes_.clear();
     volumes_.clear();
     for (const ConsumedTet& tet : consumed_) old_volumes_.push_back(all_.volume(tet.vertices));
     for (std::size_t i = 0; i < produced_.size(); ++i) {
       volumes_.push_back(all_.volume(produced_[i].vertices));
-      Family& family = families_[family_of(parent_of_[i])];
-      family.children_volume += volumes_.back();
-      ++family.children;
+      families_[parent_of_[i]].children_volume += volumes_.back();
+      ++families_[parent_of_[i]].children;
     }
+    unite_families();
+  }
+  /// The cavity is one family, unless it spans a border between regions: only splits do, where every tet has its own.
+  void unite_families() {
+    const auto is_first = [&](const ProducedTet& tet) { return tet.region == produced_.front().region; };
+    const auto is_childless = [](const Family& family) { return family.children == 0; };
+    is_one_family_ = std::all_of(produced_.begin(), produced_.end(), is_first) ||
+                     std::any_of(families_.begin(), families_.end(), is_childless);
+    for (std::size_t i = 1; is_one_family_ && i < families_.size(); ++i) {
+      families_[0].children_volume += families_[i].children_volume;
+      families_[0].children += families_[i].children;
+    }
+    families_.resize(is_one_family_ ? 1 : families_.size());
   }
   [[nodiscard]] std::size_t family_of(std::size_t consumed) const { return is_one_family_ ? 0 : consumed; }
   [[nodiscard]] double share_in_family(std::size_t produced) const {
