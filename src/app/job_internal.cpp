@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/job_internal.h"
 
-#include <algorithm>
-
 #include "incise/app/mesh_export.h"
 
 namespace incise::inline v0 {
@@ -39,14 +37,9 @@ double Upkeep::run(Engine& engine, MaintainReport& sum) {
   if (!is_on_) return 0;
   const Stopwatch watch;
   left_us_ += budget_us_;
-  std::uint64_t left_units = work_units_;
-  while (engine.has_maintenance() && left_units > 0 && !(has_clock_ && 1e3 * watch.ms() >= left_us_)) {
-    const MaintainReport portion = engine.maintain(std::min(kMaintenancePortion, left_units));
-    const std::uint64_t spent = portion.maintain.work_units;
-    add(portion, sum);
-    if (spent == 0) break;  // what waits cannot be helped now
-    left_units -= std::min(left_units, spent);
-  }
+  ShouldStop should_stop;
+  if (has_clock_) should_stop = [&] { return 1e3 * watch.ms() >= left_us_; };
+  add(engine.maintain(work_units_, should_stop), sum);
   left_us_ -= 1e3 * watch.ms();
   return watch.ms();
 }

@@ -24,8 +24,8 @@ class Stopwatch {
 
 /// Maintains a mesh after each stroke, within a budget.
 ///
-/// The engine counts work, not time: it gets portion after portion while the clock, if there is a budget of time,
-/// allows. The sum of the portions says later what was done, whatever the clock was.
+/// The engine counts work, not time: where there is a budget of time, the clock stops it between two operations. The
+/// units spent say later what was done, whatever the clock was.
 class Upkeep {
  public:
   /// `wanted` is what the job asks for; the engine itself must have no work units: see `without_upkeep`.
@@ -38,7 +38,7 @@ class Upkeep {
   bool is_on_, has_clock_;
   std::uint64_t work_units_;
   double budget_us_;
-  double left_us_ = 0;  // over from earlier strokes; below 0 where the last portion took longer
+  double left_us_ = 0;  // over from earlier strokes; below 0 where the last operation took longer
 };
 
 /// The same options for an engine that only cuts, so that the mesh can be measured before its maintenance.

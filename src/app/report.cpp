@@ -61,6 +61,7 @@ Json maintain_json(const JobReport& report) {
           {"moved_vertices", done.moved_vertices},
           {"removed_edges", done.removed_edges},
           {"removed_faces", done.removed_faces},
+          {"peeled_tets", done.peeled_tets},
           {"inserted_vertices", done.inserted_vertices},
           {"waiting_tets", done.waiting_tets},
           {"created_tets", done.created_tets},

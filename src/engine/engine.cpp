@@ -37,7 +37,10 @@ Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
 }
 
 Engine::Engine(TetMesh mesh, EngineOptions options)
-    : mesh_(std::move(mesh)), options_(std::move(options)), cutter_(options_.cut, options_.threads), maintainer_(options_.maintain) {}
+    : mesh_(std::move(mesh)),
+      options_(std::move(options)),
+      cutter_(options_.cut, options_.threads),
+      maintainer_(options_.maintain) {}
 
 Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   StrokeReport report;
@@ -51,7 +54,7 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   report.cut = *cut;
   tell(options_.log, *cut);
   take_up(stroke, report.stroke, first_step);
-  report.maintain = maintain(options_.maintain.work_units, report.times);
+  report.maintain = maintain(options_.maintain.work_units, report.times, {});
   report.step_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   push_operation(true);
   return report;
@@ -59,6 +62,9 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
 
 /// Hands the surroundings of a fresh cut to whoever maintains the mesh.
 void Engine::take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_step) {
+  if (!options_.maintain.merge && !options_.maintain.improve) {
+    return;
+  }
   if (is_paper()) {
     paper_first_step_ = std::min(paper_first_step_, first_step);
     return;
@@ -68,9 +74,9 @@ void Engine::take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_
   maintainer_.take_up(mesh_, journal_, first_step);
 }
 
-MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times) {
+MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop) {
   if (!is_paper()) {
-    return maintainer_.run(mesh_, journal_, work_units, times);
+    return maintainer_.run(mesh_, journal_, work_units, times, should_stop);
   }
   if (paper_first_step_ == kNothingWaits || work_units == 0) {
     return {};
@@ -79,9 +85,9 @@ MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times)
   return maintain_as_paper(mesh_, journal_, first_step, options_.maintain, times);
 }
 
-MaintainReport Engine::maintain(std::uint64_t work_units) {
+MaintainReport Engine::maintain(std::uint64_t work_units, const ShouldStop& should_stop) {
   MaintainReport report;
-  report.maintain = maintain(work_units, report.times);
+  report.maintain = maintain(work_units, report.times, should_stop);
   if (!operations_.empty()) {
     operations_.back().end = journal_.position();
   }
@@ -92,13 +98,13 @@ bool Engine::has_maintenance() const {
   return is_paper() ? paper_first_step_ != kNothingWaits : maintainer_.has_work();
 }
 
-MaintainReport Engine::improve() {
+MaintainReport Engine::improve(const ShouldStop& should_stop) {
   MaintainReport report;
   if (is_paper()) {
     report.maintain = maintain_all_as_paper(mesh_, journal_, options_.maintain, report.times);
   } else {
     maintainer_.take_up_all(mesh_);
-    report.maintain = maintainer_.run(mesh_, journal_, options_.maintain.work_units, report.times);
+    report.maintain = maintainer_.run(mesh_, journal_, options_.maintain.work_units, report.times, should_stop);
   }
   push_operation(false);
   return report;

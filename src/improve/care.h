@@ -27,7 +27,7 @@ struct Care {
 };
 
 /// Cut walls leave their place by at most this share of the local edge.
-inline constexpr double kWallTolerance = 0.01;
+inline constexpr double kWallTolerance = 0.014;
 
 inline double surface_tolerance(const Care& care, std::uint32_t tag) {
   return tag == 0 ? care.skin_tolerance : kWallTolerance;

@@ -17,6 +17,8 @@ constexpr std::size_t kEdgesTried = 3;
 constexpr double kLengthCap = 1.5;
 /// New faces turn away from their surface by less than the angle with this cosine: 60 degrees.
 constexpr double kFaceCosine = 0.5;
+/// What a lip may lose to the other at a front, as a share of the longest edge cubed: six times the volume.
+constexpr double kFrontVolume = 1e-12;
 constexpr unsigned kBoundary = shape::kSkin | shape::kWall;
 
 struct RankedEdge {
@@ -55,26 +57,18 @@ void for_each_face(const TetMesh& mesh, const std::vector<TetId>& tets, VertexId
   }
 }
 
-Facet facet_of(const TetMesh& mesh, Side side) {
+/// A side with one of its vertices first.
+Facet facet_of(const TetMesh& mesh, Side side, VertexId first) {
   const auto v = mesh.vertices(side);
-  return {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])};
+  const auto at = static_cast<std::size_t>(std::find(v.begin(), v.end(), first) - v.begin());
+  return {mesh.rest(v[at]), mesh.rest(v[(at + 1) % 3]), mesh.rest(v[(at + 2) % 3])};
 }
 
-Facet facet_with(const TetMesh& mesh, Side side, VertexId vertex, const Vec3& place) {
-  Facet facet = facet_of(mesh, side);
-  const auto v = mesh.vertices(side);
-  for (unsigned k = 0; k < 3; ++k) {
-    if (v[k] == vertex) facet[k] = place;
-  }
-  return facet;
-}
-
+/// Samples a facet at its centroid and along the edge from its first corner: the rim of the piece does not move.
 void add_facet(Piece& piece, const Facet& f) {
   piece.facets.push_back(f);
   piece.samples.push_back((f[0] + f[1] + f[2]) / 3.0);
-  for (unsigned k = 0; k < 3; ++k) {
-    piece.samples.push_back(0.5 * (f[k] + f[(k + 1) % 3]));
-  }
+  piece.samples.push_back(0.5 * (f[0] + f[1]));
 }
 
 Vec3 vector_area2(const Facet& f) {
@@ -122,6 +116,7 @@ void EdgeCollapser::begin(Care& care, VertexId from) {
     return;
   }
   begun_ = from;
+  has_before_ = false;
   star_ = care.walker.star(care.mesh, from);
   surfaces_ = surfaces_at(care.mesh, from, star_);
   worst_ = worst_of(care, star_);
@@ -136,7 +131,7 @@ void EdgeCollapser::begin(Care& care, VertexId from) {
 
 bool EdgeCollapser::try_collapse(Care& care, VertexId from, VertexId into) {
   const unsigned bits = care.mesh.shape_of(from), into_bits = care.mesh.shape_of(into);
-  if ((bits & (shape::kFront | shape::kPinched)) != 0 || ((bits & kBoundary) & ~into_bits) != 0) {
+  if ((bits & shape::kPinched) != 0 || ((bits & (kBoundary | shape::kFront)) & ~into_bits) != 0) {
     return false;
   }
   begin(care, from);
@@ -146,6 +141,9 @@ bool EdgeCollapser::try_collapse(Care& care, VertexId from, VertexId into) {
     return false;
   }
   if (is_curved() && !(keep_volume(care) && improves(care) && keeps_surfaces(care))) {
+    return false;
+  }
+  if (surfaces_.is_front() && !keeps_front(care.mesh, from, surfaces_, care.skin_tolerance * longest_)) {
     return false;
   }
   planner_.plan(care.mesh, from, into, plan_);
@@ -175,41 +173,62 @@ bool EdgeCollapser::may_merge(const Care& care) const {
   return surfaces_.count == 1 ? faces[0] == 2 : faces[0] == 1 && faces[1] == 1;
 }
 
-/// What becomes of the faces of every surface, and the volume that this costs.
-void EdgeCollapser::collect_patches(const Care& care) {
+/// The faces of every surface around `from`, once for all edges.
+void EdgeCollapser::collect_before(const Care& care) {
   for (Patch& patch : patches_) {
     patch.before.clear();
     patch.before.samples.push_back(care.mesh.rest(plan_.from));
+  }
+  for_each_face(care.mesh, star_, plan_.from, VertexId(), [&](std::uint32_t tag, Side side) {
+    const Facet facet = facet_of(care.mesh, side, plan_.from);
+    const unsigned at = surfaces_.find(tag, vector_area2(facet).normalized());
+    if (at < 2) add_facet(patches_[at].before, facet);
+  });
+  for (unsigned i = 0; i < surfaces_.count; ++i) {
+    const std::uint32_t tag = surfaces_.surfaces[i].tag;
+    patches_[i].limit = care.references.limit(tag, patches_[i].before, surface_tolerance(care, tag) * longest_);
+  }
+  has_before_ = true;
+}
+
+/// What becomes of them, and the volume that this costs.
+void EdgeCollapser::collect_after(const Care& care) {
+  for (Patch& patch : patches_) {
     patch.after.clear();
     patch.lost6 = 0;
   }
-  for_each_face(care.mesh, star_, plan_.from, VertexId(), [&](std::uint32_t tag, Side side) {
-    const Facet facet = facet_of(care.mesh, side);
-    const unsigned at = surfaces_.find(tag, vector_area2(facet).normalized());
-    if (at >= surfaces_.count) return;
-    Patch& patch = patches_[at];
-    add_facet(patch.before, facet);
-    patch.before.samples.push_back(care.mesh.rest(plan_.from));
-    const auto v = care.mesh.vertices(side);
-    if (std::find(v.begin(), v.end(), plan_.into) == v.end()) {
-      add_facet(patch.after, facet_with(care.mesh, side, plan_.from, place_));
-      patch.lost6 += (facet[0] - place_).cross(facet[1] - place_).dot(facet[2] - place_);
+  const Vec3& into = care.mesh.rest(plan_.into);
+  for (Patch& patch : patches_) {
+    for (const Facet& facet : patch.before.facets) {
+      if (facet[1] != into && facet[2] != into) {
+        patch.lost6 += (facet[0] - place_).cross(facet[1] - place_).dot(facet[2] - place_);
+        add_facet(patch.after, {place_, facet[1], facet[2]});
+      }
     }
-  });
+  }
 }
 
 /// Finds the place of the merged vertex that keeps the volume under every surface; false where there is none nearby.
 /// The volume is linear in the vertex, with its vector area as gradient.
 bool EdgeCollapser::keep_volume(const Care& care) {
-  collect_patches(care);
+  if (!has_before_) {
+    collect_before(care);
+  }
+  collect_after(care);
+  if (surfaces_.is_front()) {
+    return std::abs(patches_[0].lost6 + patches_[1].lost6) <= kFrontVolume * longest_ * longest_ * longest_;
+  }
   around_ = care.walker.star(care.mesh, plan_.into);
   VertexSurfaces merged;
   std::array<double, 2> lost6{};
-  const auto add = [&](std::uint32_t tag, const Facet& facet) { add_face(merged, tag, vector_area2(facet)); };
-  for_each_face(care.mesh, star_, plan_.from, plan_.into,
-                [&](std::uint32_t tag, Side side) { add(tag, facet_with(care.mesh, side, plan_.from, place_)); });
-  for_each_face(care.mesh, around_, plan_.into, plan_.from,
-                [&](std::uint32_t tag, Side side) { add(tag, facet_of(care.mesh, side)); });
+  for_each_face(care.mesh, star_, plan_.from, plan_.into, [&](std::uint32_t tag, Side side) {
+    Facet facet = facet_of(care.mesh, side, plan_.from);
+    facet[0] = place_;
+    add_face(merged, tag, vector_area2(facet));
+  });
+  for_each_face(care.mesh, around_, plan_.into, plan_.from, [&](std::uint32_t tag, Side side) {
+    add_face(merged, tag, vector_area2(facet_of(care.mesh, side, plan_.into)));
+  });
   for (unsigned i = 0; i < surfaces_.count; ++i) {
     const unsigned at = merged.find(surfaces_.surfaces[i].tag, surfaces_.surfaces[i].first_normal);
     if (at >= std::min(merged.count, 2U)) {
@@ -218,17 +237,7 @@ bool EdgeCollapser::keep_volume(const Care& care) {
     lost6[at] += patches_[i].lost6;
   }
   Vec3 step = Vec3::Zero();
-  const Vec3& p = merged.surfaces[0].vector_area;
-  const Vec3& q = merged.surfaces[1].vector_area;
-  if (merged.count == 1) {
-    step = (lost6[0] / p.squaredNorm()) * p;
-  } else if (merged.count == 2) {
-    const double pp = p.dot(p), pq = p.dot(q), qq = q.dot(q), determinant = pp * qq - pq * pq;
-    if (!(determinant > 0.03 * pp * qq)) {
-      return false;
-    }
-    step = ((lost6[0] * qq - lost6[1] * pq) * p + (lost6[1] * pp - lost6[0] * pq) * q) / determinant;
-  } else {
+  if (!find_volume_step(merged, lost6, step)) {
     return false;
   }
   place_ += step;
@@ -273,8 +282,8 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) const {
         return false;
       }
     }
-    if (!surface.is_flat && !care.references.allows(surface.tag, patches_[i].before, patches_[i].after,
-                                                    surface_tolerance(care, surface.tag) * longest_)) {
+    if (!surface.is_flat &&
+        !care.references.allows(surface.tag, patches_[i].before, patches_[i].after, patches_[i].limit)) {
       return false;
     }
   }

@@ -29,13 +29,15 @@ class EdgeCollapser {
   /// One surface of `from`: what changes on it.
   struct Patch {
     Piece before, after;
+    double limit = 0;  ///< of `References`
     double lost6 = 0;  ///< six times the volume that its faces lose where `into` stays in place
   };
 
   void begin(Care& care, VertexId from);
   bool try_collapse(Care& care, VertexId from, VertexId into);
   [[nodiscard]] bool may_merge(const Care& care) const;
-  void collect_patches(const Care& care);
+  void collect_before(const Care& care);
+  void collect_after(const Care& care);
   bool keep_volume(const Care& care);
   [[nodiscard]] bool is_short_enough(const Care& care) const;
   [[nodiscard]] bool is_curved() const { return surfaces_.count > 0 && !surfaces_.is_flat(); }
@@ -51,8 +53,9 @@ class EdgeCollapser {
   VertexId begun_;
   std::vector<TetId> star_;
   VertexSurfaces surfaces_;
-  double worst_ = 0;    // ratio in its star
-  double longest_ = 0;  // edge of its
+  double worst_ = 0;         // ratio in its star
+  double longest_ = 0;       // edge of its
+  bool has_before_ = false;  // the patches' pieces before, and their limits, are known
 
   std::vector<TetId> around_;  // the star of `into`
   std::array<Patch, 2> patches_;

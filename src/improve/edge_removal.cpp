@@ -47,7 +47,7 @@ bool EdgeRemover::try_edge(Care& care, VertexId a, VertexId b, TetId seed) {
     return false;
   }
   fill_edge_removal(care.mesh, a, b, ring_, triangles_, plan_);
-  if (!keeps_current(care.mesh, plan_)) {
+  if (makes_known_edge(care) || !keeps_current(care.mesh, plan_)) {
     return false;
   }
   apply(care.transaction, plan_, care.changed);
@@ -59,6 +59,16 @@ bool EdgeRemover::is_removable(const Care& care) const {
   const std::size_t n = ring_.vertices.size();
   return n >= 3 && n <= kMostVertices && has_one_region(care.mesh, ring_.tets) &&
          (ring_.is_closed || has_flat_ends(care.mesh, ring_));
+}
+
+/// Whether the new boundary edge exists already: the other lip of a cut has it where both ends are on the front.
+bool EdgeRemover::makes_known_edge(Care& care) const {
+  if (ring_.is_closed) {
+    return false;
+  }
+  const std::vector<TetId>& star = care.walker.star(care.mesh, ring_.vertices.front());
+  return std::any_of(star.begin(), star.end(),
+                     [&](TetId tet) { return care.mesh.corner_of(tet, ring_.vertices.back()) < 4; });
 }
 
 /// The worse of the two tets that a triangle of the ring makes with the ends of the edge; 0 where it is below the

@@ -9,6 +9,8 @@
 #include "improve/care.h"
 #include "improve/edge_collapse.h"
 #include "improve/edge_removal.h"
+#include "improve/insertion.h"
+#include "improve/peeling.h"
 #include "improve/smooth.h"
 
 namespace incise::inline v0 {
@@ -70,9 +72,11 @@ class Maintainer::Queue {
     mesh.for_each_tet([&](TetId tet) { push(mesh, tet); });
   }
 
-  MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times) {
+  MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
+                         const ShouldStop& should_stop) {
     statistics_ = {};
     work_units_ = work_units;
+    should_stop_ = &should_stop;
     const std::size_t tets_before = mesh.tet_count();
     while (has_work() && has_budget()) {
       run_step(mesh, journal, times);
@@ -142,7 +146,9 @@ class Maintainer::Queue {
     return worst;
   }
 
-  [[nodiscard]] bool has_budget() const { return statistics_.work_units < work_units_; }
+  [[nodiscard]] bool has_budget() const {
+    return statistics_.work_units < work_units_ && !(*should_stop_ && (*should_stop_)());
+  }
 
   /// One journal step: bad tets first, then what the cut made needlessly dense, then the tets that could be better.
   void run_step(TetMesh& mesh, Journal& journal, StageTimes& times) {
@@ -165,8 +171,9 @@ class Maintainer::Queue {
     care.spend(1);
     const TetMesh& mesh = care.mesh;
     const bool is_fresh = mesh.is_live(worst.tet) && inradius_ratio(mesh, mesh.vertices(worst.tet)) == worst.ratio;
-    care.skin_tolerance = worst.ratio < kBad ? kCoarseTolerance : kFineTolerance;
-    return is_fresh && improve(care, worst.tet, times);
+    const bool is_bad = worst.ratio < kBad;
+    care.skin_tolerance = is_bad ? kCoarseTolerance : kFineTolerance;
+    return is_fresh && improve(care, worst.tet, is_bad, times);
   }
   bool thin_out_next(Care& care, StageTimes& times) {
     const StageZone zone(times, Stage::kMerge);
@@ -179,7 +186,7 @@ class Maintainer::Queue {
     }
     return has_merged;
   }
-  bool improve(Care& care, TetId tet, StageTimes& times) {
+  bool improve(Care& care, TetId tet, bool is_bad, StageTimes& times) {
     if (options_.merge) {
       const StageZone zone(times, Stage::kMerge);
       if (collapser_.improve(care, tet)) return true;
@@ -188,7 +195,8 @@ class Maintainer::Queue {
       return false;
     }
     const StageZone zone(times, Stage::kImprove);
-    return remover_.improve(care, tet) || face_remover_.improve(care, tet) || smooth(care, tet);
+    return remover_.improve(care, tet) || face_remover_.improve(care, tet) || smooth(care, tet) ||
+           (is_bad && (peeler_.improve(care, tet) || inserter_.improve(care, tet)));
   }
   bool smooth(Care& care, TetId tet) {
     const TetVertices corners = care.mesh.vertices(tet);
@@ -209,7 +217,8 @@ class Maintainer::Queue {
   std::vector<VertexId> crowd_;  // vertices that cuts made, to be merged where they are not needed
   std::size_t next_in_crowd_ = 0;
   unsigned thinning_round_ = 0;
-  std::uint64_t work_units_ = 0;         // of the run in progress
+  std::uint64_t work_units_ = 0;  // of the run in progress
+  const ShouldStop* should_stop_ = nullptr;
   ZeroedArray<std::uint32_t> in_care_;   // per vertex slot: 4 · the epoch that took it up + nearness
   ZeroedArray<std::uint8_t> is_pushed_;  // scratch of `push_stars`, zero between calls
   std::uint32_t epoch_ = 1;
@@ -218,6 +227,8 @@ class Maintainer::Queue {
   EdgeRemover remover_;
   FaceRemover face_remover_;
   Smoother smoother_;
+  Peeler peeler_;
+  VertexInserter inserter_;
 };
 
 Maintainer::Maintainer(MaintainOptions options) : queue_(std::make_unique<Queue>(options)) {}
@@ -234,8 +245,9 @@ void Maintainer::take_up(const TetMesh& mesh, const Journal& journal, std::size_
 void Maintainer::take_up_all(const TetMesh& mesh) {
   queue_->take_up_all(mesh);
 }
-MaintainStatistics Maintainer::run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times) {
-  return queue_->run(mesh, journal, work_units, times);
+MaintainStatistics Maintainer::run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
+                                   const ShouldStop& should_stop) {
+  return queue_->run(mesh, journal, work_units, times, should_stop);
 }
 bool Maintainer::has_work() const {
   return queue_->has_work();

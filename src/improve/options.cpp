@@ -10,6 +10,7 @@ MaintainStatistics& MaintainStatistics::operator+=(const MaintainStatistics& oth
   removed_edges += other.removed_edges;
   removed_faces += other.removed_faces;
   inserted_vertices += other.inserted_vertices;
+  peeled_tets += other.peeled_tets;
   waiting_tets = other.waiting_tets;
   created_tets += other.created_tets;
   return *this;

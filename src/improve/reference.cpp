@@ -2,6 +2,7 @@
 #include "improve/reference.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "incise/geom/closest.h"
 
@@ -19,28 +20,26 @@ bool are_near(const Piece& piece, const Piece& other, double tolerance2) {
                      [&](const Vec3& p) { return is_near(p, other.facets, tolerance2); });
 }
 
-/// The greatest squared distance of a piece's samples and corners from a sweep.
-double farthest2(const TriangleTree& sweep, const Piece& piece) {
-  double farthest = 0;
-  for (const Vec3& p : piece.samples) {
-    farthest = std::max(farthest, sweep.closest(p).distance2);
-  }
-  return farthest;
-}
-
 }  // namespace
 
-bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance) const {
+double References::limit(std::uint32_t tag, const Piece& before, double tolerance) const {
+  const auto sweep = sweeps_.find(tag);
+  double limit2 = tolerance * tolerance;
+  if (sweep != sweeps_.end()) {
+    for (const Vec3& p : before.samples) {
+      limit2 = std::max(limit2, sweep->second.closest(p).distance2);
+    }
+  }
+  return std::sqrt(limit2);
+}
+
+bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double limit) const {
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end()) {
-    const double tolerance2 = tolerance * tolerance;
-    return are_near(after, before, tolerance2) && are_near(before, after, tolerance2);
+    return are_near(after, before, limit * limit) && are_near(before, after, limit * limit);
   }
-  const auto is_close = [&](const Vec3& p) { return sweep->second.closest(p, tolerance).is_valid(); };
-  if (std::all_of(after.samples.begin(), after.samples.end(), is_close)) {
-    return true;
-  }
-  return farthest2(sweep->second, after) <= farthest2(sweep->second, before);
+  return std::all_of(after.samples.begin(), after.samples.end(),
+                     [&](const Vec3& p) { return sweep->second.closest(p, limit).is_valid(); });
 }
 
 }  // namespace incise::inline v0

@@ -31,10 +31,13 @@ class References {
  public:
   void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = std::move(sweep); }
 
-  /// Whether the surface under a tag may change from `before` to `after`: no sample of `after` lies further from the
-  /// reference than `tolerance`, or than those of `before` did. Where there is no reference the pieces are compared
-  /// with each other. Cost: O(samples·facets), or with a tree O(samples of `after`).
-  [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance) const;
+  /// How far a piece of surface under a tag may lie from what `allows` compares it with once it is replaced:
+  /// `tolerance`, or as far as it lies from its reference now. Cost: O(samples) where there is a reference.
+  [[nodiscard]] double limit(std::uint32_t tag, const Piece& before, double tolerance) const;
+
+  /// Whether `before` may give way to `after`: no sample of `after` lies further than `limit` from the reference. Where
+  /// there is none the pieces are compared with each other. Cost: O(samples of `after`), or O(samples·facets).
+  [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double limit) const;
 
  private:
   std::map<std::uint32_t, TriangleTree> sweeps_;

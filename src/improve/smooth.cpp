@@ -37,31 +37,6 @@ Vec3 restrict_step(const Vec3& step, const VertexSurfaces& surfaces) {
   return Vec3::Zero();
 }
 
-/// The Newton step within what the vertex may do.
-Vec3 newton_step(const StarEnergy::Value& value, const VertexSurfaces& surfaces) {
-  Eigen::Matrix3d hessian = value.hessian;
-  Vec3 gradient = value.gradient;
-  if (surfaces.mobility == Mobility::kLine) {
-    const Vec3& u = surfaces.along;
-    return -(gradient.dot(u) / u.dot(hessian * u)) * u;
-  }
-  if (surfaces.mobility == Mobility::kSurface) {
-    // Solved with the normal's row and column replaced: H' = P H P + s n nᵀ, P = 1 − n nᵀ.
-    const Vec3& n = surfaces.along;
-    const Eigen::Matrix3d project = Eigen::Matrix3d::Identity() - n * n.transpose();
-    const double scale = hessian.trace();
-    hessian = project * hessian * project + scale * n * n.transpose();
-    gradient = project * gradient;
-  }
-  return restrict_step(-hessian.llt().solve(gradient), surfaces);
-}
-
-/// A rest point in the barycentric coordinates of a tet.
-struct MaterialPoint {
-  TetVertices basis;
-  std::array<double, 4> weights{};
-};
-
 MaterialPoint coordinates_in(const TetMesh& mesh, TetId tet, const Vec3& place) {
   const TetVertices& v = mesh.vertices(tet);
   std::array<Vec3, 4> p = {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
@@ -95,6 +70,24 @@ bool is_sound_now(const TetMesh& mesh, const TetVertices& v) {
                           mesh.current(v[2]) == mesh.rest(v[2]) && mesh.current(v[3]) == mesh.rest(v[3]);
   return is_at_rest ||
          signed_volume6(mesh.current(v[0]), mesh.current(v[1]), mesh.current(v[2]), mesh.current(v[3])) > 0;
+}
+
+Vec3 newton_step(const StarEnergy::Value& value, const VertexSurfaces& surfaces) {
+  Eigen::Matrix3d hessian = value.hessian;
+  Vec3 gradient = value.gradient;
+  if (surfaces.mobility == Mobility::kLine) {
+    const Vec3& u = surfaces.along;
+    return -(gradient.dot(u) / u.dot(hessian * u)) * u;
+  }
+  if (surfaces.mobility == Mobility::kSurface) {
+    // Solved with the normal's row and column replaced: H' = P H P + s n nᵀ, P = 1 − n nᵀ.
+    const Vec3& n = surfaces.along;
+    const Eigen::Matrix3d project = Eigen::Matrix3d::Identity() - n * n.transpose();
+    const double scale = hessian.trace();
+    hessian = project * hessian * project + scale * n * n.transpose();
+    gradient = project * gradient;
+  }
+  return restrict_step(-hessian.llt().solve(gradient), surfaces);
 }
 
 void StarEnergy::add(const Vec3& p, const Vec3& q, const Vec3& r) {
@@ -138,25 +131,6 @@ StarEnergy::Value StarEnergy::evaluate(const Vec3& centre) const {
 
 namespace {
 
-MaterialPoint locate(const TetMesh& mesh, const Vec3& place, const std::vector<TetId>& star) {
-  MaterialPoint best = coordinates_in(mesh, star.front(), place);
-  for (std::size_t i = 1; i < star.size() && !(least_weight(best) >= 0); ++i) {
-    const MaterialPoint point = coordinates_in(mesh, star[i], place);
-    if (!(least_weight(best) >= least_weight(point))) {
-      best = point;
-    }
-  }
-  return best;
-}
-
-Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point) {
-  Vec3 current = Vec3::Zero();
-  for (unsigned c = 0; c < 4; ++c) {
-    current += point.weights[c] * mesh.current(point.basis[c]);
-  }
-  return current;
-}
-
 /// Whether the star stands deformed without inverted tets once its centre stands for another material point.
 bool stays_sound(const TetMesh& mesh, VertexId vertex, const MaterialPoint& point, const std::vector<TetId>& star) {
   const Vec3 moved = current_at(mesh, point);
@@ -175,6 +149,25 @@ bool is_deformed(const TetMesh& mesh, const std::vector<TetId>& star) {
 }
 
 }  // namespace
+
+MaterialPoint locate(const TetMesh& mesh, const Vec3& place, const std::vector<TetId>& star) {
+  MaterialPoint best = coordinates_in(mesh, star.front(), place);
+  for (std::size_t i = 1; i < star.size() && !(least_weight(best) >= 0); ++i) {
+    const MaterialPoint point = coordinates_in(mesh, star[i], place);
+    if (!(least_weight(best) >= least_weight(point))) {
+      best = point;
+    }
+  }
+  return best;
+}
+
+Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point) {
+  Vec3 current = Vec3::Zero();
+  for (unsigned c = 0; c < 4; ++c) {
+    current += point.weights[c] * mesh.current(point.basis[c]);
+  }
+  return current;
+}
 
 bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vector<TetId>& star) {
   const MaterialPoint point = locate(care.mesh, place, star);
@@ -256,17 +249,21 @@ double Smoother::worst_at(Care& care, VertexId vertex, const Vec3& place, double
 
 /// Whether the boundary around the vertex stays where it is, within the tolerance; in a plane it does by itself.
 bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& place) {
-  if (surfaces_.mobility == Mobility::kFree || surfaces_.is_flat()) {
+  if (surfaces_.mobility == Mobility::kFree || (surfaces_.is_flat() && !surfaces_.is_front())) {
     return true;
   }
   const double edge = mean_edge(care.mesh, vertex, star_);
+  if (surfaces_.is_front() && !keeps_front(care.mesh, vertex, surfaces_, care.skin_tolerance * edge)) {
+    return false;
+  }
   for (unsigned i = 0; i < surfaces_.count; ++i) {
     const SurfaceAt& surface = surfaces_.surfaces[i];
     if (surface.is_flat) {
       continue;
     }
     collect_pieces(care, vertex, place, surface.tag);
-    if (!care.references.allows(surface.tag, before_, after_, surface_tolerance(care, surface.tag) * edge)) {
+    const double limit = care.references.limit(surface.tag, before_, surface_tolerance(care, surface.tag) * edge);
+    if (!care.references.allows(surface.tag, before_, after_, limit)) {
       return false;
     }
   }

@@ -37,6 +37,9 @@ class StarEnergy {
   std::vector<Face> faces_;
 };
 
+/// The step from `here` towards the least energy, within what a vertex with these surfaces may do.
+Vec3 newton_step(const StarEnergy::Value& here, const VertexSurfaces& surfaces);
+
 /// Moves one vertex to a better place within its surfaces. Keeps scratch memory.
 class Smoother {
  public:
@@ -60,6 +63,17 @@ class Smoother {
   StarEnergy energy_;
   Piece before_, after_;
 };
+
+/// A rest point in the barycentric coordinates of a tet.
+struct MaterialPoint {
+  TetVertices basis;
+  std::array<double, 4> weights{};
+};
+
+/// The tet that holds a rest point, or is nearest to that, with the point's coordinates there.
+MaterialPoint locate(const TetMesh& mesh, const Vec3& place, const std::vector<TetId>& tets);
+/// Where a material point is as the mesh stands.
+Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point);
 
 /// Moves a vertex and samples what followers carry at the new place; `star` is its star. Returns false, and does
 /// nothing, where a tet would stand inverted that does not now.

@@ -8,13 +8,64 @@ namespace incise::inline v0 {
 
 namespace {
 
-/// Faces whose normals have at least this cosine with the first of a surface are part of it: 60 degrees.
-constexpr double kSmoothCosine = 0.5;
 /// Two surfaces that meet at less than this sine have no line to slide along.
 constexpr double kLeastSine = 0.17;
 
 bool is_same_plane(const Vec3& a, const Vec3& b) {
   return a.cross(b).squaredNorm() <= kFlat * kFlat;
+}
+
+/// The other ends of the edges at which the lips of a cut meet, and how often they were seen from either lip.
+struct FrontEdge {
+  VertexId end;
+  std::array<unsigned, 2> faces{};
+};
+
+void note_front_edges(const TetMesh& mesh, Side side, VertexId vertex, unsigned lip, std::vector<FrontEdge>& edges) {
+  for (const VertexId v : mesh.vertices(side)) {
+    if (v == vertex) {
+      continue;
+    }
+    auto edge = std::find_if(edges.begin(), edges.end(), [&](const FrontEdge& e) { return e.end == v; });
+    if (edge == edges.end()) {
+      edge = edges.insert(edges.end(), FrontEdge{v, {}});
+    }
+    ++edge->faces[lip];
+  }
+}
+
+/// A vertex inside the body where the lips of one cut meet slides along the front, if that goes on at both sides.
+void find_front(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star, VertexSurfaces& found) {
+  const SurfaceAt &one = found.surfaces[0], &other = found.surfaces[1];
+  found.mobility = Mobility::kFixed;
+  if (found.count != 2 || one.tag != other.tag || one.first_normal.dot(other.first_normal) > -kSmoothCosine) {
+    return;
+  }
+  std::vector<FrontEdge> edges;
+  for (const TetId tet : star) {
+    for (unsigned s = 0; s < 4; ++s) {
+      if (mesh.vertices(tet)[s] != vertex && mesh.links(tet)[s].is_boundary()) {
+        const unsigned lip = found.find(mesh.links(tet)[s].tag(), vector_area2(mesh, {tet, s}).normalized());
+        if (lip < 2) note_front_edges(mesh, {tet, s}, vertex, lip, edges);
+      }
+    }
+  }
+  std::erase_if(edges, [](const FrontEdge& e) { return e.faces[0] != 1 || e.faces[1] != 1; });
+  if (edges.size() != 2) {
+    return;
+  }
+  // Along the front, but orthogonal to what the lips' areas leave of each other: that keeps the volume.
+  Vec3 along = (mesh.rest(edges[1].end) - mesh.rest(edges[0].end)).normalized();
+  const Vec3 area = one.vector_area + other.vector_area;
+  if (area.squaredNorm() > kFlat * kFlat * one.vector_area.squaredNorm()) {
+    along -= (along.dot(area) / area.squaredNorm()) * area;
+  }
+  const double length = along.norm();
+  if (length > kSmoothCosine) {
+    found.front_ends = {edges[0].end, edges[1].end};
+    found.along = along / length;
+    found.mobility = Mobility::kLine;
+  }
 }
 
 }  // namespace
@@ -96,10 +147,34 @@ VertexSurfaces surfaces_at(const TetMesh& mesh, VertexId vertex, const std::vect
     }
   }
   decide_mobility(found);
-  if ((bits & (shape::kFront | shape::kPinched)) != 0) {
+  if ((bits & shape::kFront) != 0) {
+    find_front(mesh, vertex, star, found);
+  }
+  if ((bits & shape::kPinched) != 0) {
     found.mobility = Mobility::kFixed;
   }
   return found;
+}
+
+bool find_volume_step(const VertexSurfaces& surfaces, const std::array<double, 2>& lost6, Vec3& step) {
+  const Vec3& p = surfaces.surfaces[0].vector_area;
+  const Vec3& q = surfaces.surfaces[1].vector_area;
+  if (surfaces.count == 1) {
+    step = (lost6[0] / p.squaredNorm()) * p;
+    return true;
+  }
+  const double pp = p.dot(p), pq = p.dot(q), qq = q.dot(q), determinant = pp * qq - pq * pq;
+  if (surfaces.count != 2 || !(determinant > kLeastSine * kLeastSine * pp * qq)) {
+    return false;
+  }
+  step = ((lost6[0] * qq - lost6[1] * pq) * p + (lost6[1] * pp - lost6[0] * pq) * q) / determinant;
+  return true;
+}
+
+bool keeps_front(const TetMesh& mesh, VertexId vertex, const VertexSurfaces& surfaces, double tolerance) {
+  const Vec3& start = mesh.rest(surfaces.front_ends[0]);
+  const Vec3 chord = mesh.rest(surfaces.front_ends[1]) - start, arm = mesh.rest(vertex) - start;
+  return chord.cross(arm).squaredNorm() <= tolerance * tolerance * chord.squaredNorm();
 }
 
 }  // namespace incise::inline v0

@@ -18,6 +18,8 @@ struct SurfaceAt {
 
 /// Unit normals whose cross product is this short belong to one plane.
 inline constexpr double kFlat = 1e-9;
+/// Faces whose normals have at least this cosine with the first of a surface are part of it: 60 degrees.
+inline constexpr double kSmoothCosine = 0.5;
 /// Tag of borders between regions.
 inline constexpr std::uint32_t kBorderTag = 0x7FFFFFFFU;
 
@@ -35,7 +37,10 @@ struct VertexSurfaces {
   unsigned count = 0;  ///< of surfaces found; above 2 they are not kept
   Mobility mobility = Mobility::kFree;
   Vec3 along = Vec3::Zero();  ///< kLine: unit direction; kSurface: unit normal
+  /// Where the two lips of a cut meet inside the body: the neighbours on the front. Invalid elsewhere.
+  std::array<VertexId, 2> front_ends;
 
+  [[nodiscard]] bool is_front() const { return front_ends[0].is_valid(); }
   [[nodiscard]] bool is_flat() const {
     return (count < 1 || surfaces[0].is_flat) && (count < 2 || surfaces[1].is_flat);
   }
@@ -58,5 +63,13 @@ std::int64_t surface_tag(const TetMesh& mesh, Side side);
 /// **Source:** Paper §2.5 (inside, surface and contour vertices). Differs: what a vertex may do follows from the faces
 /// around it, sharp edges of the skin included.
 VertexSurfaces surfaces_at(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star);
+
+/// The step of a vertex that gives every surface at it back the volume that it lost: `lost6[i]` is six times that of
+/// surface i. Returns false where the vertex is on no surface, on more than two, or on two that are nearly parallel.
+bool find_volume_step(const VertexSurfaces& surfaces, const std::array<double, 2>& lost6, Vec3& step);
+
+/// Whether the front is straight at a vertex that slides along it: it lies within `tolerance` of the line between its
+/// neighbours there.
+bool keeps_front(const TetMesh& mesh, VertexId vertex, const VertexSurfaces& surfaces, double tolerance);
 
 }  // namespace incise::inline v0

@@ -2,6 +2,8 @@
 #include "incise/mesh/remesh.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "incise/geom/predicates.h"
 #include "incise/mesh/star.h"
@@ -23,7 +25,8 @@ void require_positive(const TetMesh& mesh, RemeshPlan& plan) {
 }
 
 bool has_one_region(const TetMesh& mesh, const std::vector<TetId>& tets) {
-  return std::all_of(tets.begin(), tets.end(), [&](TetId tet) { return mesh.region(tet) == mesh.region(tets.front()); });
+  return std::all_of(tets.begin(), tets.end(),
+                     [&](TetId tet) { return mesh.region(tet) == mesh.region(tets.front()); });
 }
 
 /// A face of a cavity or of its filling: what must meet at it.
@@ -56,7 +59,7 @@ class Remesher {
       transaction_.remove_tet(tet);
     }
     anchor_vertices();
-    transaction_.note_produced(produced_, parents_);
+    transaction_.note_produced(produced_, parents_, plan_.born);
   }
 
  private:
@@ -180,23 +183,28 @@ RemeshPlan plan_swap_32(const TetMesh& mesh, VertexId a, VertexId b, TetId seed)
 void find_edge_ring(const TetMesh& mesh, VertexId a, VertexId b, TetId seed, EdgeRing& ring) {
   ring.tets.clear();
   ring.vertices.clear();
-  const auto step = [&](TetId tet, VertexId away_from) { return mesh.links(tet)[mesh.corner_of(tet, away_from)]; };
+  ring.is_closed = false;
   // Back to the first tet of an open fan; a closed ring comes round to the seed.
+  auto [in, out] = across(mesh, seed, a, b);
   TetId first = seed;
-  while (true) {
-    const Link link = step(first, across(mesh, first, a, b)[1]);
-    if (link.is_boundary()) break;
+  for (Link link = mesh.links(first)[mesh.corner_of(first, out)]; !link.is_boundary();
+       link = mesh.links(first)[mesh.corner_of(first, out)]) {
     first = link.side().tet();
     if (first == seed) break;
+    out = std::exchange(in, mesh.vertices(first)[link.side().side()]);
   }
-  ring.is_closed = false;
+  std::tie(in, out) = std::tuple_cat(across(mesh, first, a, b));
   for (TetId tet = first;;) {
-    const auto [p, q] = across(mesh, tet, a, b);
+    if (across(mesh, tet, a, b) != std::array<VertexId, 2>{in, out}) {
+      ring.tets.clear();  // the input overlaps itself here: the fan does not turn one way
+      ring.vertices.clear();
+      return;
+    }
     ring.tets.push_back(tet);
-    ring.vertices.push_back(p);
-    const Link link = step(tet, p);
+    ring.vertices.push_back(in);
+    const Link link = mesh.links(tet)[mesh.corner_of(tet, in)];
     if (link.is_boundary()) {
-      ring.vertices.push_back(q);
+      ring.vertices.push_back(out);
       return;
     }
     tet = link.side().tet();
@@ -204,6 +212,7 @@ void find_edge_ring(const TetMesh& mesh, VertexId a, VertexId b, TetId seed, Edg
       ring.is_closed = true;
       return;
     }
+    in = std::exchange(out, mesh.vertices(tet)[link.side().side()]);
   }
 }
 

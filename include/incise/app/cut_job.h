@@ -16,10 +16,6 @@ namespace app {
 /// The greatest budget of time for maintenance, in microseconds: an hour.
 inline constexpr std::uint64_t kMaxBudgetUs = 3'600'000'000;
 
-/// Work units that a job does at a time, between two looks at the clock. A job with and one without a budget of time
-/// that do the same work in all end with the same mesh, since the portions are the same.
-inline constexpr std::uint64_t kMaintenancePortion = 100;
-
 struct CutJob {
   std::vector<Stroke> strokes;
   EngineOptions engine;

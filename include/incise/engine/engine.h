@@ -59,14 +59,15 @@ class Engine {
   /// Cost: O(tets) to find the first contact, then O(cut tets).
   Result<StrokeReport> cut(const Stroke& stroke);
 
-  /// Goes on with the maintenance that a budget left undone, for `work_units` more; it counts as part of the last stroke.
+  /// Goes on with the maintenance that a budget left undone, for `work_units` more or until `should_stop` says so; it
+  /// counts as part of the last stroke. The same units on the same mesh give the same result, whatever stopped it.
   /// Cost: about 20 ns per unit.
-  MaintainReport maintain(std::uint64_t work_units = kUnlimitedWork);
+  MaintainReport maintain(std::uint64_t work_units = kUnlimitedWork, const ShouldStop& should_stop = {});
   /// Whether maintenance waits.
   [[nodiscard]] bool has_maintenance() const;
 
   /// Maintains the whole mesh, cut or not: an operation of its own for undo. Cost: O(tets).
-  MaintainReport improve();
+  MaintainReport improve(const ShouldStop& should_stop = {});
 
   /// Takes the last stroke (or `improve`) back, bit for bit, its maintenance included; maintenance that waits is dropped.
   /// Returns false where there is none. Cost: O(its edits).
@@ -85,7 +86,7 @@ class Engine {
 
   [[nodiscard]] bool is_paper() const { return options_.cut.profile == Profile::kPaper; }
   void take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_step);
-  MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times);
+  MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop);
   void push_operation(bool is_stroke);
 
   TetMesh mesh_;

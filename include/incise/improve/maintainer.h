@@ -13,10 +13,10 @@ namespace incise::inline v0 {
 
 /// Keeps the neighbourhood of cuts fit to simulate: local, worst tets first, within a budget, monotone.
 ///
-/// Every accepted change replaces a few tets by others whose worst L/r is smaller than theirs was; stopping at any point
-/// leaves a valid and better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed stay so.
-/// Vertices move within what they are part of: interior ones freely, those of a wall or of the skin in their surface,
-/// those where surfaces meet along the line, corners not; the volume on either side of every wall is kept.
+/// Every accepted change replaces a few tets by others whose worst L/r is smaller than theirs was; stopping at any
+/// point leaves a valid and better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed
+/// stay so. Vertices move within what they are part of: interior ones freely, those of a wall or of the skin in their
+/// surface, those where surfaces meet along the line, corners not; the volume on either side of every wall is kept.
 /// What a budget left undone waits for the next call. Not thread-safe; the result does not depend on threads or clocks.
 /// **Source:** Paper §2.5 and §3; M. Wicke et al., "Dynamic local remeshing for elastoplastic simulation", 2010;
 /// B. Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 2007. Differs from the paper: vertices are
@@ -36,9 +36,11 @@ class Maintainer {
   /// Takes the whole mesh into care. Cost: O(tets).
   void take_up_all(const TetMesh& mesh);
 
-  /// Works on what is in care until it is done or `work_units` are spent (by at most one operation more), and appends
-  /// journal steps. Cost: about 20 ns per unit.
-  MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times);
+  /// Works on what is in care until it is done, `work_units` are spent (by at most one operation more) or `should_stop`
+  /// says so, and appends journal steps. Calls with one work budget after the other do the same operations as one call
+  /// with their sum. Cost: about 20 ns per unit.
+  MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
+                         const ShouldStop& should_stop = {});
 
   /// Whether tets wait for another `run`.
   [[nodiscard]] bool has_work() const;

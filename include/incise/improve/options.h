@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 namespace incise::inline v0 {
@@ -9,25 +10,30 @@ namespace incise::inline v0 {
 /// Maintenance without a budget.
 inline constexpr std::uint64_t kUnlimitedWork = std::numeric_limits<std::uint64_t>::max();
 
+/// Asked between operations; true ends the maintenance for now. Where a clock decides, a recording keeps the units
+/// spent.
+using ShouldStop = std::function<bool()>;
+
 /// What is done to a mesh after a cut.
 struct MaintainOptions {
   bool merge = true;    ///< merge short edges (paper, section 2.5)
   bool improve = true;  ///< smooth, swap, and whatever else makes the worst tets better (paper, section 3)
-  /// Work units per stroke; what is left undone waits for the next one. One unit is one evaluation of one tet's quality,
-  /// about 20 ns. The paper's maintenance ignores it.
+  /// Work units per stroke; what is left undone waits for the next one. One unit is one evaluation of one tet's
+  /// quality, about 20 ns. The paper's maintenance ignores it.
   std::uint64_t work_units = kUnlimitedWork;
 };
 
 /// What maintenance did.
 struct MaintainStatistics {
-  std::uint64_t work_units = 0;        ///< spent
-  std::uint64_t collapsed_edges = 0;   ///< vertices merged into a neighbour
-  std::uint64_t moved_vertices = 0;    ///< moves, of interior and boundary vertices
-  std::uint64_t removed_edges = 0;     ///< edges swapped away: 3-2, 4-4 and larger rings
-  std::uint64_t removed_faces = 0;     ///< 2-3 swaps
+  std::uint64_t work_units = 0;       ///< spent
+  std::uint64_t collapsed_edges = 0;  ///< vertices merged into a neighbour
+  std::uint64_t moved_vertices = 0;   ///< moves, of interior and boundary vertices
+  std::uint64_t removed_edges = 0;    ///< edges swapped away: 3-2, 4-4 and larger rings
+  std::uint64_t removed_faces = 0;    ///< 2-3 swaps
   std::uint64_t inserted_vertices = 0;
-  std::uint64_t waiting_tets = 0;      ///< still below the goal and not tried again since; 0 where all is done
-  std::int64_t created_tets = 0;       ///< tets after minus tets before
+  std::uint64_t peeled_tets = 0;   ///< flat on a surface, and taken away
+  std::uint64_t waiting_tets = 0;  ///< still below the goal and not tried again since; 0 where all is done
+  std::int64_t created_tets = 0;   ///< tets after minus tets before
 
   MaintainStatistics& operator+=(const MaintainStatistics& other);
 };

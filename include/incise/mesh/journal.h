@@ -13,8 +13,8 @@ namespace incise::inline v0 {
 //   born, moved, copied, consumed, produced, rewired, opened, died.
 // Each list is in the order in which things happened, and may refer to what stands before it.
 // A step of maintenance changes the same place several times: it has `edits` besides, each with its own tets before and
-// after. Followers that carry state from tet to tet apply the edits one by one, instead of moved, consumed, produced and
-// rewired; those that rebuild what changed take the lists, which give the net effect.
+// after. Followers that carry state from tet to tet apply the edits one by one, instead of born, moved, consumed,
+// produced and rewired; those that rebuild what changed take the lists, which give the net effect.
 
 struct BornVertex {
   VertexId id;
@@ -67,8 +67,8 @@ struct Edit {
   };
   Kind kind = Kind::kMove;
   std::uint32_t vertex = kInvalidIndex;  ///< kMove: index into `moved`; kRemesh: into `born` where one was put in
-  /// kRemesh: one past its last tet in `edit_consumed` and `edit_produced`; the first one follows the edit before. A tet
-  /// that lives on with another vertex stands in both.
+  /// kRemesh: one past its last tet in `edit_consumed` and `edit_produced`; the first one follows the edit before. A
+  /// tet that lives on with another vertex stands in both.
   std::uint32_t consumed_end = 0, produced_end = 0;
 };
 

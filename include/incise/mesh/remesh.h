@@ -15,13 +15,14 @@ struct NewTet {
 
 /// The plan of filling the space of a few tets with others on the same vertices.
 ///
-/// Swaps and the removal of edges are such plans. Outer faces stay, except for two boundary faces in one plane that give
-/// way to two others there.
+/// Swaps and the removal of edges are such plans. Outer faces stay, except for two boundary faces in one plane that
+/// give way to two others there.
 struct RemeshPlan {
   Refusal refusal = Refusal::kNone;
   std::vector<TetId> consumed;
   std::vector<NewTet> produced;
   std::uint32_t tag = 0;  ///< of boundary faces that are new
+  VertexId born;          ///< the vertex that was put in for it in the same transaction, if any
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
@@ -34,8 +35,8 @@ RemeshPlan plan_swap_23(const TetMesh& mesh, Side face);
 
 /// Plans the 3-2 swap: the three tets around an inner edge give way to two. `seed` is any tet that contains the edge.
 ///
-/// Refuses an edge on a boundary or border (kOnSurface), one with another number of tets (kOutOfRange) and where the two
-/// would not be positive (kWouldInvert, by exact sign). Cost: O(1). **Source:** Paper §3.3, Figure 8.
+/// Refuses an edge on a boundary or border (kOnSurface), one with another number of tets (kOutOfRange) and where the
+/// two would not be positive (kWouldInvert, by exact sign). Cost: O(1). **Source:** Paper §3.3, Figure 8.
 RemeshPlan plan_swap_32(const TetMesh& mesh, VertexId a, VertexId b, TetId seed);
 
 /// The tets around an edge (a, b) in order. Tet i lies between the vertices i and i + 1; all are (a, b, i, i + 1) with
@@ -46,14 +47,15 @@ struct EdgeRing {
   bool is_closed = false;
 };
 
-/// Walks around an edge; `seed` is any tet that contains it. Only the face-connected ring of `seed` is found.
-/// Cost: O(ring).
+/// Walks around an edge; `seed` is any tet that contains it. Only the face-connected ring of `seed` is found; it is
+/// empty where input that overlaps itself turns back there. Cost: O(ring).
 void find_edge_ring(const TetMesh& mesh, VertexId a, VertexId b, TetId seed, EdgeRing& ring);
 
 /// A triangle of the polygon around an edge: indices into `EdgeRing::vertices`, ascending.
 using RingTriangle = std::array<std::uint8_t, 3>;
 
-/// Fills `plan` with the removal of an edge: every triangle of a triangulation of its ring makes one tet with either end.
+/// Fills `plan` with the removal of an edge: every triangle of a triangulation of its ring makes one tet with either
+/// end.
 ///
 /// For an inner edge, or one on the boundary whose two boundary faces lie in one plane and carry one tag. Whether the
 /// tets are positive, and the plane, are up to the caller. The 3-2 and 4-4 swaps are the smallest such removals.
@@ -62,7 +64,8 @@ using RingTriangle = std::array<std::uint8_t, 3>;
 void fill_edge_removal(const TetMesh& mesh, VertexId a, VertexId b, const EdgeRing& ring,
                        const std::vector<RingTriangle>& triangles, RemeshPlan& plan);
 
-/// Carries a plan out; cannot fail. `produced` receives the new tets, in the plan's order. Cost: O(n log n) in its faces.
+/// Carries a plan out; cannot fail. `produced` receives the new tets, in the plan's order. Cost: O(n log n) in its
+/// faces.
 void apply(Transaction& transaction, const RemeshPlan& plan, std::vector<TetId>& produced);
 
 }  // namespace incise::inline v0

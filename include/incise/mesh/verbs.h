@@ -10,13 +10,13 @@ namespace incise::inline v0 {
 /// Why a verb cannot be carried out. A refusal is normal flow: nothing has changed.
 enum class Refusal : std::uint8_t {
   kNone,
-  kDead,         ///< a named element does not live
-  kNotAnEdge,    ///< the two vertices share no tet
-  kOutOfRange,   ///< a parameter is outside its range
-  kWouldInvert,  ///< a tet would be inverted, or has no volume to divide
-  kStarIsWhole,  ///< nothing separates the star
-  kNoStar,       ///< the vertex has no tets, or they were not face-connected at load: its star cannot be walked
-  kOnSurface,    ///< a boundary or a border between regions would not stay where it is
+  kDead,           ///< a named element does not live
+  kNotAnEdge,      ///< the two vertices share no tet
+  kOutOfRange,     ///< a parameter is outside its range
+  kWouldInvert,    ///< a tet would be inverted, or has no volume to divide
+  kStarIsWhole,    ///< nothing separates the star
+  kNoStar,         ///< the vertex has no tets, or they were not face-connected at load: its star cannot be walked
+  kOnSurface,      ///< a boundary or a border between regions would not stay where it is
   kLinkCondition,  ///< the topology would change
 };
 
