@@ -2,9 +2,11 @@
 #include "improve/face_swap.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "improve/paper_quality.h"
 #include "incise/mesh/remesh.h"
+#include "incise/mesh/star.h"
 
 namespace incise::inline v0::paper {
 
@@ -29,7 +31,8 @@ class FaceSwapper {
   /// Two tets become three.
   bool swap_a_face(TetId tet) {
     for (unsigned s = 0; s < 4; ++s) {
-      if (swap(plan_swap_23(mesh_, Side(tet, s)))) {
+      const RemeshPlan plan = plan_swap_23(mesh_, Side(tet, s));
+      if (plan && !exists({plan.produced[0].vertices[2], plan.produced[0].vertices[3]}) && swap(plan)) {
         ++done_.removed_faces;
         return true;
       }
@@ -40,15 +43,32 @@ class FaceSwapper {
   bool swap_an_edge(TetId tet) {
     const TetVertices v = mesh_.vertices(tet);
     for (const auto& [a, b] : kEdgeCorners) {
-      if (swap(plan_swap_32(mesh_, v[a], v[b], tet))) {
+      const RemeshPlan plan = plan_swap_32(mesh_, v[a], v[b], tet);
+      if (plan && !exists(shared_face(plan)) && swap(plan)) {
         ++done_.removed_edges;
         return true;
       }
     }
     return false;
   }
+  /// The three corners that the two tets of a 3-2 swap have in common.
+  static std::vector<VertexId> shared_face(const RemeshPlan& plan) {
+    const TetVertices &first = plan.produced[0].vertices, &second = plan.produced[1].vertices;
+    std::vector<VertexId> shared;
+    std::copy_if(first.begin(), first.end(), std::back_inserter(shared),
+                 [&](VertexId v) { return std::find(second.begin(), second.end(), v) != second.end(); });
+    return shared;
+  }
+  /// Whether some tet has all of these corners. Where a cut ends inside, its two lips share vertices, and the edge or
+  /// face that a swap makes on one lip may be there already, on the other.
+  bool exists(const std::vector<VertexId>& corners) {
+    const std::vector<TetId>& star = walker_.star(mesh_, corners.front());
+    return std::any_of(star.begin(), star.end(), [&](TetId tet) {
+      return std::all_of(corners.begin(), corners.end(), [&](VertexId v) { return mesh_.corner_of(tet, v) < 4; });
+    });
+  }
   bool swap(const RemeshPlan& plan) {
-    if (!plan || !(worst_after(plan) < worst_before(plan))) {
+    if (!(worst_after(plan) < worst_before(plan))) {
       return false;
     }
     apply(transaction_, plan, produced_);
@@ -68,6 +88,7 @@ class FaceSwapper {
   Transaction& transaction_;
   const TetMesh& mesh_;
   QualityMeter meter_;
+  StarWalker walker_;
   std::vector<TetId> produced_;
   MaintainStatistics done_;
 };

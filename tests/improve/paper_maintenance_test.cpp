@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "cut/random_strokes.h"
 #include "improve/paper_region.h"
 #include "improve/paper_support.h"
 #include "incise/io/mesh_file.h"
@@ -212,6 +213,20 @@ TEST(PaperMaintenance, of_curved_partial_and_coring_cuts_keeps_a_valid_mesh) {
   expect_kept(jittered_cube(6, 7),
               {quad_stroke(Vec3(0.52, -0.2, -0.2), Vec3(0.47, -0.2, 1.2), Vec3(0.55, 0.6, -0.2), Vec3(0.5, 0.6, 1.2))},
               2e-3);
+}
+
+/// At the fronts of cuts that end inside, both lips share vertices: a swap on one lip must not make a face of the
+/// other. Seed 67 is where one did.
+TEST(PaperMaintenance, of_random_strokes_keeps_a_valid_mesh) {
+  for (const std::uint64_t seed : {67U, 68U, 69U, 70U}) {
+    SCOPED_TRACE(seed);
+    Engine engine = paper_engine(kuhn_cube(5));
+    Random random(seed);
+    for (unsigned i = 0; i < 5; ++i) {
+      cut_and_maintain(engine, random_stroke(random, rest_bounds(engine.mesh())));
+      expect_valid(engine.mesh(), 1.0, 1e-2);
+    }
+  }
 }
 
 TEST(PaperMaintenance, of_a_body_with_curved_skin_keeps_a_valid_mesh) {
