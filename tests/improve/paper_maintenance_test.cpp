@@ -229,6 +229,17 @@ TEST(PaperMaintenance, of_random_strokes_keeps_a_valid_mesh) {
   }
 }
 
+TEST(PaperMaintenance, leaves_a_body_that_touches_itself_as_it_is) {
+  TetMesh mesh = build(doubled_cube(3));
+  ASSERT_TRUE(mesh.touched_itself_at_load());
+  const std::uint64_t hash = mesh.hash();
+  Journal journal;
+  StageTimes times;
+  EXPECT_EQ(maintain_all_as_paper(mesh, journal, kAll, times).work_units, 0U);
+  EXPECT_EQ(mesh.hash(), hash);
+  EXPECT_EQ(journal.size(), 0U);
+}
+
 TEST(PaperMaintenance, of_a_body_with_curved_skin_keeps_a_valid_mesh) {
   Engine engine = paper_engine(ball(8), kNothing);
   expect_kept(ball(8), {plane(engine, Vec3(0.3, 0.5, 0.9), 0.1)}, 2e-3);
