@@ -26,11 +26,9 @@ struct Care {
   void spend(std::size_t units) { statistics.work_units += units; }
 };
 
-/// Cut walls leave their place by at most this share of the local edge.
-inline constexpr double kWallTolerance = 0.014;
-
+/// How far a surface may leave its place, as a share of the local edge.
 inline double surface_tolerance(const Care& care, std::uint32_t tag) {
-  return tag == 0 ? care.skin_tolerance : kWallTolerance;
+  return tag == 0 ? care.skin_tolerance : care.references.tolerance(tag);
 }
 
 /// An operation is accepted where the worst tet after it is better than the worst before by more than this share.

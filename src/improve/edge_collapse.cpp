@@ -120,13 +120,14 @@ void EdgeCollapser::begin(Care& care, VertexId from) {
   star_ = care.walker.star(care.mesh, from);
   surfaces_ = surfaces_at(care.mesh, from, star_);
   worst_ = worst_of(care, star_);
-  double longest2 = 0;
+  longest_ = mean_ = 0;
   for (const TetId tet : star_) {
     for (const VertexId v : care.mesh.vertices(tet)) {
-      longest2 = std::max(longest2, (care.mesh.rest(v) - care.mesh.rest(from)).squaredNorm());
+      const double length = (care.mesh.rest(v) - care.mesh.rest(from)).norm();
+      longest_ = std::max(longest_, length);
+      mean_ += length / static_cast<double>(3 * star_.size());
     }
   }
-  longest_ = std::sqrt(longest2);
 }
 
 bool EdgeCollapser::try_collapse(Care& care, VertexId from, VertexId into) {
@@ -178,16 +179,13 @@ void EdgeCollapser::collect_before(const Care& care) {
   for (Patch& patch : patches_) {
     patch.before.clear();
     patch.before.samples.push_back(care.mesh.rest(plan_.from));
+    patch.reach.reset();
   }
   for_each_face(care.mesh, star_, plan_.from, VertexId(), [&](std::uint32_t tag, Side side) {
     const Facet facet = facet_of(care.mesh, side, plan_.from);
     const unsigned at = surfaces_.find(tag, vector_area2(facet).normalized());
     if (at < 2) add_facet(patches_[at].before, facet);
   });
-  for (unsigned i = 0; i < surfaces_.count; ++i) {
-    const std::uint32_t tag = surfaces_.surfaces[i].tag;
-    patches_[i].limit = care.references.limit(tag, patches_[i].before, surface_tolerance(care, tag) * longest_);
-  }
   has_before_ = true;
 }
 
@@ -272,7 +270,7 @@ bool EdgeCollapser::improves(Care& care) const {
          }));
 }
 
-bool EdgeCollapser::keeps_surfaces(const Care& care) const {
+bool EdgeCollapser::keeps_surfaces(const Care& care) {
   for (unsigned i = 0; i < surfaces_.count; ++i) {
     const SurfaceAt& surface = surfaces_.surfaces[i];
     const Vec3 normal = surface.vector_area.normalized();
@@ -283,7 +281,8 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) const {
       }
     }
     if (!surface.is_flat &&
-        !care.references.allows(surface.tag, patches_[i].before, patches_[i].after, patches_[i].limit)) {
+        !care.references.allows(surface.tag, patches_[i].before, patches_[i].after,
+                                                    surface_tolerance(care, surface.tag) * mean_, patches_[i].reach)) {
       return false;
     }
   }

@@ -29,7 +29,7 @@ class EdgeCollapser {
   /// One surface of `from`: what changes on it.
   struct Patch {
     Piece before, after;
-    double limit = 0;  ///< of `References`
+    Reach reach;  ///< of `before`
     double lost6 = 0;  ///< six times the volume that its faces lose where `into` stays in place
   };
 
@@ -42,7 +42,7 @@ class EdgeCollapser {
   [[nodiscard]] bool is_short_enough(const Care& care) const;
   [[nodiscard]] bool is_curved() const { return surfaces_.count > 0 && !surfaces_.is_flat(); }
   [[nodiscard]] bool improves(Care& care) const;
-  [[nodiscard]] bool keeps_surfaces(const Care& care) const;
+  [[nodiscard]] bool keeps_surfaces(const Care& care);
   [[nodiscard]] bool keeps_current(const Care& care) const;
   [[nodiscard]] bool moves(const Care& care) const { return place_ != care.mesh.rest(plan_.into); }
   bool carry_out(Care& care);
@@ -54,7 +54,7 @@ class EdgeCollapser {
   std::vector<TetId> star_;
   VertexSurfaces surfaces_;
   double worst_ = 0;         // ratio in its star
-  double longest_ = 0;       // edge of its
+  double longest_ = 0, mean_ = 0;  // edge of its
   bool has_before_ = false;  // the patches' pieces before, and their limits, are known
 
   std::vector<TetId> around_;  // the star of `into`

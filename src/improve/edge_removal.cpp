@@ -2,6 +2,7 @@
 #include "improve/edge_removal.h"
 
 #include <algorithm>
+#include <span>
 
 namespace incise::inline v0 {
 
@@ -20,6 +21,21 @@ bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
   const Vec3 n = vector_area2(mesh, first_face), m = vector_area2(mesh, last_face);
   return mesh.link(first_face).tag() == mesh.link(last_face).tag() && n.dot(m) > 0 &&
          n.cross(m).squaredNorm() <= kFlat * kFlat * n.squaredNorm() * m.squaredNorm();
+}
+
+/// Whether an edge or face, given by its vertices, exists in tets other than those of a cavity. Only vertices on a front
+/// belong to both lips of a cut, and so to more than what their tets on one side know.
+bool exists_across_front(Care& care, std::span<const VertexId> vertices, const std::vector<TetId>& cavity) {
+  const TetMesh& mesh = care.mesh;
+  const auto is_on_front = [&](VertexId v) { return (mesh.shape_of(v) & shape::kFront) != 0; };
+  if (!std::all_of(vertices.begin(), vertices.end(), is_on_front)) {
+    return false;
+  }
+  const std::vector<TetId>& star = care.walker.star(mesh, vertices.front());
+  return std::any_of(star.begin(), star.end(), [&](TetId tet) {
+    return std::find(cavity.begin(), cavity.end(), tet) == cavity.end() &&
+           std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return mesh.corner_of(tet, v) < 4; });
+  });
 }
 
 }  // namespace
@@ -47,7 +63,7 @@ bool EdgeRemover::try_edge(Care& care, VertexId a, VertexId b, TetId seed) {
     return false;
   }
   fill_edge_removal(care.mesh, a, b, ring_, triangles_, plan_);
-  if (makes_known_edge(care) || !keeps_current(care.mesh, plan_)) {
+  if (makes_known_face(care) || !keeps_current(care.mesh, plan_)) {
     return false;
   }
   apply(care.transaction, plan_, care.changed);
@@ -61,14 +77,17 @@ bool EdgeRemover::is_removable(const Care& care) const {
          (ring_.is_closed || has_flat_ends(care.mesh, ring_));
 }
 
-/// Whether the new boundary edge exists already: the other lip of a cut has it where both ends are on the front.
-bool EdgeRemover::makes_known_edge(Care& care) const {
-  if (ring_.is_closed) {
-    return false;
-  }
-  const std::vector<TetId>& star = care.walker.star(care.mesh, ring_.vertices.front());
-  return std::any_of(star.begin(), star.end(),
-                     [&](TetId tet) { return care.mesh.corner_of(tet, ring_.vertices.back()) < 4; });
+/// Whether a new edge or face exists already: the other lip of a cut may have it where all its ends are on the front.
+bool EdgeRemover::makes_known_face(Care& care) const {
+  const auto last = ring_.vertices.size() - 1;
+  return std::any_of(triangles_.begin(), triangles_.end(), [&](const RingTriangle& t) {
+    const std::array<VertexId, 3> v = {ring_.vertices[t[0]], ring_.vertices[t[1]], ring_.vertices[t[2]]};
+    const auto is_new = [&](unsigned i, unsigned j) { return j - i > 1 && !(ring_.is_closed && i == 0 && j == last); };
+    return (is_new(t[0], t[1]) && exists_across_front(care, std::array{v[0], v[1]}, ring_.tets)) ||
+           (is_new(t[1], t[2]) && exists_across_front(care, std::array{v[1], v[2]}, ring_.tets)) ||
+           (is_new(t[0], t[2]) && exists_across_front(care, std::array{v[0], v[2]}, ring_.tets)) ||
+           exists_across_front(care, v, ring_.tets);
+  });
 }
 
 /// The worse of the two tets that a triangle of the ring makes with the ends of the edge; 0 where it is below the
@@ -153,7 +172,8 @@ bool FaceRemover::try_face(Care& care, Side face) {
   care.spend(5);
   const bool is_better = std::all_of(plan_.produced.begin(), plan_.produced.end(),
                                      [&](const NewTet& tet) { return inradius_ratio(mesh, tet.vertices) > bound; });
-  if (!is_better || !keeps_current(mesh, plan_)) {
+  const std::array<VertexId, 2> edge = {p, q};
+  if (!is_better || exists_across_front(care, edge, plan_.consumed) || !keeps_current(mesh, plan_)) {
     return false;
   }
   apply(care.transaction, plan_, care.changed);

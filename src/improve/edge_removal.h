@@ -21,7 +21,7 @@ class EdgeRemover {
  private:
   bool try_edge(Care& care, VertexId a, VertexId b, TetId seed);
   [[nodiscard]] bool is_removable(const Care& care) const;
-  [[nodiscard]] bool makes_known_edge(Care& care) const;
+  [[nodiscard]] bool makes_known_face(Care& care) const;
   [[nodiscard]] double rate(Care& care, VertexId a, VertexId b, unsigned i, unsigned j, unsigned k, double bound) const;
   [[nodiscard]] bool triangulate(Care& care, VertexId a, VertexId b, double bound);
   void collect_triangles(unsigned i, unsigned k);

@@ -69,6 +69,7 @@ bool VertexInserter::open_edge(const Care& care, VertexId a, VertexId b) {
   for (const Side side : opened_.faces) {
     const auto v = mesh.vertices(side);
     opened_.piece.facets.push_back({mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])});
+    opened_.piece.samples.push_back((mesh.rest(v[0]) + mesh.rest(v[1]) + mesh.rest(v[2])) / 3.0);
   }
   return true;
 }
@@ -188,14 +189,15 @@ bool VertexInserter::keeps_surface(const Care& care) {
   for (const Facet& f : opened_.piece.facets) {
     for (unsigned k = 0; k < 3; ++k) {
       longest2 = std::max(longest2, (f[k] - f[(k + 1) % 3]).squaredNorm());
+      piece_.samples.push_back(0.5 * (place_ + f[k]));
     }
   }
   const double tolerance = surface_tolerance(care, opened_.tag) * std::sqrt(longest2);
-  const double limit = care.references.limit(opened_.tag, opened_.piece, tolerance);
+  Reach reach;
   const bool is_flat =
       vector_area2(care.mesh, opened_.faces[0]).cross(vector_area2(care.mesh, opened_.faces[1])).squaredNorm() <=
       kFlat * kFlat * longest2 * longest2 * longest2 * longest2;
-  return is_flat || care.references.allows(opened_.tag, opened_.piece, piece_, limit);
+  return is_flat || care.references.allows(opened_.tag, opened_.piece, piece_, tolerance, reach);
 }
 
 /// Whether no more than two faces of the cavity's hull meet at an edge.

@@ -50,12 +50,15 @@ class Maintainer::Queue {
       ++epoch_;
     }
     std::vector<VertexId> touched;
+    std::vector<OpenedFace> opened;
     for (std::size_t i = first_step; i < journal.position(); ++i) {
       const Step& step = journal.step(i);
+      opened.insert(opened.end(), step.opened.begin(), step.opened.end());
       for (const BornVertex& v : step.born) touched.push_back(v.id);
       for (const MovedVertex& v : step.moved) touched.push_back(v.id);
       for (const CopiedVertex& v : step.copied) touched.insert(touched.end(), {v.id, v.source});
     }
+    references_.measure(mesh, opened);
     std::vector<VertexId> ring;
     for (const VertexId v : touched) {
       add_with_neighbours(mesh, v, ring);

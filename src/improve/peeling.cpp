@@ -112,8 +112,8 @@ bool Peeler::keeps_surface(const Care& care) {
     add_facet(care.mesh, {tet_, s}, after_);
   }
   const double tolerance = surface_tolerance(care, tag_) * longest_edge(care.mesh, tet_);
-  const double limit = care.references.limit(tag_, before_, tolerance);
-  return care.references.allows(tag_, before_, after_, limit);
+  Reach reach;
+  return care.references.allows(tag_, before_, after_, tolerance, reach);
 }
 
 /// Where a vertex must go to restore the volume; false where that makes the worst tet no better.

@@ -10,6 +10,12 @@ namespace incise::inline v0 {
 
 namespace {
 
+/// Facets of a fresh wall that are measured at most, and the share of them that counts as typical.
+constexpr std::size_t kMostSamples = 200;
+constexpr double kTypicalShare = 0.9;
+/// However coarse a wall is, it may leave its place by no more than this share of the local edge.
+constexpr double kGreatestTolerance = 5 * kWallTolerance;
+
 bool is_near(const Vec3& p, const std::vector<Facet>& facets, double tolerance2) {
   return std::any_of(facets.begin(), facets.end(),
                      [&](const Facet& f) { return closest_on_triangle(p, f[0], f[1], f[2]).distance2 <= tolerance2; });
@@ -20,26 +26,51 @@ bool are_near(const Piece& piece, const Piece& other, double tolerance2) {
                      [&](const Vec3& p) { return is_near(p, other.facets, tolerance2); });
 }
 
-}  // namespace
-
-double References::limit(std::uint32_t tag, const Piece& before, double tolerance) const {
-  const auto sweep = sweeps_.find(tag);
-  double limit2 = tolerance * tolerance;
-  if (sweep != sweeps_.end()) {
-    for (const Vec3& p : before.samples) {
-      limit2 = std::max(limit2, sweep->second.closest(p).distance2);
-    }
+double farthest(const TriangleTree& sweep, const Piece& piece) {
+  double farthest2 = 0;
+  for (const Vec3& p : piece.samples) {
+    farthest2 = std::max(farthest2, sweep.closest(p).distance2);
   }
-  return std::sqrt(limit2);
+  return std::sqrt(farthest2);
 }
 
-bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double limit) const {
+}  // namespace
+
+void References::measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened) {
+  const auto sweep = opened.empty() ? sweeps_.end() : sweeps_.find(opened.front().tag);
+  if (sweep == sweeps_.end()) {
+    return;
+  }
+  std::vector<double> shares;
+  const std::size_t stride = 1 + opened.size() / kMostSamples;
+  for (std::size_t i = 0; i < opened.size(); i += stride) {
+    const auto v = mesh.vertices(opened[i].a);
+    const Vec3 &p = mesh.rest(v[0]), &q = mesh.rest(v[1]), &r = mesh.rest(v[2]);
+    const double edge = ((p - q).norm() + (q - r).norm() + (r - p).norm()) / 3.0;
+    shares.push_back(std::sqrt(sweep->second.tree.closest((p + q + r) / 3.0).distance2) / edge);
+  }
+  const auto typical = shares.begin() + static_cast<std::ptrdiff_t>(kTypicalShare * static_cast<double>(shares.size()));
+  std::nth_element(shares.begin(), typical, shares.end());
+  sweep->second.tolerance = std::clamp(*typical, kWallTolerance, kGreatestTolerance);
+}
+
+double References::tolerance(std::uint32_t tag) const {
+  const auto sweep = sweeps_.find(tag);
+  return sweep == sweeps_.end() ? kWallTolerance : sweep->second.tolerance;
+}
+
+bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,
+                        Reach& reach) const {
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end()) {
-    return are_near(after, before, limit * limit) && are_near(before, after, limit * limit);
+    return are_near(after, before, tolerance * tolerance) && are_near(before, after, tolerance * tolerance);
   }
-  return std::all_of(after.samples.begin(), after.samples.end(),
-                     [&](const Vec3& p) { return sweep->second.closest(p, limit).is_valid(); });
+  const TriangleTree& tree = sweep->second.tree;
+  return std::all_of(after.samples.begin(), after.samples.end(), [&](const Vec3& p) {
+    if (tree.closest(p, tolerance).is_valid()) return true;
+    if (!reach) reach = farthest(tree, before);
+    return *reach > tolerance && tree.closest(p, *reach).is_valid();
+  });
 }
 
 }  // namespace incise::inline v0

@@ -4,12 +4,16 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "incise/geom/triangle_tree.h"
-#include "incise/mesh/tet_mesh.h"
+#include "incise/mesh/journal.h"
 
 namespace incise::inline v0 {
+
+/// Cut walls leave their place by at most this share of the local edge.
+inline constexpr double kWallTolerance = 0.014;
 
 /// A triangle of a surface, by its corners.
 using Facet = std::array<Vec3, 3>;
@@ -26,21 +30,34 @@ struct Piece {
   }
 };
 
+/// How far a piece of surface lies from its reference; measured when it is first asked for.
+using Reach = std::optional<double>;
+
 /// The surfaces that boundaries shall stay close to: the sweep of each stroke, at rest.
 class References {
  public:
-  void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = std::move(sweep); }
+  void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = {std::move(sweep), kWallTolerance}; }
 
-  /// How far a piece of surface under a tag may lie from what `allows` compares it with once it is replaced:
-  /// `tolerance`, or as far as it lies from its reference now. Cost: O(samples) where there is a reference.
-  [[nodiscard]] double limit(std::uint32_t tag, const Piece& before, double tolerance) const;
+  /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`: that far its
+  /// facets may lie from it later, as a share of the local edge, within what `kWallTolerance` and its fivefold bound.
+  void measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened);
 
-  /// Whether `before` may give way to `after`: no sample of `after` lies further than `limit` from the reference. Where
-  /// there is none the pieces are compared with each other. Cost: O(samples of `after`), or O(samples·facets).
-  [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double limit) const;
+  /// How far the wall of a stroke may leave its place, as a share of the local edge.
+  [[nodiscard]] double tolerance(std::uint32_t tag) const;
+
+  /// Whether the surface under a tag may change from `before` to `after`: no sample of `after` lies further from the
+  /// reference than `tolerance`, or than `before` did. Where there is no reference the pieces are compared with each
+  /// other. `reach` is that of `before`. Cost: O(samples), or O(samples·facets).
+  [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,
+                            Reach& reach) const;
 
  private:
-  std::map<std::uint32_t, TriangleTree> sweeps_;
+  struct Sweep {
+    TriangleTree tree;
+    double tolerance = 0;
+  };
+
+  std::map<std::uint32_t, Sweep> sweeps_;
 };
 
 }  // namespace incise::inline v0

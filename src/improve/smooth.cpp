@@ -262,22 +262,23 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
       continue;
     }
     collect_pieces(care, vertex, place, surface.tag);
-    const double limit = care.references.limit(surface.tag, before_, surface_tolerance(care, surface.tag) * edge);
-    if (!care.references.allows(surface.tag, before_, after_, limit)) {
+    const double tolerance = surface_tolerance(care, surface.tag) * edge;
+    Reach apex_reach, reach;
+    const Piece apex_before{before_.facets, {care.mesh.rest(vertex)}}, apex_after{after_.facets, {place}};
+    if (!care.references.allows(surface.tag, apex_before, apex_after, tolerance, apex_reach) ||
+        !care.references.allows(surface.tag, before_, after_, tolerance, reach)) {
       return false;
     }
   }
   return true;
 }
 
-/// The faces of one surface around the vertex, before and after its move. They differ most at the vertex and along the
-/// edges that lead to it.
+/// The faces of one surface around the vertex, before and after its move. They differ most at the vertex, which is
+/// looked at by itself, and along the edges that lead to it.
 void Smoother::collect_pieces(const Care& care, VertexId vertex, const Vec3& place, std::uint32_t tag) {
   const Vec3 old_place = care.mesh.rest(vertex);
   before_.clear();
   after_.clear();
-  before_.samples.push_back(old_place);
-  after_.samples.push_back(place);
   for (const TetId tet : star_) {
     for (unsigned s = 0; s < 4; ++s) {
       if (care.mesh.vertices(tet)[s] == vertex || surface_tag(care.mesh, {tet, s}) != tag) {

@@ -174,7 +174,11 @@ void TetMesh::link_faces() {
 }
 
 bool TetMesh::is_flat_at_load(TetId tet) const {
-  return std::binary_search(flat_at_load_.begin(), flat_at_load_.end(), tet);
+  if (!std::binary_search(flat_at_load_.begin(), flat_at_load_.end(), tet)) {
+    return false;
+  }
+  const TetVertices& v = tet_vertices_[tet];  // maintenance may have given the slot to a sound tet
+  return is_flat(rest_[v[0]], rest_[v[1]], rest_[v[2]], rest_[v[3]]);
 }
 
 bool TetMesh::is_overshared_at_load(VertexId a, VertexId b) const {
