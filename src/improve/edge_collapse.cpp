@@ -17,6 +17,8 @@ constexpr std::size_t kEdgesTried = 3;
 constexpr double kLengthCap = 1.5;
 /// New faces turn away from their surface by less than the angle with this cosine: 60 degrees.
 constexpr double kFaceCosine = 0.5;
+/// The step that restores the volume is at most this share of the longest edge of the vertex.
+constexpr double kGreatestStep = 0.05;
 /// What a lip may lose to the other at a front, as a share of the longest edge cubed: six times the volume.
 constexpr double kFrontVolume = 1e-12;
 constexpr unsigned kBoundary = shape::kSkin | shape::kWall;
@@ -239,7 +241,8 @@ bool EdgeCollapser::keep_volume(const Care& care) {
     return false;
   }
   place_ += step;
-  return step.norm() <= kWallTolerance * longest_;
+  collect_after(care);
+  return step.norm() <= kGreatestStep * longest_;
 }
 
 bool EdgeCollapser::is_short_enough(const Care& care) const {
