@@ -19,16 +19,23 @@ struct Care {
   const References& references;
   StarWalker& walker;
   MaintainStatistics& statistics;
-  double skin_tolerance;        ///< how far the skin may leave its place, as a share of the local edge
+  bool is_bad;                  ///< the tet in hand is bad: surfaces may give way more
   std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
 
   /// Counts evaluations of tets.
   void spend(std::size_t units) { statistics.work_units += units; }
 };
 
+/// The skin leaves its place by at most this share of the local edge, to mend bad tets by the greater one.
+inline constexpr double kFineTolerance = 0.01, kCoarseTolerance = 0.04;
+
+inline double skin_tolerance(const Care& care) {
+  return care.is_bad ? kCoarseTolerance : kFineTolerance;
+}
+
 /// How far a surface may leave its place, as a share of the local edge.
 inline double surface_tolerance(const Care& care, std::uint32_t tag) {
-  return tag == 0 ? care.skin_tolerance : care.references.tolerance(tag);
+  return tag == 0 ? skin_tolerance(care) : care.references.tolerance(tag, care.is_bad);
 }
 
 /// An operation is accepted where the worst tet after it is better than the worst before by more than this share.

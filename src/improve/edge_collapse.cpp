@@ -146,7 +146,7 @@ bool EdgeCollapser::try_collapse(Care& care, VertexId from, VertexId into) {
   if (is_curved() && !(keep_volume(care) && improves(care) && keeps_surfaces(care))) {
     return false;
   }
-  if (surfaces_.is_front() && !keeps_front(care.mesh, from, surfaces_, care.skin_tolerance * longest_)) {
+  if (surfaces_.is_front() && !keeps_front(care.mesh, from, surfaces_, skin_tolerance(care) * longest_)) {
     return false;
   }
   planner_.plan(care.mesh, from, into, plan_);

@@ -21,8 +21,6 @@ namespace {
 constexpr double kGoal = kRegularLr / 11.0;
 /// Tets with an L/r above this come first of all; of those beside the cut no others are worked on.
 constexpr double kBad = kRegularLr / 20.0;
-/// The skin leaves its place by at most this share of the local edge, to mend bad tets by the greater one.
-constexpr double kFineTolerance = 0.01, kCoarseTolerance = 0.04;
 /// Vertices that cuts made are tried so often: a merge makes room for others.
 constexpr unsigned kThinningRounds = 2;
 /// Changes per journal step: what they free is used again from the next one on.
@@ -156,7 +154,7 @@ class Maintainer::Queue {
   /// One journal step: bad tets first, then what the cut made needlessly dense, then the tets that could be better.
   void run_step(TetMesh& mesh, Journal& journal, StageTimes& times) {
     Transaction transaction(mesh, true);
-    Care care{transaction, mesh, references_, walker_, statistics_, kFineTolerance, changed_};
+    Care care{transaction, mesh, references_, walker_, statistics_, false, changed_};
     for (std::uint64_t changes = 0; has_work() && has_budget() && changes < kChangesPerStep;) {
       const bool has_bad = !heap_.empty() && heap_.front().ratio < kBad;
       const bool has_changed = has_bad || crowd_.empty() ? improve_worst(care, times) : thin_out_next(care, times);
@@ -174,13 +172,12 @@ class Maintainer::Queue {
     care.spend(1);
     const TetMesh& mesh = care.mesh;
     const bool is_fresh = mesh.is_live(worst.tet) && inradius_ratio(mesh, mesh.vertices(worst.tet)) == worst.ratio;
-    const bool is_bad = worst.ratio < kBad;
-    care.skin_tolerance = is_bad ? kCoarseTolerance : kFineTolerance;
-    return is_fresh && improve(care, worst.tet, is_bad, times);
+    care.is_bad = worst.ratio < kBad;
+    return is_fresh && improve(care, worst.tet, times);
   }
   bool thin_out_next(Care& care, StageTimes& times) {
     const StageZone zone(times, Stage::kMerge);
-    care.skin_tolerance = kFineTolerance;
+    care.is_bad = false;
     const VertexId vertex = crowd_[next_in_crowd_++];
     const bool has_merged = options_.merge && care.mesh.is_live(vertex) && collapser_.thin_out(care, vertex);
     if (next_in_crowd_ == crowd_.size()) {
@@ -189,7 +186,7 @@ class Maintainer::Queue {
     }
     return has_merged;
   }
-  bool improve(Care& care, TetId tet, bool is_bad, StageTimes& times) {
+  bool improve(Care& care, TetId tet, StageTimes& times) {
     if (options_.merge) {
       const StageZone zone(times, Stage::kMerge);
       if (collapser_.improve(care, tet)) return true;
@@ -199,7 +196,7 @@ class Maintainer::Queue {
     }
     const StageZone zone(times, Stage::kImprove);
     return remover_.improve(care, tet) || face_remover_.improve(care, tet) || smooth(care, tet) ||
-           (is_bad && (peeler_.improve(care, tet) || inserter_.improve(care, tet)));
+           (care.is_bad && (peeler_.improve(care, tet) || inserter_.improve(care, tet)));
   }
   bool smooth(Care& care, TetId tet) {
     const TetVertices corners = care.mesh.vertices(tet);

@@ -13,6 +13,8 @@ namespace {
 /// Facets of a fresh wall that are measured at most, and the share of them that counts as typical.
 constexpr std::size_t kMostSamples = 200;
 constexpr double kTypicalShare = 0.9;
+/// What a piece of wall may go beyond where it was, as a share of the tolerance.
+constexpr double kSlack = 0.3;
 /// However coarse a wall is, it may leave its place by no more than this share of the local edge.
 constexpr double kGreatestTolerance = 5 * kWallTolerance;
 
@@ -51,12 +53,17 @@ void References::measure(const TetMesh& mesh, const std::vector<OpenedFace>& ope
   }
   const auto typical = shares.begin() + static_cast<std::ptrdiff_t>(kTypicalShare * static_cast<double>(shares.size()));
   std::nth_element(shares.begin(), typical, shares.end());
-  sweep->second.tolerance = std::clamp(*typical, kWallTolerance, kGreatestTolerance);
+  sweep->second.usual = std::clamp(*typical, kWallTolerance, kGreatestTolerance);
+  sweep->second.greatest =
+      std::clamp(*std::max_element(shares.begin(), shares.end()), kWallTolerance, kGreatestTolerance);
 }
 
-double References::tolerance(std::uint32_t tag) const {
+double References::tolerance(std::uint32_t tag, bool is_bad) const {
   const auto sweep = sweeps_.find(tag);
-  return sweep == sweeps_.end() ? kWallTolerance : sweep->second.tolerance;
+  if (sweep == sweeps_.end()) {
+    return kWallTolerance;
+  }
+  return is_bad ? sweep->second.greatest : sweep->second.usual;
 }
 
 bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,
@@ -68,7 +75,7 @@ bool References::allows(std::uint32_t tag, const Piece& before, const Piece& aft
   const TriangleTree& tree = sweep->second.tree;
   return std::all_of(after.samples.begin(), after.samples.end(), [&](const Vec3& p) {
     if (tree.closest(p, tolerance).is_valid()) return true;
-    if (!reach) reach = farthest(tree, before);
+    if (!reach) reach = farthest(tree, before) + kSlack * tolerance;
     return *reach > tolerance && tree.closest(p, *reach).is_valid();
   });
 }

@@ -36,14 +36,15 @@ using Reach = std::optional<double>;
 /// The surfaces that boundaries shall stay close to: the sweep of each stroke, at rest.
 class References {
  public:
-  void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = {std::move(sweep), kWallTolerance}; }
+  void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = {std::move(sweep)}; }
 
-  /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`: that far its
-  /// facets may lie from it later, as a share of the local edge, within what `kWallTolerance` and its fivefold bound.
+  /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`: no further may
+  /// they lie from it later.
   void measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened);
 
-  /// How far the wall of a stroke may leave its place, as a share of the local edge.
-  [[nodiscard]] double tolerance(std::uint32_t tag) const;
+  /// How far the wall of a stroke may lie from its sweep, as a share of the local edge: as far as most of the fresh wall
+  /// did; to mend a bad tet as far as any of it.
+  [[nodiscard]] double tolerance(std::uint32_t tag, bool is_bad) const;
 
   /// Whether the surface under a tag may change from `before` to `after`: no sample of `after` lies further from the
   /// reference than `tolerance`, or than `before` did. Where there is no reference the pieces are compared with each
@@ -54,7 +55,7 @@ class References {
  private:
   struct Sweep {
     TriangleTree tree;
-    double tolerance = 0;
+    double usual = kWallTolerance, greatest = kWallTolerance;  ///< tolerances
   };
 
   std::map<std::uint32_t, Sweep> sweeps_;

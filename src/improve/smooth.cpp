@@ -253,7 +253,7 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
     return true;
   }
   const double edge = mean_edge(care.mesh, vertex, star_);
-  if (surfaces_.is_front() && !keeps_front(care.mesh, vertex, surfaces_, care.skin_tolerance * edge)) {
+  if (surfaces_.is_front() && !keeps_front(care.mesh, vertex, surfaces_, skin_tolerance(care) * edge)) {
     return false;
   }
   for (unsigned i = 0; i < surfaces_.count; ++i) {

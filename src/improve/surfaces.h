@@ -18,8 +18,8 @@ struct SurfaceAt {
 
 /// Unit normals whose cross product is this short belong to one plane.
 inline constexpr double kFlat = 1e-9;
-/// Faces whose normals have at least this cosine with the first of a surface are part of it: 60 degrees.
-inline constexpr double kSmoothCosine = 0.5;
+/// Faces whose normals have at least this cosine with the first of a surface are part of it: 75 degrees.
+inline constexpr double kSmoothCosine = 0.26;
 /// Tag of borders between regions.
 inline constexpr std::uint32_t kBorderTag = 0x7FFFFFFFU;
 

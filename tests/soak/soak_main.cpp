@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random strokes without end: on made meshes, or on every readable mesh of $INCISE_CORPUS/tets.
-// After each stroke: the validity contract, the input's own defects not grown in number, no drift of volume; after
-// each few strokes they are taken back and the hash must be that of the input.
+// Random strokes without end: on made meshes, or on every readable mesh of $INCISE_CORPUS/tets. Each body is cut in
+// several courses: without maintenance, with all of it after each stroke, with random budgets and portions, as the
+// paper does; the corpus is also maintained as a whole, uncut.
+// After each stroke: the validity contract, the input's own defects not grown in number, no drift of volume (by
+// course), no tet with L/r > 200 left at the cut where the input had none nearby. After each few strokes they are taken
+// back, applied again and taken back one by one, and each time the hash must be what it was. A stroke that takes
+// longer than kStrokeSeconds hangs: the program says which one and ends.
 // usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
-// INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given.
+// INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given. A
+// failure comes back with the seed that it names, `--rounds 1` or `--only NAME`, and the same other arguments.
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -19,8 +27,11 @@
 #include "cut/random_strokes.h"
 #include "incise/app/mesh_loader.h"
 #include "incise/engine/engine.h"
+#include "incise/geom/quality.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/defects.h"
+#include "incise/mesh/quality_stats.h"
+#include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
 
 namespace incise::test {
@@ -29,8 +40,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSkipped = 77;
-constexpr double kDrift = 1e-12;
 constexpr unsigned kStrokesInARow = 4;
+/// Nothing takes nearly as long on the largest real mesh, under the sanitizers included.
+constexpr unsigned kStrokeSeconds = 120;
+/// The paper's quality figure counts tets above this L/r as bad.
+constexpr double kBadLr = 200;
 
 struct Settings {
   std::string kind;
@@ -79,6 +93,46 @@ State examine(const TetMesh& mesh) {
   return {validate(mesh, ValidateLevel::kGeometry), find_defects(to_soup(mesh))};
 }
 
+// --- courses
+// --------------------------------------------------------------------------------------------------------------------
+
+enum class Upkeep { kNone, kWhole, kPortions };
+
+/// How a body is cut.
+struct Course {
+  const char* name;
+  CutOptions cut;
+  Upkeep upkeep = Upkeep::kNone;
+  unsigned share = 1;  ///< of the corpus campaign's strokes: one in so many
+
+  [[nodiscard]] bool is_paper() const { return cut.profile == Profile::kPaper; }
+  /// How far the volume may drift, relative. The paper's maintenance pulls curved surfaces flat, by up to 5e-3 a stroke;
+  /// of bodies that are skin throughout (`is_needle`) nothing is promised.
+  [[nodiscard]] double drift(unsigned strokes) const {
+    if (upkeep == Upkeep::kNone) return 1e-12;
+    return is_paper() ? 5e-3 * strokes : 1e-9;
+  }
+};
+
+constexpr CutOptions kSnapped{Profile::kIncise, 0.2}, kUnsnapped{Profile::kIncise, 0}, kAsPaper{Profile::kPaper, 0};
+constexpr std::array<Course, 6> kCourses = {{{"cut", kSnapped, Upkeep::kNone},
+                                             {"cut, no snap", kUnsnapped, Upkeep::kNone, 4},
+                                             {"maintained", kSnapped, Upkeep::kWhole},
+                                             {"maintained, no snap", kUnsnapped, Upkeep::kWhole, 2},
+                                             {"in portions", kSnapped, Upkeep::kPortions, 2},
+                                             {"paper", kAsPaper, Upkeep::kWhole, 4}}};
+
+EngineOptions options_of(const Course& course, Random& budget) {
+  constexpr std::array<std::uint64_t, 4> kBudgets = {0, 100, 2000, 50000};
+  EngineOptions options;
+  options.cut = course.cut;
+  options.maintain.merge = options.maintain.improve = course.upkeep != Upkeep::kNone;
+  if (course.upkeep == Upkeep::kPortions) {
+    options.maintain.work_units = kBudgets[static_cast<std::size_t>(budget.integer(0, 3))];
+  }
+  return options;
+}
+
 /// Whether a cut may add to a defect: the two lips of a cut coincide, and without snapping nothing keeps a plane from
 /// shaving slivers off that are flat by their shape (though positive).
 bool may_grow(std::string_view name, const CutOptions& options) {
@@ -86,7 +140,7 @@ bool may_grow(std::string_view name, const CutOptions& options) {
 }
 
 /// What a cut made worse, in words; empty where nothing.
-std::string what_grew(const State& before, const State& after, const CutOptions& options) {
+std::string what_grew(const State& before, const State& after, const CutOptions& options, double drift_limit) {
   std::string text;
   const ValidityChange change = compare_with_input(before.validity, after.validity);
   for (std::size_t kind = 0; kind < kViolationKinds; ++kind) {
@@ -95,7 +149,7 @@ std::string what_grew(const State& before, const State& after, const CutOptions&
     }
   }
   const double drift = std::abs(after.validity.volume - before.validity.volume) / before.validity.volume;
-  if (!(drift <= kDrift)) text += " drift " + std::to_string(drift * 1e12) + "e-12";
+  if (!(drift <= drift_limit)) text += " drift " + std::to_string(drift * 1e12) + "e-12";
   const std::vector<NamedDefect> old_list = list_defects(before.defects), list = list_defects(after.defects);
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!may_grow(list[i].name, options) && list[i].count > old_list[i].count) {
@@ -106,50 +160,183 @@ std::string what_grew(const State& before, const State& after, const CutOptions&
   return text;
 }
 
-struct Tally {
-  std::uint64_t bodies = 0, strokes = 0, failures = 0;
+// --- bad tets at the cut
+// --------------------------------------------------------------------------------------------------------------------
+
+bool is_bad(const TetMesh& mesh, TetId tet) {
+  const TetVertices& v = mesh.vertices(tet);
+  return !(longest_edge_over_inradius(mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])) <= kBadLr);
+}
+
+/// Knows where the input has bad tets, and counts those that maintenance left elsewhere at the cut.
+class BadTets {
+ public:
+  explicit BadTets(const TetMesh& input) : is_excused_(input.vertex_slots()) {
+    input.for_each_tet([&](TetId tet) {
+      if (!is_bad(input, tet)) return;
+      for (const VertexId v : input.vertices(tet)) is_excused_[v.value] = true;
+    });
+  }
+  std::size_t left(const TetMesh& mesh) {
+    std::size_t count = 0;
+    mesh.for_each_tet([&](TetId tet) {
+      if (is_bad(mesh, tet) && touches_cut(mesh, tet) && !is_excused(mesh, tet)) ++count;
+    });
+    return count;
+  }
+
+ private:
+  /// Whether a vertex of a bad tet of the input is near.
+  bool is_excused(const TetMesh& mesh, TetId tet) {
+    const TetVertices& corners = mesh.vertices(tet);
+    return std::any_of(corners.begin(), corners.end(), [&](VertexId corner) {
+      const std::vector<TetId>& star = walker_.star(mesh, corner);
+      return std::any_of(star.begin(), star.end(), [&](TetId near) { return has_excused(mesh, near); });
+    });
+  }
+  [[nodiscard]] bool has_excused(const TetMesh& mesh, TetId tet) const {
+    const TetVertices& v = mesh.vertices(tet);
+    return std::any_of(v.begin(), v.end(), [&](VertexId id) {
+      const VertexId origin = mesh.origin(id);
+      return origin.is_valid() && is_excused_[origin.value];
+    });
+  }
+
+  std::vector<bool> is_excused_;
+  StarWalker walker_;
 };
 
-/// Cuts a body with `count` random strokes, a few in a row from the input each time.
-void soak(const TetMesh& mesh, const std::string& name, CutOptions options, std::uint64_t seed, unsigned count,
-          const Clock& clock, Tally& tally) {
-  EngineOptions engine_options;
-  engine_options.cut = options;
-  engine_options.maintain.merge = engine_options.maintain.improve = false;  // what cutting alone promises
-  Result<Engine> engine = Engine::create(mesh, engine_options);
-  const State before = examine(mesh);
-  const std::uint64_t hash = mesh.hash();
-  const Box box = rest_bounds(mesh);
-  Random random(seed);
-  ++tally.bodies;
-  const auto fail = [&](unsigned i, const Stroke& stroke, const std::string& what) {
-    ++tally.failures;
-    std::printf("FAILED %s: seed %llu, stroke %u (%s), profile %s, snap %g:%s\n", name.c_str(),
-                static_cast<unsigned long long>(seed), i, stroke.name.c_str(),
-                options.profile == Profile::kPaper ? "paper" : "incise", options.snap, what.c_str());
-    std::fflush(stdout);
-  };
-  for (unsigned i = 0; i < count && !clock.is_over(); ++i) {
-    const Stroke stroke = random_stroke(random, box);
-    ++tally.strokes;
-    bool is_broken = false;
-    if (const Result<StrokeReport> report = engine->cut(stroke); !report.ok()) {
-      fail(i, stroke, " " + report.error().message);
-      is_broken = true;
-    } else if (const std::string grown = what_grew(before, examine(engine->mesh()), options); !grown.empty()) {
-      fail(i, stroke, grown);
-      is_broken = true;
-    }
-    if (is_broken || (i + 1) % kStrokesInARow == 0 || i + 1 == count) {
-      while (engine->undo()) {
-      }
-      if (engine->mesh().hash() != hash) {
-        fail(i, stroke, " undo does not restore the hash");
-        return;
-      }
+/// Whether a body is skin nearly throughout.
+bool is_needle(const TetMesh& mesh) {
+  std::size_t interior = 0;
+  mesh.for_each_vertex([&](VertexId v) { interior += mesh.shape_of(v) == 0 ? 1U : 0U; });
+  return interior * 8 < mesh.vertex_count();
+}
+
+// --- one body
+// --------------------------------------------------------------------------------------------------------------------
+
+struct Tally {
+  std::uint64_t bodies = 0, strokes = 0, bad_tets = 0, failures = 0;
+};
+
+/// What is being done, for whoever finds that it takes too long.
+char doing_now[512];
+
+void report_hang(int) {
+  constexpr std::string_view kHang = "HANGS: ";
+  [[maybe_unused]] ssize_t n = write(STDOUT_FILENO, kHang.data(), kHang.size());
+  n = write(STDOUT_FILENO, doing_now, std::strlen(doing_now));
+  n = write(STDOUT_FILENO, "\n", 1);
+  _exit(1);
+}
+
+/// A body that is cut in one course.
+class Soak {
+ public:
+  Soak(const TetMesh& mesh, std::string name, const Course& course, std::uint64_t seed, Tally& tally)
+      : name_(std::move(name)),
+        course_(course),
+        seed_(seed),
+        tally_(tally),
+        strokes_(seed),
+        budget_(seed + 1000),
+        engine_(Engine::create(mesh, options_of(course, budget_)).value()),
+        before_(examine(mesh)),
+        box_(rest_bounds(mesh)),
+        has_volume_(!course.is_paper() || !is_needle(mesh)),
+        bad_tets_(mesh),
+        hashes_{mesh.hash()} {
+    ++tally.bodies;
+  }
+
+  /// `count` random strokes, a few in a row from the input each time.
+  void run(unsigned count, const Clock& clock) {
+    for (unsigned i = 0; i < count && !clock.is_over(); ++i) {
+      const bool is_sound = cut(i);
+      if ((!is_sound || (i + 1) % kStrokesInARow == 0 || i + 1 == count) && !go_back()) return;
     }
   }
-}
+  /// Maintains the uncut body.
+  void improve() {
+    begin("improve");
+    engine_.improve();
+    const bool is_sound = check();
+    hashes_.push_back(engine_.mesh().hash());
+    if (is_sound) go_back();
+  }
+
+ private:
+  void begin(const std::string& what) {
+    std::snprintf(doing_now, sizeof doing_now, "%s: seed %llu, course '%s', %s", name_.c_str(),
+                  static_cast<unsigned long long>(seed_), course_.name, what.c_str());
+    alarm(kStrokeSeconds);
+  }
+  bool fail(const std::string& what) {
+    ++tally_.failures;
+    std::printf("FAILED %s:%s\n", doing_now, what.c_str());
+    std::fflush(stdout);
+    return false;
+  }
+  bool cut(unsigned i) {
+    const Stroke stroke = random_stroke(strokes_, box_);
+    begin("stroke " + std::to_string(i) + " (" + stroke.name + ")");
+    ++tally_.strokes;
+    if (const Result<StrokeReport> report = engine_.cut(stroke); !report.ok()) return fail(" " + report.error().message);
+    bool is_sound = check();
+    if (course_.upkeep == Upkeep::kPortions) is_sound = is_sound && maintain_in_portions();
+    hashes_.push_back(engine_.mesh().hash());
+    return is_sound;
+  }
+  /// Portions of any size; sometimes the rest is left for the next stroke.
+  bool maintain_in_portions() {
+    constexpr std::array<std::uint64_t, 4> kPortions = {1, 100, 3000, 30000};
+    for (auto i = budget_.integer(0, 12); i > 0 && engine_.has_maintenance(); --i) {
+      engine_.maintain(kPortions[static_cast<std::size_t>(budget_.integer(0, 3))]);
+    }
+    if (!check()) return false;
+    if (budget_.integer(0, 2) == 0) return true;
+    engine_.maintain();
+    return engine_.has_maintenance() ? fail(" maintenance without a budget left work") : check();
+  }
+  bool check() {
+    const auto strokes = static_cast<unsigned>(hashes_.size());
+    const double drift = has_volume_ ? course_.drift(strokes) : HUGE_VAL;
+    const std::string grown = what_grew(before_, examine(engine_.mesh()), course_.cut, drift);
+    if (!grown.empty()) return fail(grown);
+    if (course_.upkeep != Upkeep::kNone && !course_.is_paper() && !engine_.has_maintenance()) {
+      const std::size_t left = bad_tets_.left(engine_.mesh());
+      tally_.bad_tets += left;
+      if (left > 0) std::printf("note %s: %zu tets with L/r > %g at the cut\n", doing_now, left, kBadLr);
+    }
+    return true;
+  }
+  /// All back, all again, and back one by one; the hash tells.
+  bool go_back() {
+    alarm(kStrokeSeconds);
+    while (engine_.undo()) {
+    }
+    bool is_same = engine_.mesh().hash() == hashes_.front();
+    for (std::size_t i = 1; i < hashes_.size(); ++i) is_same = is_same && engine_.redo() && has_hash(i);
+    for (std::size_t i = hashes_.size() - 1; i > 0; --i) is_same = is_same && engine_.undo() && has_hash(i - 1);
+    hashes_.resize(1);
+    alarm(0);
+    return is_same || fail(" undo and redo do not restore the hash");
+  }
+  [[nodiscard]] bool has_hash(std::size_t i) const { return engine_.mesh().hash() == hashes_[i]; }
+
+  std::string name_;
+  Course course_;
+  std::uint64_t seed_;
+  Tally& tally_;
+  Random strokes_, budget_;
+  Engine engine_;
+  State before_;
+  Box box_;
+  bool has_volume_;
+  BadTets bad_tets_;
+  std::vector<std::uint64_t> hashes_;  // of the input, and after each stroke
+};
 
 // --- made meshes
 // --------------------------------------------------------------------------------------------------------------
@@ -171,11 +358,18 @@ TetSoup random_body(Random& random) {
   }
 }
 
-CutOptions random_options(Random& random) {
+Course random_course(Random& random) {
   constexpr std::array<double, 5> kSnaps = {0.2, 0.2, 0.1, 0.3, 0.0};
-  CutOptions options;
-  options.snap = kSnaps[static_cast<std::size_t>(random.integer(0, 4))];
-  return options;
+  Course course = kCourses[static_cast<std::size_t>(random.integer(0, 5))];
+  if (!course.is_paper()) course.cut.snap = kSnaps[static_cast<std::size_t>(random.integer(0, 4))];
+  return course;
+}
+
+void print_tally(const char* what, std::uint64_t bodies, const Tally& tally, const Clock& clock) {
+  std::printf("%s: %llu bodies, %llu strokes, %llu bad tets left at cuts, %llu failures, %.0f s\n", what,
+              static_cast<unsigned long long>(bodies), static_cast<unsigned long long>(tally.strokes),
+              static_cast<unsigned long long>(tally.bad_tets), static_cast<unsigned long long>(tally.failures),
+              clock.elapsed());
 }
 
 int soak_made_meshes(const Settings& settings) {
@@ -186,12 +380,9 @@ int soak_made_meshes(const Settings& settings) {
     const std::uint64_t seed = settings.seed + round;
     Random random(seed);
     Result<TetMesh> mesh = TetMesh::build(random_body(random));
-    const CutOptions options = random_options(random);
-    soak(*mesh, "made mesh", options, seed, std::min(settings.strokes, 8U), clock, tally);
+    Soak(*mesh, "made mesh", random_course(random), seed, tally).run(std::min(settings.strokes, 8U), clock);
   }
-  std::printf("strokes: %llu bodies, %llu strokes, %llu failures, %.0f s\n",
-              static_cast<unsigned long long>(tally.bodies), static_cast<unsigned long long>(tally.strokes),
-              static_cast<unsigned long long>(tally.failures), clock.elapsed());
+  print_tally("strokes", tally.bodies, tally, clock);
   return tally.failures == 0 ? 0 : 1;
 }
 
@@ -206,6 +397,16 @@ std::vector<fs::path> corpus_files(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// Every course of one real mesh.
+void soak_real_mesh(const TetMesh& mesh, const std::string& name, const Settings& settings, std::uint64_t seed,
+                    const Clock& clock, Tally& tally) {
+  for (const Course& course : kCourses) {
+    Soak soak(mesh, name, course, seed, tally);
+    soak.run(std::max(1U, settings.strokes / course.share), clock);
+    if (course.upkeep == Upkeep::kWhole) soak.improve();
+  }
 }
 
 int soak_corpus(const Settings& settings) {
@@ -229,19 +430,14 @@ int soak_corpus(const Settings& settings) {
       if (loaded->mesh.tet_count() == 0 || loaded->mesh.tet_count() > settings.max_tets) continue;
       const double start = clock.elapsed();
       const std::uint64_t failures = tally.failures;
-      CutOptions options;
-      soak(loaded->mesh, name, options, seed, settings.strokes, clock, tally);
-      options.snap = 0;
-      soak(loaded->mesh, name, options, seed + 1000, std::max(1U, settings.strokes / 4), clock, tally);
+      soak_real_mesh(loaded->mesh, name, settings, seed, clock, tally);
       std::printf("%-44s %8zu tets %6.1f s %s\n", name.c_str(), loaded->mesh.tet_count(), clock.elapsed() - start,
                   tally.failures == failures ? "" : "FAILED");
       std::fflush(stdout);
     }
     ++seed;
   } while (settings.seconds > 0 && !clock.is_over());
-  std::printf("corpus: %llu meshes, %llu strokes, %llu failures, %.0f s\n",
-              static_cast<unsigned long long>(tally.bodies / 2), static_cast<unsigned long long>(tally.strokes),
-              static_cast<unsigned long long>(tally.failures), clock.elapsed());
+  print_tally("corpus", tally.bodies, tally, clock);
   return tally.failures == 0 ? 0 : 1;
 }
 
@@ -253,6 +449,7 @@ int usage() {
 }
 
 int run(int argc, char** argv) {
+  std::signal(SIGALRM, report_hang);
   Settings settings;
   if (argc < 2 || argc % 2 != 0) return usage();
   settings.kind = argv[1];
