@@ -34,7 +34,8 @@ struct MeshFigures {
 };
 MeshFigures measure(const TetMesh& mesh);
 
-/// A cut made in one way. Times are processor times of the fastest run, those of the stages by the clock in that run.
+/// A cut made in one way. Times are processor times of the fastest run; those of the stages are by the clock, each the
+/// least of the runs.
 struct CutResult {
   bool is_ok = false;
   MeshFigures mesh;

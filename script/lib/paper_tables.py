@@ -91,6 +91,21 @@ def mark_best(rows):
                 row[key] += "*" if sign * number(row[key]) == min(values) else " "
 
 
+def peers_ahead(cases):
+    """Says in which columns a peer is the best of a case; the rows must be marked."""
+    for name in sorted({row["mesh"] for rows in cases.values() for row in rows if not is_ours(row["mesh"])}):
+        won = {}
+        for case, rows in cases.items():
+            for key in [key for row in rows if row["mesh"] == name for key in SIGN_OF_BEST if row[key].endswith("*")]:
+                won.setdefault(key, []).append(case)
+        print("%s is best in: %s" % (name, "; ".join("%s (%s)" % (key, ", ".join(of)) for key, of in won.items()) or
+                                     "nothing"))
+
+
+def is_ours(mesh):
+    return mesh in NOT_TREATED or mesh == "our method" or mesh.split(",")[0] in ("paper", "incise")
+
+
 def print_table(head, rows):
     widths = [max(len(row[key]) for row in [dict(zip(head, head)), *rows]) for key in head]
     for row in [dict(zip(head, head)), *rows]:
@@ -112,8 +127,9 @@ def report_table3(folder):
     print("\nTable 3 with the peers: the same cut for all. L/r of all tets; ms of what follows the cut; * marks the best "
           "of a\ncase among the rows that treat the cut. The peers got the mesh 'no optimisation'.")
     print_table(HEAD, rows)
-    for line in missing:
-        print(line)
+    for words in missing:
+        print(words)
+    peers_ahead(cases)
 
 
 # Figure 15 ------------------------------------------------------------------------------------------------------------
