@@ -20,6 +20,7 @@ struct Care {
   StarWalker& walker;
   MaintainStatistics& statistics;
   bool is_bad;                  ///< the tet in hand is bad: surfaces may give way more
+  VertexId born;                ///< out: the vertex that the last accepted operation put in
   std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
 
   /// Counts evaluations of tets.

@@ -283,9 +283,15 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
         return false;
       }
     }
-    if (!surface.is_flat &&
-        !care.references.allows(surface.tag, patches_[i].before, patches_[i].after,
-                                                    surface_tolerance(care, surface.tag) * mean_, patches_[i].reach)) {
+    const double tolerance = surface_tolerance(care, surface.tag) * mean_;
+    Reach apex_reach;
+    const Piece apex_before{patches_[i].before.facets, {care.mesh.rest(plan_.into)}};
+    const Piece apex_after{patches_[i].after.facets, {place_}};
+    const bool keeps_apex =
+        !moves(care) || care.references.allows(surface.tag, apex_before, apex_after, tolerance, apex_reach);
+    const bool keeps_facets = surface.is_flat || care.references.allows(surface.tag, patches_[i].before,
+                                                                        patches_[i].after, tolerance, patches_[i].reach);
+    if (!keeps_apex || !keeps_facets) {
       return false;
     }
   }

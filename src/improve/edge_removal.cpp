@@ -23,13 +23,17 @@ bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
          n.cross(m).squaredNorm() <= kFlat * kFlat * n.squaredNorm() * m.squaredNorm();
 }
 
-/// Whether an edge or face, given by its vertices, exists in tets other than those of a cavity. Only vertices on a front
-/// belong to both lips of a cut, and so to more than what their tets on one side know.
+/// Whether an edge or face, given by its vertices, may exist in tets other than those of a cavity. Only vertices on a
+/// front belong to both lips of a cut, and pinched ones to tets that no walk finds.
 bool exists_across_front(Care& care, std::span<const VertexId> vertices, const std::vector<TetId>& cavity) {
   const TetMesh& mesh = care.mesh;
-  const auto is_on_front = [&](VertexId v) { return (mesh.shape_of(v) & shape::kFront) != 0; };
-  if (!std::all_of(vertices.begin(), vertices.end(), is_on_front)) {
+  const auto is_shared = [&](VertexId v) { return (mesh.shape_of(v) & (shape::kFront | shape::kPinched)) != 0; };
+  const auto is_pinched = [&](VertexId v) { return (mesh.shape_of(v) & shape::kPinched) != 0; };
+  if (!std::all_of(vertices.begin(), vertices.end(), is_shared)) {
     return false;
+  }
+  if (std::any_of(vertices.begin(), vertices.end(), is_pinched)) {
+    return true;
   }
   const std::vector<TetId>& star = care.walker.star(mesh, vertices.front());
   return std::any_of(star.begin(), star.end(), [&](TetId tet) {
@@ -54,6 +58,9 @@ bool EdgeRemover::improve(Care& care, TetId tet) {
 }
 
 bool EdgeRemover::try_edge(Care& care, VertexId a, VertexId b, TetId seed) {
+  if ((care.mesh.shape_of(a) & care.mesh.shape_of(b) & shape::kPinched) != 0) {
+    return false;
+  }
   find_edge_ring(care.mesh, a, b, seed, ring_);
   if (!is_removable(care)) {
     return false;
@@ -73,6 +80,10 @@ bool EdgeRemover::try_edge(Care& care, VertexId a, VertexId b, TetId seed) {
 
 bool EdgeRemover::is_removable(const Care& care) const {
   const std::size_t n = ring_.vertices.size();
+  const auto is_pinched = [&](VertexId v) { return (care.mesh.shape_of(v) & shape::kPinched) != 0; };
+  if (n >= 3 && !ring_.is_closed && (is_pinched(ring_.vertices.front()) || is_pinched(ring_.vertices.back()))) {
+    return false;  // the new boundary edge might be there already
+  }
   return n >= 3 && n <= kMostVertices && has_one_region(care.mesh, ring_.tets) &&
          (ring_.is_closed || has_flat_ends(care.mesh, ring_));
 }

@@ -17,6 +17,12 @@ constexpr unsigned kNewtonSteps = 6;
 /// A new vertex must make the worst tet better by this share: it makes the mesh larger for good.
 constexpr double kLeastInsertionGain = 0.1;
 
+/// Whether the input folds over at a face: tets on either side may overlap.
+bool is_pinched(const TetMesh& mesh, Side side) {
+  const auto v = mesh.vertices(side);
+  return (mesh.shape_of(v[0]) & mesh.shape_of(v[1]) & mesh.shape_of(v[2]) & shape::kPinched) != 0;
+}
+
 bool contains(const std::vector<TetId>& tets, TetId tet) {
   return std::find(tets.begin(), tets.end(), tet) != tets.end();
 }
@@ -164,7 +170,7 @@ bool VertexInserter::grow(Care& care) {
     const Link link = care.mesh.link(base.side);
     const bool may_grow = !link.is_boundary() &&
                           care.mesh.region(link.side().tet()) == care.mesh.region(base.side.tet()) &&
-                          !care.mesh.is_flat_at_load(link.side().tet());
+                          !care.mesh.is_flat_at_load(link.side().tet()) && !is_pinched(care.mesh, base.side);
     if (may_grow && (worst == nullptr || base.ratio < worst->ratio)) {
       worst = &base;
     }
@@ -262,6 +268,7 @@ bool VertexInserter::carry_out(Care& care) {
       care.transaction.remove_vertex(v);  // the cavity held all its tets
     }
   }
+  care.born = vertex;
   ++care.statistics.inserted_vertices;
   return true;
 }

@@ -3,7 +3,6 @@
 #include "incise/improve/maintainer.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "improve/care.h"
@@ -35,6 +34,12 @@ struct Waiting {
   bool operator<(const Waiting& o) const { return ratio != o.ratio ? ratio > o.ratio : o.tet.value < tet.value; }
 };
 
+/// A vertex that may be merged, by slot and generation: slots are used again.
+struct Crowded {
+  VertexId vertex;
+  std::uint32_t generation;
+};
+
 }  // namespace
 
 class Maintainer::Queue {
@@ -62,8 +67,9 @@ class Maintainer::Queue {
       add_with_neighbours(mesh, v, ring);
     }
     push_stars(mesh, ring);
-    std::copy_if(ring.begin(), ring.end(), std::back_inserter(crowd_),
-                 [&](VertexId v) { return !mesh.origin(v).is_valid(); });
+    for (const VertexId v : ring) {
+      if (!mesh.origin(v).is_valid()) crowd_.push_back({v, mesh.generation(v)});
+    }
     thinning_round_ = 0;
     next_in_crowd_ = 0;
   }
@@ -154,13 +160,13 @@ class Maintainer::Queue {
   /// One journal step: bad tets first, then what the cut made needlessly dense, then the tets that could be better.
   void run_step(TetMesh& mesh, Journal& journal, StageTimes& times) {
     Transaction transaction(mesh, true);
-    Care care{transaction, mesh, references_, walker_, statistics_, false, changed_};
+    Care care{transaction, mesh, references_, walker_, statistics_, false, {}, changed_};
     for (std::uint64_t changes = 0; has_work() && has_budget() && changes < kChangesPerStep;) {
       const bool has_bad = !heap_.empty() && heap_.front().ratio < kBad;
       const bool has_changed = has_bad || crowd_.empty() ? improve_worst(care, times) : thin_out_next(care, times);
       if (has_changed) {
         ++changes;
-        requeue(mesh);
+        requeue(care);
       }
     }
     if (Step step = transaction.commit(); !step.is_empty()) {
@@ -178,8 +184,9 @@ class Maintainer::Queue {
   bool thin_out_next(Care& care, StageTimes& times) {
     const StageZone zone(times, Stage::kMerge);
     care.is_bad = false;
-    const VertexId vertex = crowd_[next_in_crowd_++];
-    const bool has_merged = options_.merge && care.mesh.is_live(vertex) && collapser_.thin_out(care, vertex);
+    const auto [vertex, generation] = crowd_[next_in_crowd_++];
+    const bool has_merged = options_.merge && care.mesh.is_live(vertex) &&
+                            care.mesh.generation(vertex) == generation && collapser_.thin_out(care, vertex);
     if (next_in_crowd_ == crowd_.size()) {
       next_in_crowd_ = 0;
       if (++thinning_round_ == kThinningRounds) crowd_.clear();
@@ -203,9 +210,14 @@ class Maintainer::Queue {
     return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return smoother_.improve(care, v); });
   }
   /// What the last operation changed is judged anew, as far as it is in care.
-  void requeue(const TetMesh& mesh) {
+  void requeue(Care& care) {
+    if (care.born.is_valid()) {
+      in_care_.ensure(std::size_t{care.born.value} + 1);
+      in_care_[care.born.value] = epoch_ * 4 + 2;
+      care.born = {};
+    }
     for (const TetId tet : changed_) {
-      push(mesh, tet);
+      push(care.mesh, tet);
     }
   }
 
@@ -214,7 +226,7 @@ class Maintainer::Queue {
   MaintainStatistics statistics_;  // of the run in progress
   std::vector<Waiting> heap_;
   std::vector<TetId> changed_;
-  std::vector<VertexId> crowd_;  // vertices that cuts made, to be merged where they are not needed
+  std::vector<Crowded> crowd_;  // vertices that cuts made, to be merged where they are not needed
   std::size_t next_in_crowd_ = 0;
   unsigned thinning_round_ = 0;
   std::uint64_t work_units_ = 0;  // of the run in progress

@@ -16,7 +16,7 @@ constexpr double kTypicalShare = 0.9;
 /// What a piece of wall may go beyond where it was, as a share of the tolerance.
 constexpr double kSlack = 0.3;
 /// However coarse a wall is, it may leave its place by no more than this share of the local edge.
-constexpr double kGreatestTolerance = 5 * kWallTolerance;
+constexpr double kGreatestTolerance = 2 * kWallTolerance;
 
 bool is_near(const Vec3& p, const std::vector<Facet>& facets, double tolerance2) {
   return std::any_of(facets.begin(), facets.end(),
@@ -46,10 +46,16 @@ void References::measure(const TetMesh& mesh, const std::vector<OpenedFace>& ope
   std::vector<double> shares;
   const std::size_t stride = 1 + opened.size() / kMostSamples;
   for (std::size_t i = 0; i < opened.size(); i += stride) {
+    if (!mesh.is_live(opened[i].a.tet()) || mesh.link(opened[i].a) != Link::boundary(opened[i].tag)) {
+      continue;  // a later part of the same stroke has divided it
+    }
     const auto v = mesh.vertices(opened[i].a);
     const Vec3 &p = mesh.rest(v[0]), &q = mesh.rest(v[1]), &r = mesh.rest(v[2]);
     const double edge = ((p - q).norm() + (q - r).norm() + (r - p).norm()) / 3.0;
     shares.push_back(std::sqrt(sweep->second.tree.closest((p + q + r) / 3.0).distance2) / edge);
+  }
+  if (shares.empty()) {
+    return;
   }
   const auto typical = shares.begin() + static_cast<std::ptrdiff_t>(kTypicalShare * static_cast<double>(shares.size()));
   std::nth_element(shares.begin(), typical, shares.end());

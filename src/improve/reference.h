@@ -13,7 +13,7 @@
 namespace incise::inline v0 {
 
 /// Cut walls leave their place by at most this share of the local edge.
-inline constexpr double kWallTolerance = 0.014;
+inline constexpr double kWallTolerance = 0.012;
 
 /// A triangle of a surface, by its corners.
 using Facet = std::array<Vec3, 3>;

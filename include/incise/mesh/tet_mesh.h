@@ -60,7 +60,7 @@ namespace shape {
 inline constexpr std::uint8_t kSkin = 1;     ///< on the body's original surface
 inline constexpr std::uint8_t kWall = 2;     ///< on a cut wall; with kSkin: on the contour of a cut
 inline constexpr std::uint8_t kFront = 4;    ///< where a cut ends inside the body
-inline constexpr std::uint8_t kPinched = 8;  ///< its tets were not face-connected at load: a defect of the input
+inline constexpr std::uint8_t kPinched = 8;  ///< a defect of the input: its tets are not face-connected, or fold over
 inline constexpr std::uint8_t kDead = 128;   ///< the slot is free
 }  // namespace shape
 
@@ -186,6 +186,7 @@ class TetMesh {
   void link_faces();
   void mark_shapes();
   void find_loose_edges();
+  void mark_folds();
 
   IdArray<TetId, TetVertices> tet_vertices_;
   IdArray<TetId, TetLinks> tet_links_;
