@@ -10,6 +10,7 @@
 #include "tables_growth.h"
 #include "tables_histogram.h"
 #include "tables_quality.h"
+#include "tables_spread.h"
 
 namespace incise::bench {
 
@@ -64,6 +65,7 @@ void report(const Settings& settings) {
   std::vector<Acceptance> lines;
   report_table2(results, settings.folder, lines);
   report_table3(results, settings.folder, lines);
+  report_spread(settings.is_quick ? 5 : 20, settings.folder);
   report_figure15(results, settings.folder);
   report_acceptance("tables", lines, settings.folder);
 }

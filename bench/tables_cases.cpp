@@ -55,19 +55,22 @@ void add_case(const std::filesystem::path& root, const Source& source, std::vect
   }
 }
 
-/// The test case of Table 3 is not named: the oblique plane through the jittered cube, as the other benchmark has it.
-void add_oblique(std::vector<TableCase>& cases) {
-  const Trial trial = make_trial(make_cube(5, 1), 'A');
-  if (Result<TetMesh> mesh = TetMesh::build(trial.soup); mesh.ok()) {
-    cases.push_back({"CUBE oblique", "cube_oblique", std::move(*mesh), {trial.stroke}, std::nullopt, true});
-  }
-}
-
 }  // namespace
+
+TableCase make_oblique_case(std::uint64_t seed) {
+  const Trial trial = make_trial(make_cube(5, seed), 'A');
+  Result<TetMesh> mesh = TetMesh::build(trial.soup);
+  const std::string number = std::to_string(seed);
+  return {"CUBE oblique " + number, "cube_oblique_" + number, std::move(*mesh), {trial.stroke}, std::nullopt, true};
+}
 
 std::vector<TableCase> make_table_cases(const std::filesystem::path& root) {
   std::vector<TableCase> cases;
-  add_oblique(cases);
+  // The test case of Table 3 is not named. Of the first three jitters the third leaves a cut most like the printed one,
+  // the first the mildest.
+  for (const std::uint64_t seed : {3U, 1U}) {
+    cases.push_back(make_oblique_case(seed));
+  }
   for (const Source& source : kSources) {
     add_case(root, source, cases);
   }

@@ -37,4 +37,7 @@ struct TableCase {
 /// cubes are computed.
 std::vector<TableCase> make_table_cases(const std::filesystem::path& root);
 
+/// The oblique plane A of the other benchmark through the cube of 750 tets with one of its jitters.
+TableCase make_oblique_case(std::uint64_t seed);
+
 }  // namespace incise::bench

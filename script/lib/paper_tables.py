@@ -14,13 +14,11 @@ HEAD = ["case", "mesh", "tets", "min", "mean", "mean/original", "p99", "max", "%
         "ms", "volume change", "note"]
 OURS = {"ms maintain": "ms", "defects": "note"}
 PEERS = {"name": "mesh", "tets": "tets", "lr_min": "min", "lr_mean": "mean", "lr_p99": "p99", "lr_max": "max",
-         "over_200_pct": "% > 200", "dih_min": "dihedral min", "dih_max": "dihedral max", "volume_error": "volume change",
-         "note": "note"}
+         "over_200_pct": "% > 200", "dih_min": "dihedral min", "dih_max": "dihedral max",
+         "volume_error": "volume change", "note": "note"}
 SIGN_OF_BEST = {"tets": 1, "min": 1, "mean": 1, "mean/original": 1, "p99": 1, "max": 1, "% > 200": 1,
                 "dihedral min": -1, "dihedral max": 1, "ms": 1}
 NOT_TREATED = ("original", "no optimisation", "incise, cut only")
-CASES_WITH_PEERS = {"CUBE oblique": "cube_oblique", "CUBE complex": "cube_complex", "MEAT": "meat", "SPINE": "spine",
-                    "BUNNY": "bunny"}
 
 
 def read(path):
@@ -61,7 +59,7 @@ def peer_row(case, peer, original_mean):
 
 def peer_rows(folder, case, original_mean):
     """What run_peers wrote for a case, without the line of the input; nothing where it did not run."""
-    path = folder / ("peers_%s.csv" % CASES_WITH_PEERS.get(case, ""))
+    path = folder / ("peers_%s.csv" % case.lower().replace(" ", "_"))
     if not path.is_file():
         return []
     return [peer_row(case, peer, original_mean) for peer in read(path) if peer["name"] != "input"]
@@ -98,8 +96,8 @@ def peers_ahead(cases):
         for case, rows in cases.items():
             for key in [key for row in rows if row["mesh"] == name for key in SIGN_OF_BEST if row[key].endswith("*")]:
                 won.setdefault(key, []).append(case)
-        print("%s is best in: %s" % (name, "; ".join("%s (%s)" % (key, ", ".join(of)) for key, of in won.items()) or
-                                     "nothing"))
+        columns = "; ".join("%s (%s)" % (key, ", ".join(of)) for key, of in won.items())
+        print("%s is best in: %s" % (name, columns or "nothing"))
 
 
 def is_ours(mesh):
@@ -124,8 +122,8 @@ def report_table3(folder):
     for case, of_case in cases.items():
         if case != "printed":
             mark_best(of_case)
-    print("\nTable 3 with the peers: the same cut for all. L/r of all tets; ms of what follows the cut; * marks the best "
-          "of a\ncase among the rows that treat the cut. The peers got the mesh 'no optimisation'.")
+    print("\nTable 3 with the peers: the same cut for all. L/r of all tets; ms of what follows the cut; * marks the best\n"
+          "of a case among the rows that treat the cut. The peers got the mesh 'no optimisation'.")
     print_table(HEAD, rows)
     for words in missing:
         print(words)
@@ -134,12 +132,12 @@ def report_table3(folder):
 
 # Figure 15 ------------------------------------------------------------------------------------------------------------
 
-SHOWN = ("CUBE oblique", "MEAT")
+SHOWN = ("CUBE oblique 3", "MEAT")
 COLOURS = {"original": "#6b6b6b", "no optimisation": "#d55e00", "paper": "#0072b2", "incise": "#009e73"}
 LABELS = {"original": "Original", "no optimisation": "No optimisation", "paper": "Profile paper",
           "incise": "Profile incise"}
 LEFT, TOP, WIDTH, HEIGHT, GAP_X, GAP_Y = 134, 62, 300, 88, 26, 26
-TICKS_X, TICKS_Y, BAD = (5, 10, 20, 50, 100, 200), (0.1, 1, 5, 20, 50), 200
+TICKS_X, TICKS_Y, BAD = (5, 10, 20, 50, 100, 200, 500, 1000), (0.1, 1, 5, 20, 50), 200
 
 
 class Panel:
@@ -170,7 +168,7 @@ def draw_axes(panel, is_first_column, is_last_row):
     out = [line(panel.left, panel.y(share), right, panel.y(share), 'stroke="#dddddd"') for share in TICKS_Y]
     out.append(line(panel.x(BAD), top + 16, panel.x(BAD), panel.base, 'stroke="#333333" stroke-dasharray="4 3"'))
     out.append(line(panel.left, panel.base, right, panel.base, 'stroke="#333333"'))
-    for tick in TICKS_X:
+    for tick in [tick for tick in TICKS_X if tick <= panel.high]:
         out.append(line(panel.x(tick), panel.base, panel.x(tick), panel.base + 4, 'stroke="#333333"'))
         if is_last_row:
             out.append(text(panel.x(tick), panel.base + 17, str(tick), 'text-anchor="middle" font-size="11"'))
@@ -241,8 +239,8 @@ def draw_figure15(folder):
                 "tet is bad-shaped", 'font-size="12"')]
     for column, case in enumerate(cases):
         out += draw_column(column, case, histograms, rows, scale)
-    out.append(text(LEFT + (width - LEFT - GAP_X) / 2, height - 12, "L/r, longest edge over inradius: smaller is better",
-                    'text-anchor="middle"'))
+    out.append(text(LEFT + (width - LEFT - GAP_X) / 2, height - 12,
+                    "L/r, longest edge over inradius: smaller is better", 'text-anchor="middle"'))
     (folder / "figure15.svg").write_text("\n".join([*out, "</svg>", ""]), encoding="utf-8")
 
 
