@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <limits>
 
 #include "incise/app/mesh_export.h"
@@ -65,6 +66,17 @@ StageTimes least(StageTimes a, const StageTimes& b) {
   return a;
 }
 
+/// Scales stages that took longer by the clock than the processor worked: the machine had other things to do.
+void cap(StageTimes& times, std::initializer_list<Stage> stages, double processor_ms) {
+  double sum = 0;
+  for (const Stage stage : stages) {
+    sum += times[stage];
+  }
+  for (const Stage stage : stages) {
+    times[stage] *= sum > processor_ms ? processor_ms / sum : 1;
+  }
+}
+
 void write_mesh(const TetMesh& mesh, const std::filesystem::path& file) {
   if (const Status status = io::write_mesh(file, app::to_mesh_data(mesh, find_components(mesh))); !status.ok()) {
     std::fprintf(stderr, "%s\n", status.error().message.c_str());
@@ -95,6 +107,8 @@ CutResult make_cut(const TableCase& of, Way way, unsigned runs, const std::files
     }
     best.stages = stages;
   }
+  cap(best.stages, {Stage::kCollision, Stage::kSubdivide, Stage::kSeparate}, best.cut_ms);
+  cap(best.stages, {Stage::kMerge, Stage::kImprove}, best.maintain_ms);
   measure_result(of, engine->mesh(), best);
   if (!mesh_file.empty()) {
     write_mesh(engine->mesh(), mesh_file);

@@ -35,7 +35,7 @@ struct MeshFigures {
 MeshFigures measure(const TetMesh& mesh);
 
 /// A cut made in one way. Times are processor times of the fastest run; those of the stages are by the clock, each the
-/// least of the runs.
+/// least of the runs, and together no more than the processor time.
 struct CutResult {
   bool is_ok = false;
   MeshFigures mesh;
