@@ -36,7 +36,7 @@ struct Tally {
     add_cost(name, m, is_planar);
     const bool is_exact = is_cube && is_planar && m.cut_work.bent_vertices == 0;
     (is_exact ? exact_volume : curved_volume).note(m.volume_change(), name);
-    wall.note(m.wall_added(), name);
+    wall.note(m.wall_added, name);
   }
 
  private:
@@ -144,7 +144,7 @@ std::vector<std::string> cells_of(const std::string& name, bool is_planar, doubl
           count(m.after.volumes.size()),
           figure(m.volume_change()),
           count(m.cut_work.bent_vertices),
-          figure(m.wall_added()),
+          figure(m.wall_added),
           figure(m.mean_wall_added()),
           figure(m.after.wall.greatest),
           count(m.maintain_work.collapsed_edges),
@@ -170,7 +170,7 @@ void print_case(const std::string& name, const Measurement& m) {
       name.c_str(), m.input_tets, m.cut.tets, m.after.tets, m.growth(), m.new_per_cut_tet(),
       m.after.all.lr_mean / m.input.lr_mean, q.lr_mean, q.lr_max, q.lr_over_200_pct, q.dihedral_min_deg,
       q.dihedral_max_deg, m.neighbourhood.lr_max, m.us_per_cut_tet(m.cut_ms), m.us_per_cut_tet(m.maintain_ms),
-      m.volume_change(), m.wall_added(), m.is_valid() ? "yes" : m.defects.c_str());
+      m.volume_change(), m.wall_added, m.is_valid() ? "yes" : m.defects.c_str());
   std::fflush(stdout);
 }
 

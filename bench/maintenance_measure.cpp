@@ -103,6 +103,24 @@ WallDistance wall_distance(const std::vector<WallSample>& samples, const WallUni
   return out;
 }
 
+/// `Measurement::wall_added`.
+double added_distance(const std::vector<WallSample>& before, const std::vector<WallSample>& after,
+                      const WallUnit& unit) {
+  double greatest = 0;
+  for (const WallSample& sample : after) {
+    const double reach = unit.at(sample.place);
+    if (sample.distance <= greatest * reach) {
+      continue;
+    }
+    double known = 0;
+    for (const WallSample& old : before) {
+      if ((old.place - sample.place).squaredNorm() <= reach * reach) known = std::max(known, old.distance);
+    }
+    greatest = std::max(greatest, (sample.distance - known) / reach);
+  }
+  return greatest;
+}
+
 std::vector<double> piece_volumes(const TetMesh& mesh) {
   std::vector<double> volumes = find_components(mesh).volume;
   std::sort(volumes.begin(), volumes.end(), std::greater<>());
@@ -220,6 +238,7 @@ void measure_result(const TetMesh& input, const Engine& engine, const TriangleTr
   const WallUnit unit(engine.mesh(), engine.stroke_count());
   out.cut.wall = wall_distance(out.cut.walls, unit);
   out.after.wall = wall_distance(out.after.walls, unit);
+  out.wall_added = added_distance(out.cut.walls, out.after.walls, unit);
   out.neighbourhood = ChangedPlaces(input, engine).quality(input);
   out.above_input = count_above(engine, std::max(25.0, out.input.lr_max));
   out.defects = new_defects(validate(input, ValidateLevel::kGeometry), engine.mesh());

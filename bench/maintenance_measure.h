@@ -59,6 +59,9 @@ struct Measurement {
   QualityStats neighbourhood;  ///< of the input's tets at and around the places that changed later
   Snapshot cut, after;
   std::uint64_t above_input = 0;       ///< touched tets in the end with an L/r above both 25 and the input's worst
+  /// By how much a place on the walls lies further from the sweep than any within a local edge did before maintenance, in
+  /// local edges; the greatest of all.
+  double wall_added = 0;
   double cut_ms = 0, maintain_ms = 0;  ///< processor time, the best of the runs
   std::string defects;                 ///< as from `new_defects`
 
@@ -70,7 +73,6 @@ struct Measurement {
   [[nodiscard]] double us_per_cut_tet(double ms) const;
   /// Greatest change of a piece's volume by maintenance, relative; 1 where pieces come or go.
   [[nodiscard]] double volume_change() const;
-  [[nodiscard]] double wall_added() const { return after.wall.greatest - cut.wall.greatest; }
   [[nodiscard]] double mean_wall_added() const { return after.wall.mean - cut.wall.mean; }
   /// The worst L/r around the cut that maintenance may leave.
   [[nodiscard]] double lr_bound(bool is_cube) const;

@@ -284,11 +284,9 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
       }
     }
     const double tolerance = surface_tolerance(care, surface.tag) * mean_;
-    Reach apex_reach;
-    const Piece apex_before{patches_[i].before.facets, {care.mesh.rest(plan_.into)}};
-    const Piece apex_after{patches_[i].after.facets, {place_}};
     const bool keeps_apex =
-        !moves(care) || care.references.allows(surface.tag, apex_before, apex_after, tolerance, apex_reach);
+        !moves(care) ||
+        care.references.allows_apex(surface.tag, care.mesh.rest(plan_.into), place_, tolerance, mean_);
     const bool keeps_facets = surface.is_flat || care.references.allows(surface.tag, patches_[i].before,
                                                                         patches_[i].after, tolerance, patches_[i].reach);
     if (!keeps_apex || !keeps_facets) {

@@ -13,6 +13,8 @@ namespace {
 /// Facets of a fresh wall that are measured at most, and the share of them that counts as typical.
 constexpr std::size_t kMostSamples = 200;
 constexpr double kTypicalShare = 0.9;
+/// The share of them that lies no further than chords of a smooth sweep do; the others have bent.
+constexpr double kChordShare = 0.75, kChordSlack = 1.5, kGreatestChord = 0.07;
 /// What a piece of wall may go beyond where it was, as a share of the tolerance.
 constexpr double kSlack = 0.3;
 /// However coarse a wall is, it may leave its place by no more than this share of the local edge.
@@ -57,11 +59,11 @@ void References::measure(const TetMesh& mesh, const std::vector<OpenedFace>& ope
   if (shares.empty()) {
     return;
   }
-  const auto typical = shares.begin() + static_cast<std::ptrdiff_t>(kTypicalShare * static_cast<double>(shares.size()));
-  std::nth_element(shares.begin(), typical, shares.end());
-  sweep->second.usual = std::clamp(*typical, kWallTolerance, kGreatestTolerance);
-  sweep->second.greatest =
-      std::clamp(*std::max_element(shares.begin(), shares.end()), kWallTolerance, kGreatestTolerance);
+  std::sort(shares.begin(), shares.end());
+  const auto at = [&](double share) { return shares[static_cast<std::size_t>(share * static_cast<double>(shares.size()))]; };
+  sweep->second.chord = std::min(kChordSlack * at(kChordShare), kGreatestChord);
+  sweep->second.usual = std::clamp(at(kTypicalShare), kWallTolerance, kGreatestTolerance);
+  sweep->second.greatest = std::clamp(shares.back(), kWallTolerance, kGreatestTolerance);
 }
 
 double References::tolerance(std::uint32_t tag, bool is_bad) const {
@@ -70,6 +72,17 @@ double References::tolerance(std::uint32_t tag, bool is_bad) const {
     return kWallTolerance;
   }
   return is_bad ? sweep->second.greatest : sweep->second.usual;
+}
+
+bool References::allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec3& place, double tolerance,
+                             double edge) const {
+  const auto sweep = sweeps_.find(tag);
+  if (sweep == sweeps_.end() ||
+      sweep->second.tree.closest(place, std::max(tolerance, sweep->second.chord * edge)).is_valid()) {
+    return true;
+  }
+  const double old_distance = std::sqrt(sweep->second.tree.closest(old_place).distance2);
+  return sweep->second.tree.closest(place, old_distance).is_valid();
 }
 
 bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,

@@ -52,9 +52,15 @@ class References {
   [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,
                             Reach& reach) const;
 
+  /// The same for a vertex of the surface that moves: it may lie as far from the reference as it did, or as the facets
+  /// of a fresh wall with this mean edge do. True where there is no reference. Cost: O(1) searches.
+  [[nodiscard]] bool allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec3& place, double tolerance,
+                                 double edge) const;
+
  private:
   struct Sweep {
     TriangleTree tree;
+    double chord = 0;  ///< how far the fresh wall's facets lie from it, as a share of their edges
     double usual = kWallTolerance, greatest = kWallTolerance;  ///< tolerances
   };
 

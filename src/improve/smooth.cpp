@@ -132,8 +132,7 @@ StarEnergy::Value StarEnergy::evaluate(const Vec3& centre) const {
 namespace {
 
 /// Whether the star stands deformed without inverted tets once its centre stands for another material point.
-bool stays_sound(const TetMesh& mesh, VertexId vertex, const MaterialPoint& point, const std::vector<TetId>& star) {
-  const Vec3 moved = current_at(mesh, point);
+bool stays_sound(const TetMesh& mesh, VertexId vertex, const Vec3& moved, const std::vector<TetId>& star) {
   return std::all_of(star.begin(), star.end(), [&](TetId tet) {
     const TetVertices& v = mesh.vertices(tet);
     const auto at = [&](unsigned c) -> const Vec3& { return v[c] == vertex ? moved : mesh.current(v[c]); };
@@ -171,7 +170,9 @@ Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point) {
 
 bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vector<TetId>& star) {
   const MaterialPoint point = locate(care.mesh, place, star);
-  if (is_deformed(care.mesh, star) && !stays_sound(care.mesh, vertex, point, star)) {
+  const bool is_held = care.mesh.current(vertex) == care.mesh.rest(vertex);  // as `Transaction::move` sees it
+  const Vec3 current = is_held ? place : current_at(care.mesh, point);
+  if (is_deformed(care.mesh, star) && !stays_sound(care.mesh, vertex, current, star)) {
     return false;
   }
   care.transaction.move(vertex, place, point.basis, point.weights);
