@@ -23,11 +23,11 @@ bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
          n.cross(m).squaredNorm() <= kFlat * kFlat * n.squaredNorm() * m.squaredNorm();
 }
 
-/// Whether an edge or face, given by its vertices, may exist in tets other than those of a cavity. Only vertices on a
-/// front belong to both lips of a cut, and pinched ones to tets that no walk finds.
-bool exists_across_front(Care& care, std::span<const VertexId> vertices, const std::vector<TetId>& cavity) {
+/// Whether an edge or face, given by its vertices, may exist in tets other than those of a cavity. Only on a boundary can
+/// it: a vertex may belong to both lips of a cut, or of several, and a pinched one to tets that no walk finds.
+bool exists_elsewhere(Care& care, std::span<const VertexId> vertices, const std::vector<TetId>& cavity) {
   const TetMesh& mesh = care.mesh;
-  const auto is_shared = [&](VertexId v) { return (mesh.shape_of(v) & (shape::kFront | shape::kPinched)) != 0; };
+  const auto is_shared = [&](VertexId v) { return mesh.shape_of(v) != 0; };
   const auto is_pinched = [&](VertexId v) { return (mesh.shape_of(v) & shape::kPinched) != 0; };
   if (!std::all_of(vertices.begin(), vertices.end(), is_shared)) {
     return false;
@@ -94,10 +94,10 @@ bool EdgeRemover::makes_known_face(Care& care) const {
   return std::any_of(triangles_.begin(), triangles_.end(), [&](const RingTriangle& t) {
     const std::array<VertexId, 3> v = {ring_.vertices[t[0]], ring_.vertices[t[1]], ring_.vertices[t[2]]};
     const auto is_new = [&](unsigned i, unsigned j) { return j - i > 1 && !(ring_.is_closed && i == 0 && j == last); };
-    return (is_new(t[0], t[1]) && exists_across_front(care, std::array{v[0], v[1]}, ring_.tets)) ||
-           (is_new(t[1], t[2]) && exists_across_front(care, std::array{v[1], v[2]}, ring_.tets)) ||
-           (is_new(t[0], t[2]) && exists_across_front(care, std::array{v[0], v[2]}, ring_.tets)) ||
-           exists_across_front(care, v, ring_.tets);
+    return (is_new(t[0], t[1]) && exists_elsewhere(care, std::array{v[0], v[1]}, ring_.tets)) ||
+           (is_new(t[1], t[2]) && exists_elsewhere(care, std::array{v[1], v[2]}, ring_.tets)) ||
+           (is_new(t[0], t[2]) && exists_elsewhere(care, std::array{v[0], v[2]}, ring_.tets)) ||
+           exists_elsewhere(care, v, ring_.tets);
   });
 }
 
@@ -184,7 +184,7 @@ bool FaceRemover::try_face(Care& care, Side face) {
   const bool is_better = std::all_of(plan_.produced.begin(), plan_.produced.end(),
                                      [&](const NewTet& tet) { return inradius_ratio(mesh, tet.vertices) > bound; });
   const std::array<VertexId, 2> edge = {p, q};
-  if (!is_better || exists_across_front(care, edge, plan_.consumed) || !keeps_current(mesh, plan_)) {
+  if (!is_better || exists_elsewhere(care, edge, plan_.consumed) || !keeps_current(mesh, plan_)) {
     return false;
   }
   apply(care.transaction, plan_, care.changed);

@@ -193,17 +193,19 @@ class Maintainer::Queue {
     }
     return has_merged;
   }
+  /// The first remedy that helps; collapses first, since they leave fewer tets behind.
   bool improve(Care& care, TetId tet, StageTimes& times) {
-    if (options_.merge) {
-      const StageZone zone(times, Stage::kMerge);
-      if (collapser_.improve(care, tet)) return true;
-    }
-    if (!options_.improve) {
-      return false;
-    }
+    return collapse(care, tet, times) || reshape(care, tet, times);
+  }
+  bool collapse(Care& care, TetId tet, StageTimes& times) {
+    const StageZone zone(times, Stage::kMerge);
+    return options_.merge && collapser_.improve(care, tet);
+  }
+  bool reshape(Care& care, TetId tet, StageTimes& times) {
     const StageZone zone(times, Stage::kImprove);
-    return remover_.improve(care, tet) || face_remover_.improve(care, tet) || smooth(care, tet) ||
-           (care.is_bad && (peeler_.improve(care, tet) || inserter_.improve(care, tet)));
+    return options_.improve &&
+           (remover_.improve(care, tet) || face_remover_.improve(care, tet) || smooth(care, tet) ||
+            (care.is_bad && (peeler_.improve(care, tet) || inserter_.improve(care, tet))));
   }
   bool smooth(Care& care, TetId tet) {
     const TetVertices corners = care.mesh.vertices(tet);
