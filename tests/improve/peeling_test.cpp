@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Flat tets on a surface are taken away, and the volume comes back beside them.
+#include "improve/peeling.h"
+
+#include "improve/support.h"
+
+namespace incise::test {
+namespace {
+
+/// The number of a point of a Kuhn cube of 4³ cells.
+std::uint32_t point_of(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+  return i + 5 * (j + 5 * k);
+}
+
+/// Adds a tet, turned such that it is positive.
+void add_positive(TetSoup& soup, std::array<std::uint32_t, 4> t) {
+  const auto& p = soup.points;
+  if ((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(p[t[3]] - p[t[0]]) < 0) std::swap(t[2], t[3]);
+  soup.tets.push_back(t);
+}
+
+/// A cube with a flat tip on one face of its top.
+TetSoup cube_with_tip(double height) {
+  TetSoup soup = kuhn_cube(4);
+  const std::uint32_t a = point_of(1, 1, 4), b = point_of(2, 1, 4), c = point_of(2, 2, 4);
+  Vec3 tip = (soup.points[a] + soup.points[b] + soup.points[c]) / 3.0;
+  tip.z() += height;
+  soup.points.push_back(tip);
+  add_positive(soup, {a, b, c, static_cast<std::uint32_t>(soup.points.size() - 1)});
+  return soup;
+}
+
+/// A cube whose top has a valley along an edge, filled with a flat tet.
+TetSoup cube_with_filled_valley(double height) {
+  TetSoup soup = kuhn_cube(4);
+  const std::uint32_t a = point_of(1, 1, 4), b = point_of(2, 1, 4), c = point_of(2, 2, 4), d = point_of(1, 2, 4);
+  soup.points[b].z() += height;
+  soup.points[d].z() += height;
+  add_positive(soup, {a, b, c, d});
+  return soup;
+}
+
+bool peel(TetMesh& mesh, TetId tet) {
+  CareOf care(mesh);
+  std::vector<std::pair<VertexId, double>> worst;
+  for (const VertexId v : mesh.vertices(tet)) worst.emplace_back(v, worst_ratio(mesh, star_of(mesh, v)));
+  const bool is_done = Peeler().improve(care.care, tet);
+  EXPECT_EQ(care.statistics.peeled_tets, is_done ? 1U : 0U);
+  const Step step = care.commit();
+  for (const auto& [v, before] : worst) {
+    if (is_done && step.moved.at(0).id == v) {
+      EXPECT_GT(worst_ratio(mesh, care.changed), before);
+    }
+  }
+  return is_done;
+}
+
+TEST(Peeling, takes_a_tip_with_three_boundary_faces_away) {
+  TetMesh mesh = build(cube_with_tip(0.004));
+  const std::size_t vertices = mesh.vertex_count(), tets = mesh.tet_count();
+  const double volume = volume_of(mesh);
+  ASSERT_TRUE(peel(mesh, worst_tet(mesh)));
+  EXPECT_EQ(mesh.vertex_count(), vertices - 1);
+  EXPECT_EQ(mesh.tet_count(), tets - 1);
+  expect_valid(mesh, volume, 1e-14);
+}
+
+TEST(Peeling, takes_a_flat_tet_with_two_boundary_faces_away) {
+  TetMesh mesh = build(cube_with_filled_valley(0.004));
+  const std::size_t vertices = mesh.vertex_count(), tets = mesh.tet_count();
+  const double volume = volume_of(mesh);
+  ASSERT_TRUE(peel(mesh, worst_tet(mesh)));
+  EXPECT_EQ(mesh.vertex_count(), vertices);
+  EXPECT_EQ(mesh.tet_count(), tets - 1);
+  expect_valid(mesh, volume, 1e-14);
+}
+
+TEST(Peeling, leaves_tets_that_stand_out) {
+  for (TetMesh mesh : {build(cube_with_tip(0.1)), build(cube_with_filled_valley(0.1))}) {
+    const std::uint64_t hash = mesh.hash();
+    EXPECT_FALSE(peel(mesh, TetId(384)));
+    EXPECT_EQ(mesh.hash(), hash);
+    expect_valid(mesh, volume_of(mesh));
+  }
+}
+
+TEST(Peeling, leaves_tets_that_hold_two_tags) {
+  TetMesh mesh = build(cube_with_filled_valley(0.004));
+  const TetId tet = worst_tet(mesh);
+  Transaction transaction(mesh);
+  for (unsigned s = 0; s < 4; ++s) {
+    if (mesh.links(tet)[s].is_boundary()) {
+      transaction.set_link({tet, s}, Link::boundary(5));
+      break;
+    }
+  }
+  transaction.commit();
+  EXPECT_FALSE(peel(mesh, tet));
+}
+
+TEST(Peeling, leaves_borders_between_regions) {
+  TetSoup soup = cube_with_tip(0.004);
+  soup.regions.assign(soup.tets.size(), 1);
+  soup.regions.back() = 2;
+  TetMesh mesh = build(std::move(soup));
+  EXPECT_FALSE(peel(mesh, worst_tet(mesh)));
+  expect_valid(mesh, volume_of(mesh));
+}
+
+TEST(Peeling, leaves_tets_inside_and_those_with_one_boundary_face) {
+  TetMesh mesh = build(kuhn_cube(4));
+  const std::uint64_t hash = mesh.hash();
+  for (const TetId tet : tets_of(mesh)) EXPECT_FALSE(peel(mesh, tet));
+  EXPECT_EQ(mesh.hash(), hash);
+  expect_valid(mesh, 1.0);
+}
+
+TEST(Peeling, of_cut_bodies_keeps_the_volume_of_every_piece) {
+  unsigned peeled = 0;
+  for (TetMesh mesh : {cut_mesh(ball(8), {{Vec3(0.3, 0.5, 0.9), 0.1}}),
+                       cut_mesh(jittered_cube(6, 6), coring_stroke(Vec3(0.5, 0.5, 0), 0.3, 24, -0.2, 1.2))}) {
+    const std::vector<double> volumes = piece_volumes(mesh);
+    for (const TetId tet : tets_of(mesh)) {
+      if (mesh.is_live(tet) && ratio_of(mesh, tet) < 0.25 && peel(mesh, tet)) ++peeled;
+    }
+    expect_pieces(mesh, volumes, 1e-12);
+    expect_valid(mesh, volume_of(mesh));
+  }
+  EXPECT_GT(peeled, 0U);
+}
+
+}  // namespace
+}  // namespace incise::test
