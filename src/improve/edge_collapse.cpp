@@ -296,12 +296,16 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
   return true;
 }
 
-/// Whether tets that stand upright now stay so.
+/// Whether tets that stand upright now stay so, with the merged vertex where it will stand.
 bool EdgeCollapser::keeps_current(const Care& care) const {
+  const TetMesh& mesh = care.mesh;
+  const MaterialPoint point = locate(mesh, place_, plan_.around);
+  const Vec3 merged =
+      moves(care) ? current_after_move(mesh, plan_.into, place_, point.basis, point.weights) : mesh.current(plan_.into);
   return std::all_of(plan_.fan.begin(), plan_.fan.end(), [&](TetId tet) {
-    TetVertices merged = care.mesh.vertices(tet);
-    merged[care.mesh.corner_of(tet, plan_.from)] = plan_.into;
-    return is_sound_now(care.mesh, merged) || !is_sound_now(care.mesh, care.mesh.vertices(tet));
+    const TetVertices& v = mesh.vertices(tet);
+    const auto at = [&](unsigned c) -> const Vec3& { return v[c] == plan_.from ? merged : mesh.current(v[c]); };
+    return signed_volume6(at(0), at(1), at(2), at(3)) > 0 || !is_sound_now(mesh, v);
   });
 }
 

@@ -2,7 +2,6 @@
 #include "improve/edge_removal.h"
 
 #include <algorithm>
-#include <span>
 
 namespace incise::inline v0 {
 
@@ -23,8 +22,8 @@ bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
          n.cross(m).squaredNorm() <= kFlat * kFlat * n.squaredNorm() * m.squaredNorm();
 }
 
-/// Whether an edge or face, given by its vertices, may exist in tets other than those of a cavity. Only on a boundary can
-/// it: a vertex may belong to both lips of a cut, or of several, and a pinched one to tets that no walk finds.
+}  // namespace
+
 bool exists_elsewhere(Care& care, std::span<const VertexId> vertices, const std::vector<TetId>& cavity) {
   const TetMesh& mesh = care.mesh;
   const auto is_shared = [&](VertexId v) { return mesh.shape_of(v) != 0; };
@@ -41,8 +40,6 @@ bool exists_elsewhere(Care& care, std::span<const VertexId> vertices, const std:
            std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return mesh.corner_of(tet, v) < 4; });
   });
 }
-
-}  // namespace
 
 bool keeps_current(const TetMesh& mesh, const RemeshPlan& plan) {
   const bool was_sound = std::all_of(plan.consumed.begin(), plan.consumed.end(),

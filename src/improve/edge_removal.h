@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "improve/care.h"
@@ -46,6 +47,10 @@ class FaceRemover {
 
   RemeshPlan plan_;
 };
+
+/// Whether an edge or face, given by its vertices, may exist in tets other than those of a cavity. Only on a boundary can
+/// it: a vertex may belong to both lips of a cut, or of several, and a pinched one to tets that no walk finds.
+[[nodiscard]] bool exists_elsewhere(Care& care, std::span<const VertexId> vertices, const std::vector<TetId>& cavity);
 
 /// Whether tets that stand upright now give way to such: true at rest.
 bool keeps_current(const TetMesh& mesh, const RemeshPlan& plan);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostTets = 16;
 constexpr unsigned kNewtonSteps = 6;
 /// A new vertex must make the worst tet better by this share: it makes the mesh larger for good.
-constexpr double kLeastInsertionGain = 0.1;
+constexpr double kLeastInsertionGain = 0.25;
 
 /// Whether the input folds over at a face: tets on either side may overlap.
 bool is_pinched(const TetMesh& mesh, Side side) {

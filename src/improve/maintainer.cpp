@@ -19,7 +19,7 @@ namespace {
 /// Tets at the cut with an L/r below this are good enough: each further step costs more and gains less.
 constexpr double kGoal = kRegularLr / 11.0;
 /// Tets with an L/r above this come first of all; of those beside the cut no others are worked on.
-constexpr double kBad = kRegularLr / 20.0;
+constexpr double kBad = kRegularLr / 18.0;
 /// Vertices that cuts made are tried so often: a merge makes room for others.
 constexpr unsigned kThinningRounds = 2;
 /// Changes per journal step: what they free is used again from the next one on.

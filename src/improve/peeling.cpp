@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "improve/edge_removal.h"
 #include "improve/smooth.h"
 
 namespace incise::inline v0 {
@@ -93,13 +94,14 @@ bool Peeler::is_bound(const Care& care) const {
 }
 
 /// Whether the edge between two new faces is no boundary edge yet; a vertex with no other tets leaves with the tet.
-bool Peeler::opens_manifold(const Care& care) {
+bool Peeler::opens_manifold(Care& care) {
   if (inner_.size() == 1) {
     return true;
   }
   const TetVertices& v = care.mesh.vertices(tet_);
-  find_edge_ring(care.mesh, v[outer_[0]], v[outer_[1]], tet_, ring_);
-  return ring_.is_closed;
+  const std::array<VertexId, 2> edge = {v[outer_[0]], v[outer_[1]]};
+  find_edge_ring(care.mesh, edge[0], edge[1], tet_, ring_);
+  return ring_.is_closed && !exists_elsewhere(care, edge, ring_.tets);
 }
 
 bool Peeler::keeps_surface(const Care& care) {
@@ -141,8 +143,10 @@ bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
   place = mesh.rest(vertex) + step;
   const double bound = std::max(worst_of(care, star_) * (1.0 + kLeastGain), kLeastRatio);
   care.spend(star_.size());
-  return std::all_of(star_.begin(), star_.end(),
-                     [&](TetId tet) { return tet == tet_ || inradius_ratio_with(mesh, tet, vertex, place) > bound; });
+  std::erase(star_, tet_);
+  return may_move(mesh, vertex, place, star_) && std::all_of(star_.begin(), star_.end(), [&](TetId tet) {
+           return inradius_ratio_with(mesh, tet, vertex, place) > bound;
+         });
 }
 
 /// The tet behind one of its sides takes its material.

@@ -24,7 +24,7 @@ class Peeler {
   bool find_sides(const Care& care);
   [[nodiscard]] bool find_tag(const Care& care);
   [[nodiscard]] bool is_bound(const Care& care) const;
-  [[nodiscard]] bool opens_manifold(const Care& care);
+  [[nodiscard]] bool opens_manifold(Care& care);
   [[nodiscard]] bool keeps_surface(const Care& care);
   [[nodiscard]] bool find_step(Care& care, VertexId vertex, Vec3& place);
   void take_away(Care& care);

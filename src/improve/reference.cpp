@@ -13,8 +13,8 @@ namespace {
 /// Facets of a fresh wall that are measured at most, and the share of them that counts as typical.
 constexpr std::size_t kMostSamples = 200;
 constexpr double kTypicalShare = 0.9;
-/// The share of them that lies no further than chords of a smooth sweep do; the others have bent.
-constexpr double kChordShare = 0.75, kChordSlack = 1.5, kGreatestChord = 0.07;
+/// By this share of them chords are told from bends: in a plane nothing lies off it that has not bent.
+constexpr double kChordShare = 0.25, kChordSlack = 4.0, kGreatestChord = 0.07;
 /// What a piece of wall may go beyond where it was, as a share of the tolerance.
 constexpr double kSlack = 0.3;
 /// However coarse a wall is, it may leave its place by no more than this share of the local edge.

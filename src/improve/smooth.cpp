@@ -168,13 +168,17 @@ Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point) {
   return current;
 }
 
+bool may_move(const TetMesh& mesh, VertexId vertex, const Vec3& place, const std::vector<TetId>& star) {
+  const MaterialPoint point = locate(mesh, place, star);
+  return !is_deformed(mesh, star) ||
+         stays_sound(mesh, vertex, current_after_move(mesh, vertex, place, point.basis, point.weights), star);
+}
+
 bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vector<TetId>& star) {
-  const MaterialPoint point = locate(care.mesh, place, star);
-  const bool is_held = care.mesh.current(vertex) == care.mesh.rest(vertex);  // as `Transaction::move` sees it
-  const Vec3 current = is_held ? place : current_at(care.mesh, point);
-  if (is_deformed(care.mesh, star) && !stays_sound(care.mesh, vertex, current, star)) {
+  if (!may_move(care.mesh, vertex, place, star)) {
     return false;
   }
+  const MaterialPoint point = locate(care.mesh, place, star);
   care.transaction.move(vertex, place, point.basis, point.weights);
   ++care.statistics.moved_vertices;
   return true;

@@ -75,6 +75,9 @@ MaterialPoint locate(const TetMesh& mesh, const Vec3& place, const std::vector<T
 /// Where a material point is as the mesh stands.
 Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point);
 
+/// Whether a vertex may move: no tet of `star`, its star, would stand inverted that does not now.
+bool may_move(const TetMesh& mesh, VertexId vertex, const Vec3& place, const std::vector<TetId>& star);
+
 /// Moves a vertex and samples what followers carry at the new place; `star` is its star. Returns false, and does
 /// nothing, where a tet would stand inverted that does not now.
 bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vector<TetId>& star);

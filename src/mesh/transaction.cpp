@@ -189,16 +189,21 @@ void Transaction::set_shape(VertexId vertex, std::uint8_t bits) {
   mesh_.vertex_shape_[vertex] = bits;
 }
 
+Vec3 current_after_move(const TetMesh& mesh, VertexId vertex, const Vec3& rest, const TetVertices& basis,
+                        const std::array<double, 4>& weights) {
+  bool is_at_rest = mesh.current(vertex) == mesh.rest(vertex);
+  Vec3 current = Vec3::Zero();
+  for (unsigned c = 0; c < 4; ++c) {
+    is_at_rest = is_at_rest && mesh.current(basis[c]) == mesh.rest(basis[c]);
+    current += weights[c] * mesh.current(basis[c]);
+  }
+  return is_at_rest ? rest : current;
+}
+
 void Transaction::move(VertexId vertex, const Vec3& rest, const TetVertices& basis,
                        const std::array<double, 4>& weights) {
   touch(vertex);
-  Vec3 current = rest;
-  if (mesh_.current_[vertex] != mesh_.rest_[vertex]) {
-    current.setZero();
-    for (unsigned c = 0; c < 4; ++c) {
-      current += weights[c] * mesh_.current_[basis[c]];
-    }
-  }
+  const Vec3 current = current_after_move(mesh_, vertex, rest, basis, weights);
   if (keeps_edits_) {
     note_edit(Edit::Kind::kMove, static_cast<std::uint32_t>(step_.moved.size()));
   }
