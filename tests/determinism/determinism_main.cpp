@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints one line "name hash" per scene: the state of the mesh after its strokes, and after some are taken back.
+// Prints one line "name hash" per scene: the state of the mesh after its strokes, and after some are taken back; then
+// the same scenes maintained, at once and in portions, and a whole mesh maintained without a cut.
 // The lines are equal for every compiler, optimisation level and target (tests/determinism/golden.txt).
 // usage: incise_determinism [--threads N]     the result does not depend on N
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -91,6 +93,59 @@ bool run(const Scene& scene, Profile profile, unsigned threads) {
   return is_sound;
 }
 
+/// How a scene is maintained.
+struct Upkeep {
+  const char* name;
+  Profile profile;
+  double snap;
+  std::uint64_t work_units;  ///< per stroke
+};
+
+Engine make_engine(TetSoup soup, const Upkeep& upkeep, unsigned threads) {
+  EngineOptions options;
+  options.cut = {upkeep.profile, upkeep.snap};
+  options.maintain.work_units = upkeep.work_units;
+  options.threads = threads;
+  return Engine::create(TetMesh::build(std::move(soup)).value(), options).value();
+}
+
+bool run_maintained(const Scene& scene, const Upkeep& upkeep, unsigned threads) {
+  Engine engine = make_engine(scene.body, upkeep, threads);
+  bool is_sound = true;
+  for (const Stroke& stroke : scene.strokes) is_sound &= engine.cut(stroke).ok();
+  is_sound &= print(scene.name, upkeep.name, "maintained", engine.mesh());
+  if (engine.has_maintenance()) {
+    for (const std::uint64_t units : {1U, 700U, 3000U}) engine.maintain(units);
+    is_sound &= print(scene.name, upkeep.name, "portions", engine.mesh());
+    engine.maintain();
+    is_sound &= print(scene.name, upkeep.name, "rest", engine.mesh());
+  }
+  while (engine.undo()) {
+  }
+  return is_sound & print(scene.name, upkeep.name, "taken_back", engine.mesh());
+}
+
+bool run_improved(const Upkeep& upkeep, unsigned threads) {
+  TetSoup soup = kuhn_cube(6);
+  jitter(soup, 0.3, 8);
+  Engine engine = make_engine(std::move(soup), upkeep, threads);
+  engine.improve();
+  return print("rough", upkeep.name, "improved", engine.mesh());
+}
+
+bool run_all_maintained(unsigned threads) {
+  const std::array<Upkeep, 4> upkeeps = {{{"incise_snap", Profile::kIncise, 0.2, kUnlimitedWork},
+                                          {"incise_no_snap", Profile::kIncise, 0, kUnlimitedWork},
+                                          {"incise_budget", Profile::kIncise, 0, 2000},
+                                          {"paper", Profile::kPaper, 0, kUnlimitedWork}}};
+  bool is_sound = true;
+  for (const Upkeep& upkeep : upkeeps) {
+    for (const Scene& scene : scenes()) is_sound &= run_maintained(scene, upkeep, threads);
+    is_sound &= run_improved(upkeep, threads);
+  }
+  return is_sound;
+}
+
 }  // namespace
 }  // namespace incise::test
 
@@ -108,5 +163,6 @@ int main(int argc, char** argv) {
     is_sound &= run(scene, incise::Profile::kIncise, threads);
     is_sound &= run(scene, incise::Profile::kPaper, threads);
   }
+  is_sound &= run_all_maintained(threads);
   return is_sound ? 0 : 1;
 }
