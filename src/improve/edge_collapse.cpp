@@ -13,6 +13,8 @@ namespace {
 
 /// Edges of a tet that are tried, shortest first.
 constexpr std::size_t kEdgesTried = 3;
+/// Neighbours of a vertex that thinning out tries, nearest first.
+constexpr std::size_t kNeighboursTried = 8;
 /// No new edge is longer than the longest of the vertex by more than this factor.
 constexpr double kLengthCap = 1.5;
 /// New faces turn away from their surface by less than the angle with this cosine: 60 degrees.
@@ -107,6 +109,7 @@ bool EdgeCollapser::thin_out(Care& care, VertexId vertex) {
     const double x = (care.mesh.rest(a) - centre).squaredNorm(), y = (care.mesh.rest(b) - centre).squaredNorm();
     return x != y ? x < y : a.value < b.value;
   });
+  neighbours_.resize(std::min(neighbours_.size(), kNeighboursTried));
   least_gain_ = 0.0;
   return std::any_of(neighbours_.begin(), neighbours_.end(), [&](VertexId v) { return try_collapse(care, vertex, v); });
 }
@@ -122,12 +125,11 @@ void EdgeCollapser::begin(Care& care, VertexId from) {
   star_ = care.walker.star(care.mesh, from);
   surfaces_ = surfaces_at(care.mesh, from, star_);
   worst_ = worst_of(care, star_);
-  longest_ = mean_ = 0;
+  longest_ = 0;
   for (const TetId tet : star_) {
     for (const VertexId v : care.mesh.vertices(tet)) {
       const double length = (care.mesh.rest(v) - care.mesh.rest(from)).norm();
       longest_ = std::max(longest_, length);
-      mean_ += length / static_cast<double>(3 * star_.size());
     }
   }
 }
@@ -283,10 +285,10 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
         return false;
       }
     }
-    const double tolerance = surface_tolerance(care, surface.tag) * mean_;
+    const double edge = mean_spoke(patches_[i].before), tolerance = surface_tolerance(care, surface.tag) * edge;
     const bool keeps_apex =
         !moves(care) ||
-        care.references.allows_apex(surface.tag, care.mesh.rest(plan_.into), place_, tolerance, mean_);
+        care.references.allows_apex(surface.tag, care.mesh.rest(plan_.into), place_, tolerance, edge);
     const bool keeps_facets = surface.is_flat || care.references.allows(surface.tag, patches_[i].before,
                                                                         patches_[i].after, tolerance, patches_[i].reach);
     if (!keeps_apex || !keeps_facets) {

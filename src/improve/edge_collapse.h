@@ -54,7 +54,7 @@ class EdgeCollapser {
   std::vector<TetId> star_;
   VertexSurfaces surfaces_;
   double worst_ = 0;         // ratio in its star
-  double longest_ = 0, mean_ = 0;  // edge of its
+  double longest_ = 0;  // edge of its
   bool has_before_ = false;  // the patches' pieces before, and their limits, are known
 
   std::vector<TetId> around_;  // the star of `into`

@@ -21,7 +21,7 @@ constexpr double kGoal = kRegularLr / 11.0;
 /// Tets with an L/r above this come first of all; of those beside the cut no others are worked on.
 constexpr double kBad = kRegularLr / 18.0;
 /// Vertices that cuts made are tried so often: a merge makes room for others.
-constexpr unsigned kThinningRounds = 2;
+constexpr unsigned kThinningRounds = 3;
 /// Changes per journal step: what they free is used again from the next one on.
 constexpr std::uint64_t kChangesPerStep = 4096;
 

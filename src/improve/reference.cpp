@@ -14,11 +14,11 @@ namespace {
 constexpr std::size_t kMostSamples = 200;
 constexpr double kTypicalShare = 0.9;
 /// By this share of them chords are told from bends: in a plane nothing lies off it that has not bent.
-constexpr double kChordShare = 0.25, kChordSlack = 4.0, kGreatestChord = 0.07;
+constexpr double kChordShare = 0.25, kChordSlack = 6.0, kGreatestChord = 0.07;
 /// What a piece of wall may go beyond where it was, as a share of the tolerance.
 constexpr double kSlack = 0.3;
 /// However coarse a wall is, it may leave its place by no more than this share of the local edge.
-constexpr double kGreatestTolerance = 2 * kWallTolerance;
+constexpr double kGreatestTolerance = 2.25 * kWallTolerance;
 
 bool is_near(const Vec3& p, const std::vector<Facet>& facets, double tolerance2) {
   return std::any_of(facets.begin(), facets.end(),
@@ -39,6 +39,14 @@ double farthest(const TriangleTree& sweep, const Piece& piece) {
 }
 
 }  // namespace
+
+double mean_spoke(const Piece& piece) {
+  double sum = 0;
+  for (const Facet& f : piece.facets) {
+    sum += (f[1] - f[0]).norm() + (f[2] - f[0]).norm();
+  }
+  return sum / static_cast<double>(2 * piece.facets.size());
+}
 
 void References::measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened) {
   const auto sweep = opened.empty() ? sweeps_.end() : sweeps_.find(opened.front().tag);

@@ -30,6 +30,9 @@ struct Piece {
   }
 };
 
+/// The mean length of the edges that lead from the first corners of a piece's facets, the vertex that they share.
+[[nodiscard]] double mean_spoke(const Piece& piece);
+
 /// How far a piece of surface lies from its reference; measured when it is first asked for.
 using Reach = std::optional<double>;
 

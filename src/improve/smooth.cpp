@@ -267,7 +267,7 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
       continue;
     }
     collect_pieces(care, vertex, place, surface.tag);
-    const double tolerance = surface_tolerance(care, surface.tag) * edge;
+    const double tolerance = surface_tolerance(care, surface.tag) * mean_spoke(before_);
     Reach apex_reach, reach;
     const Piece apex_before{before_.facets, {care.mesh.rest(vertex)}}, apex_after{after_.facets, {place}};
     if (!care.references.allows(surface.tag, apex_before, apex_after, tolerance, apex_reach) ||
