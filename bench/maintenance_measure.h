@@ -58,9 +58,9 @@ struct Measurement {
   QualityStats input;
   QualityStats neighbourhood;  ///< of the input's tets at and around the places that changed later
   Snapshot cut, after;
-  std::uint64_t above_input = 0;       ///< touched tets in the end with an L/r above both 25 and the input's worst
-  /// By how much a place on the walls lies further from the sweep than any within a local edge did before maintenance, in
-  /// local edges; the greatest of all.
+  std::uint64_t above_input = 0;  ///< touched tets in the end with an L/r above both 25 and the input's worst
+  /// By how much a place on the walls lies further from the sweep than any within a local edge did before maintenance,
+  /// in local edges; the greatest of all.
   double wall_added = 0;
   double cut_ms = 0, maintain_ms = 0;  ///< processor time, the best of the runs
   std::string defects;                 ///< as from `new_defects`

@@ -33,6 +33,9 @@ Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
   if (options.threads < 1 || options.threads > 256) {
     return Error{ErrorCode::kBadArgument, "the number of threads must lie in [1, 256]", {}};
   }
+  if (options.log && mesh.folds_over_at_load() && (options.maintain.merge || options.maintain.improve)) {
+    options.log(LogLevel::kWarning, "the mesh folds over itself: it is cut, but not maintained; mend its inverted tets");
+  }
   return Engine(std::move(mesh), std::move(options));
 }
 
@@ -62,7 +65,7 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
 
 /// Hands the surroundings of a fresh cut to whoever maintains the mesh.
 void Engine::take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_step) {
-  if (!options_.maintain.merge && !options_.maintain.improve) {
+  if (!maintains()) {
     return;
   }
   if (is_paper()) {
@@ -72,6 +75,10 @@ void Engine::take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_
   const SweptTriangles sweep = swept_triangles(stroke);
   maintainer_.set_reference(tag, TriangleTree(sweep.points, sweep.triangles));
   maintainer_.take_up(mesh_, journal_, first_step);
+}
+
+bool Engine::maintains() const {
+  return (options_.maintain.merge || options_.maintain.improve) && !mesh_.folds_over_at_load();
 }
 
 MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop) {
@@ -100,6 +107,9 @@ bool Engine::has_maintenance() const {
 
 MaintainReport Engine::improve(const ShouldStop& should_stop) {
   MaintainReport report;
+  if (!maintains()) {
+    return report;
+  }
   if (is_paper()) {
     report.maintain = maintain_all_as_paper(mesh_, journal_, options_.maintain, report.times);
   } else {

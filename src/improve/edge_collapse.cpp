@@ -287,10 +287,10 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
     }
     const double edge = mean_spoke(patches_[i].before), tolerance = surface_tolerance(care, surface.tag) * edge;
     const bool keeps_apex =
-        !moves(care) ||
-        care.references.allows_apex(surface.tag, care.mesh.rest(plan_.into), place_, tolerance, edge);
-    const bool keeps_facets = surface.is_flat || care.references.allows(surface.tag, patches_[i].before,
-                                                                        patches_[i].after, tolerance, patches_[i].reach);
+        !moves(care) || care.references.allows_apex(surface.tag, care.mesh.rest(plan_.into), place_, tolerance, edge);
+    const bool keeps_facets =
+        surface.is_flat ||
+        care.references.allows(surface.tag, patches_[i].before, patches_[i].after, tolerance, patches_[i].reach);
     if (!keeps_apex || !keeps_facets) {
       return false;
     }

@@ -29,7 +29,7 @@ class EdgeCollapser {
   /// One surface of `from`: what changes on it.
   struct Patch {
     Piece before, after;
-    Reach reach;  ///< of `before`
+    Reach reach;       ///< of `before`
     double lost6 = 0;  ///< six times the volume that its faces lose where `into` stays in place
   };
 
@@ -54,7 +54,7 @@ class EdgeCollapser {
   std::vector<TetId> star_;
   VertexSurfaces surfaces_;
   double worst_ = 0;         // ratio in its star
-  double longest_ = 0;  // edge of its
+  double longest_ = 0;       // edge of its
   bool has_before_ = false;  // the patches' pieces before, and their limits, are known
 
   std::vector<TetId> around_;  // the star of `into`

@@ -185,8 +185,8 @@ class Maintainer::Queue {
     const StageZone zone(times, Stage::kMerge);
     care.is_bad = false;
     const auto [vertex, generation] = crowd_[next_in_crowd_++];
-    const bool has_merged = options_.merge && care.mesh.is_live(vertex) &&
-                            care.mesh.generation(vertex) == generation && collapser_.thin_out(care, vertex);
+    const bool has_merged = options_.merge && care.mesh.is_live(vertex) && care.mesh.generation(vertex) == generation &&
+                            collapser_.thin_out(care, vertex);
     if (next_in_crowd_ == crowd_.size()) {
       next_in_crowd_ = 0;
       if (++thinning_round_ == kThinningRounds) crowd_.clear();
@@ -203,9 +203,8 @@ class Maintainer::Queue {
   }
   bool reshape(Care& care, TetId tet, StageTimes& times) {
     const StageZone zone(times, Stage::kImprove);
-    return options_.improve &&
-           (remover_.improve(care, tet) || face_remover_.improve(care, tet) || smooth(care, tet) ||
-            (care.is_bad && (peeler_.improve(care, tet) || inserter_.improve(care, tet))));
+    return options_.improve && (remover_.improve(care, tet) || face_remover_.improve(care, tet) || smooth(care, tet) ||
+                                (care.is_bad && (peeler_.improve(care, tet) || inserter_.improve(care, tet))));
   }
   bool smooth(Care& care, TetId tet) {
     const TetVertices corners = care.mesh.vertices(tet);

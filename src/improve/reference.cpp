@@ -68,7 +68,9 @@ void References::measure(const TetMesh& mesh, const std::vector<OpenedFace>& ope
     return;
   }
   std::sort(shares.begin(), shares.end());
-  const auto at = [&](double share) { return shares[static_cast<std::size_t>(share * static_cast<double>(shares.size()))]; };
+  const auto at = [&](double share) {
+    return shares[static_cast<std::size_t>(share * static_cast<double>(shares.size()))];
+  };
   sweep->second.chord = std::min(kChordSlack * at(kChordShare), kGreatestChord);
   sweep->second.usual = std::clamp(at(kTypicalShare), kWallTolerance, kGreatestTolerance);
   sweep->second.greatest = std::clamp(shares.back(), kWallTolerance, kGreatestTolerance);

@@ -41,12 +41,12 @@ class References {
  public:
   void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = {std::move(sweep)}; }
 
-  /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`: no further may
-  /// they lie from it later.
+  /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`: no further
+  /// may they lie from it later.
   void measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened);
 
-  /// How far the wall of a stroke may lie from its sweep, as a share of the local edge: as far as most of the fresh wall
-  /// did; to mend a bad tet as far as any of it.
+  /// How far the wall of a stroke may lie from its sweep, as a share of the local edge: as far as most of the fresh
+  /// wall did; to mend a bad tet as far as any of it.
   [[nodiscard]] double tolerance(std::uint32_t tag, bool is_bad) const;
 
   /// Whether the surface under a tag may change from `before` to `after`: no sample of `after` lies further from the

@@ -10,9 +10,9 @@ namespace incise::inline v0 {
 namespace {
 
 /// What is known of a vertex near the edge that shall vanish.
-constexpr std::uint8_t kInLink = 1;  // a neighbour of `into`
-constexpr std::uint8_t kInRing = 2;  // a neighbour of both ends in a tet around the edge
-constexpr std::uint8_t kOnRim = 4;   // joined to `into` by a boundary edge
+constexpr std::uint8_t kInLink = 1;   // a neighbour of `into`
+constexpr std::uint8_t kInRing = 2;   // a neighbour of both ends in a tet around the edge
+constexpr std::uint8_t kOnRim = 4;    // joined to `into` by a boundary edge
 constexpr std::uint8_t kRingEnd = 8;  // the third vertex of a boundary face at the edge
 
 bool is_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& place) {
@@ -112,7 +112,8 @@ bool CollapsePlanner::keeps_topology(const TetMesh& mesh, const CollapsePlan& pl
          std::all_of(plan.fan.begin(), plan.fan.end(), [&](TetId tet) { return shares_only_ring(mesh, plan, tet); });
 }
 
-/// Whether a boundary side at `from` has a vertex that boundary edges join to both ends, but no boundary face to the edge.
+/// Whether a boundary side at `from` has a vertex that boundary edges join to both ends, but no boundary face to the
+/// edge.
 bool CollapsePlanner::touches_rim(const TetMesh& mesh, const CollapsePlan& plan, TetId tet) const {
   for (unsigned s = 0; s < 4; ++s) {
     if (!mesh.links(tet)[s].is_boundary() || mesh.vertices(tet)[s] == plan.from) {
@@ -132,8 +133,8 @@ bool CollapsePlanner::ring_has(const TetMesh& mesh, const CollapsePlan& plan, Ve
                      [&](TetId tet) { return mesh.corner_of(tet, x) < 4 && mesh.corner_of(tet, y) < 4; });
 }
 
-/// One tet of the fan: its vertices, and the edges of its face opposite `from`, may be in both links only where they are
-/// in the ring's; likewise the edges of its boundary sides with the vertex at infinity.
+/// One tet of the fan: its vertices, and the edges of its face opposite `from`, may be in both links only where they
+/// are in the ring's; likewise the edges of its boundary sides with the vertex at infinity.
 bool CollapsePlanner::shares_only_ring(const TetMesh& mesh, const CollapsePlan& plan, TetId tet) const {
   const TetVertices& v = mesh.vertices(tet);
   const unsigned apex = mesh.corner_of(tet, plan.from);

@@ -57,7 +57,7 @@ Result<TetMesh> TetMesh::build(TetSoup soup) {
   mesh.link_faces();
   mesh.find_loose_edges();
   mesh.mark_shapes();
-  mesh.mark_folds();
+  mesh.find_folds();
   return mesh;
 }
 
@@ -214,19 +214,21 @@ void TetMesh::mark_shapes() {
   }
 }
 
-/// Two tets on one side of the face between them overlap: nothing about the space around its vertices can be trusted.
-void TetMesh::mark_folds() {
+/// Two tets on one side of the face between them overlap: they see its vertices turn the same way.
+bool TetMesh::is_folded(Side side) const {
+  const Link link = this->link(side);
+  if (link.is_boundary()) {
+    return false;
+  }
+  const auto face = vertices(side), other = vertices(link.side());
+  const auto first = static_cast<std::size_t>(std::find(other.begin(), other.end(), face[0]) - other.begin());
+  return other[(first + 1) % 3] == face[1];
+}
+
+void TetMesh::find_folds() {
   for_each_tet([&](TetId id) {
-    for (unsigned s = 0; s < 4; ++s) {
-      const Link link = tet_links_[id][s];
-      if (link.is_boundary() || link.side().tet() < id) {
-        continue;
-      }
-      const auto face = vertices(Side(id, s)), other = vertices(link.side());
-      const auto first = static_cast<std::size_t>(std::find(other.begin(), other.end(), face[0]) - other.begin());
-      if (other[(first + 1) % 3] == face[1]) {
-        for (const VertexId v : face) vertex_shape_[v] |= shape::kPinched;
-      }
+    for (unsigned s = 0; s < 4 && !folds_over_at_load_; ++s) {
+      folds_over_at_load_ = is_folded({id, s});
     }
   });
 }

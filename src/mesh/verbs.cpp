@@ -338,7 +338,8 @@ SplitFaceResult apply(Transaction& transaction, const SplitFacePlan& plan) {
   const unsigned front_side = plan.face.side();
   if (behind.is_boundary()) {
     transaction.set_shape(result.vertex, behind.tag() == 0 ? shape::kSkin : shape::kWall);
-    result.parts[0] = split_around(transaction, plan.face.tet(), 15U & ~(1U << front_side), result.vertex, result.vertex);
+    result.parts[0] =
+        split_around(transaction, plan.face.tet(), 15U & ~(1U << front_side), result.vertex, result.vertex);
     for (const TetId child : result.parts[0].children) {
       if (child.is_valid()) {
         transaction.set_link({child, front_side}, behind);

@@ -40,9 +40,9 @@ struct MaintainReport {
 
 /// Owns a mesh and orders the pipeline on it: collision → subdivide → separate → merge → improve (paper, Figure 1).
 ///
-/// Maintenance follows each cut, within `MaintainOptions::work_units`; what the budget leaves undone waits for `maintain`
-/// or the next cut.
-/// One writer; const reads from any thread between calls. A call either takes effect as a whole or not at all.
+/// Maintenance follows each cut, within `MaintainOptions::work_units`; what the budget leaves undone waits for
+/// `maintain` or the next cut. One writer; const reads from any thread between calls. A call either takes effect as a
+/// whole or not at all.
 class Engine {
  public:
   /// Takes the mesh. Errors: kBadArgument for options out of range.
@@ -69,8 +69,8 @@ class Engine {
   /// Maintains the whole mesh, cut or not: an operation of its own for undo. Cost: O(tets).
   MaintainReport improve(const ShouldStop& should_stop = {});
 
-  /// Takes the last stroke (or `improve`) back, bit for bit, its maintenance included; maintenance that waits is dropped.
-  /// Returns false where there is none. Cost: O(its edits).
+  /// Takes the last stroke (or `improve`) back, bit for bit, its maintenance included; maintenance that waits is
+  /// dropped. Returns false where there is none. Cost: O(its edits).
   bool undo();
   /// Applies what was last taken back. Returns false where there is none.
   bool redo();
@@ -85,6 +85,7 @@ class Engine {
   Engine(TetMesh mesh, EngineOptions options);
 
   [[nodiscard]] bool is_paper() const { return options_.cut.profile == Profile::kPaper; }
+  [[nodiscard]] bool maintains() const;
   void take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_step);
   MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop);
   void push_operation(bool is_stroke);

@@ -60,7 +60,7 @@ namespace shape {
 inline constexpr std::uint8_t kSkin = 1;     ///< on the body's original surface
 inline constexpr std::uint8_t kWall = 2;     ///< on a cut wall; with kSkin: on the contour of a cut
 inline constexpr std::uint8_t kFront = 4;    ///< where a cut ends inside the body
-inline constexpr std::uint8_t kPinched = 8;  ///< a defect of the input: its tets are not face-connected, or fold over
+inline constexpr std::uint8_t kPinched = 8;  ///< its tets were not face-connected at load: a defect of the input
 inline constexpr std::uint8_t kDead = 128;   ///< the slot is free
 }  // namespace shape
 
@@ -146,6 +146,10 @@ class TetMesh {
   /// than two boundary faces, or a pinched vertex).
   [[nodiscard]] bool touched_itself_at_load() const { return touched_itself_at_load_; }
 
+  /// Whether two neighbours lay on one side of the face between them at load: the space around it is taken twice. Such a
+  /// mesh is cut, but not maintained.
+  [[nodiscard]] bool folds_over_at_load() const { return folds_over_at_load_; }
+
   /// Whether an edge belonged to a face with more than two tets at load. Where the input overlaps itself so, its edges
   /// cannot be divided without making more of the defect. Cost: O(log of the number of such edges).
   [[nodiscard]] bool is_overshared_at_load(VertexId a, VertexId b) const;
@@ -186,7 +190,8 @@ class TetMesh {
   void link_faces();
   void mark_shapes();
   void find_loose_edges();
-  void mark_folds();
+  [[nodiscard]] bool is_folded(Side side) const;
+  void find_folds();
 
   IdArray<TetId, TetVertices> tet_vertices_;
   IdArray<TetId, TetLinks> tet_links_;
@@ -205,6 +210,7 @@ class TetMesh {
   std::vector<TetId> flat_at_load_;
   std::vector<std::uint64_t> overshared_edges_;  // ascending; lower slot · 2^32 + higher slot
   bool touched_itself_at_load_ = false;
+  bool folds_over_at_load_ = false;
   bool has_regions_ = false;
   std::size_t live_tets_ = 0;
   std::size_t live_vertices_ = 0;

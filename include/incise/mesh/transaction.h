@@ -8,8 +8,8 @@
 
 namespace incise::inline v0 {
 
-/// Where a vertex stands once it is moved to the rest place with the coordinates `weights` in `basis`: there where all of
-/// them are at rest, else at the sampled current place. Cost: O(1).
+/// Where a vertex stands once it is moved to the rest place with the coordinates `weights` in `basis`: there where all
+/// of them are at rest, else at the sampled current place. Cost: O(1).
 [[nodiscard]] Vec3 current_after_move(const TetMesh& mesh, VertexId vertex, const Vec3& rest, const TetVertices& basis,
                                       const std::array<double, 4>& weights);
 
