@@ -25,6 +25,7 @@
 
 #include "cut/bodies.h"
 #include "cut/random_strokes.h"
+#include "incise/app/cut_job.h"
 #include "incise/app/mesh_loader.h"
 #include "incise/engine/engine.h"
 #include "incise/geom/quality.h"
@@ -43,8 +44,11 @@ constexpr int kSkipped = 77;
 constexpr unsigned kStrokesInARow = 4;
 /// Nothing takes nearly as long on the largest real mesh, under the sanitizers included.
 constexpr unsigned kStrokeSeconds = 120;
-/// The paper's quality figure counts tets above this L/r as bad.
+/// The paper's quality figure counts tets above this L/r as bad. A few stay where walls of several strokes run close
+/// together in a coarse body; more than this, and than this share of the tets at cuts, are a failure.
 constexpr double kBadLr = 200;
+constexpr std::size_t kFewBadTets = 10;
+constexpr double kBadShare = 0.02;
 
 struct Settings {
   std::string kind;
@@ -106,12 +110,6 @@ struct Course {
   unsigned share = 1;  ///< of the corpus campaign's strokes: one in so many
 
   [[nodiscard]] bool is_paper() const { return cut.profile == Profile::kPaper; }
-  /// How far the volume may drift, relative. The paper's maintenance pulls curved surfaces flat, by up to 5e-3 a stroke;
-  /// of bodies that are skin throughout (`is_needle`) nothing is promised.
-  [[nodiscard]] double drift(unsigned strokes) const {
-    if (upkeep == Upkeep::kNone) return 1e-12;
-    return is_paper() ? 5e-3 * strokes : 1e-9;
-  }
 };
 
 constexpr CutOptions kSnapped{Profile::kIncise, 0.2}, kUnsnapped{Profile::kIncise, 0}, kAsPaper{Profile::kPaper, 0};
@@ -177,10 +175,18 @@ class BadTets {
       for (const VertexId v : input.vertices(tet)) is_excused_[v.value] = true;
     });
   }
-  std::size_t left(const TetMesh& mesh) {
-    std::size_t count = 0;
+  struct Count {
+    std::size_t bad = 0, of = 0;
+    [[nodiscard]] bool is_too_many() const {
+      return bad > kFewBadTets && static_cast<double>(bad) > kBadShare * static_cast<double>(of);
+    }
+  };
+  Count left(const TetMesh& mesh) {
+    Count count;
     mesh.for_each_tet([&](TetId tet) {
-      if (is_bad(mesh, tet) && touches_cut(mesh, tet) && !is_excused(mesh, tet)) ++count;
+      if (!touches_cut(mesh, tet)) return;
+      ++count.of;
+      if (is_bad(mesh, tet) && !is_excused(mesh, tet)) ++count.bad;
     });
     return count;
   }
@@ -244,7 +250,7 @@ class Soak {
         engine_(Engine::create(mesh, options_of(course, budget_)).value()),
         before_(examine(mesh)),
         box_(rest_bounds(mesh)),
-        has_volume_(!course.is_paper() || !is_needle(mesh)),
+        is_bulky_(!is_needle(mesh)),
         bad_tets_(mesh),
         hashes_{mesh.hash()} {
     ++tally.bodies;
@@ -275,14 +281,14 @@ class Soak {
   bool fail(const std::string& what) {
     ++tally_.failures;
     std::printf("FAILED %s:%s\n", doing_now, what.c_str());
-    std::fflush(stdout);
     return false;
   }
   bool cut(unsigned i) {
     const Stroke stroke = random_stroke(strokes_, box_);
     begin("stroke " + std::to_string(i) + " (" + stroke.name + ")");
     ++tally_.strokes;
-    if (const Result<StrokeReport> report = engine_.cut(stroke); !report.ok()) return fail(" " + report.error().message);
+    if (const Result<StrokeReport> report = engine_.cut(stroke); !report.ok())
+      return fail(" " + report.error().message);
     bool is_sound = check();
     if (course_.upkeep == Upkeep::kPortions) is_sound = is_sound && maintain_in_portions();
     hashes_.push_back(engine_.mesh().hash());
@@ -300,16 +306,29 @@ class Soak {
     return engine_.has_maintenance() ? fail(" maintenance without a budget left work") : check();
   }
   bool check() {
-    const auto strokes = static_cast<unsigned>(hashes_.size());
-    const double drift = has_volume_ ? course_.drift(strokes) : HUGE_VAL;
-    const std::string grown = what_grew(before_, examine(engine_.mesh()), course_.cut, drift);
+    const std::string grown = what_grew(before_, examine(engine_.mesh()), course_.cut, drift_limit());
     if (!grown.empty()) return fail(grown);
-    if (course_.upkeep != Upkeep::kNone && !course_.is_paper() && !engine_.has_maintenance()) {
-      const std::size_t left = bad_tets_.left(engine_.mesh());
-      tally_.bad_tets += left;
-      if (left > 0) std::printf("note %s: %zu tets with L/r > %g at the cut\n", doing_now, left, kBadLr);
-    }
+    const bool is_done = course_.upkeep != Upkeep::kNone && !course_.is_paper() && !engine_.has_maintenance();
+    return !is_done || is_fit();
+  }
+  /// Whether maintenance left next to no bad tets; of needles, and beside flat tets of the input, nothing is asked.
+  bool is_fit() {
+    const BadTets::Count left = bad_tets_.left(engine_.mesh());
+    tally_.bad_tets += left.bad;
+    if (left.bad == 0) return true;
+    const std::string text =
+        " " + std::to_string(left.bad) + " of " + std::to_string(left.of) + " tets at cuts have L/r > 200";
+    const bool is_judged = is_bulky_ && engine_.mesh().flat_at_load().empty();
+    if (is_judged && left.is_too_many()) return fail(text);
+    std::printf("note %s:%s\n", doing_now, text.c_str());
     return true;
+  }
+  /// What a job allows per operation. The paper's maintenance pulls curved skin flat: of bodies that are skin nearly
+  /// throughout, and where all of the skin is maintained, nothing is promised.
+  [[nodiscard]] double drift_limit() const {
+    const double limit = app::volume_tolerance(engine_.options());
+    if (!course_.is_paper()) return limit;
+    return is_bulky_ && engine_.stroke_count() > 0 ? limit * (1 + engine_.stroke_count()) : HUGE_VAL;
   }
   /// All back, all again, and back one by one; the hash tells.
   bool go_back() {
@@ -333,7 +352,7 @@ class Soak {
   Engine engine_;
   State before_;
   Box box_;
-  bool has_volume_;
+  bool is_bulky_;
   BadTets bad_tets_;
   std::vector<std::uint64_t> hashes_;  // of the input, and after each stroke
 };
@@ -403,6 +422,8 @@ std::vector<fs::path> corpus_files(const fs::path& folder) {
 void soak_real_mesh(const TetMesh& mesh, const std::string& name, const Settings& settings, std::uint64_t seed,
                     const Clock& clock, Tally& tally) {
   for (const Course& course : kCourses) {
+    // Cuts of the paper profile make bodies that touch themselves worse, maintained or not.
+    if (course.is_paper() && mesh.touched_itself_at_load()) continue;
     Soak soak(mesh, name, course, seed, tally);
     soak.run(std::max(1U, settings.strokes / course.share), clock);
     if (course.upkeep == Upkeep::kWhole) soak.improve();
@@ -433,7 +454,6 @@ int soak_corpus(const Settings& settings) {
       soak_real_mesh(loaded->mesh, name, settings, seed, clock, tally);
       std::printf("%-44s %8zu tets %6.1f s %s\n", name.c_str(), loaded->mesh.tet_count(), clock.elapsed() - start,
                   tally.failures == failures ? "" : "FAILED");
-      std::fflush(stdout);
     }
     ++seed;
   } while (settings.seconds > 0 && !clock.is_over());
@@ -449,6 +469,7 @@ int usage() {
 }
 
 int run(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // nothing is lost in a crash
   std::signal(SIGALRM, report_hang);
   Settings settings;
   if (argc < 2 || argc % 2 != 0) return usage();
