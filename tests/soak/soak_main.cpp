@@ -311,14 +311,16 @@ class Soak {
     const bool is_done = course_.upkeep != Upkeep::kNone && !course_.is_paper() && !engine_.has_maintenance();
     return !is_done || is_fit();
   }
-  /// Whether maintenance left next to no bad tets; of needles, and beside flat tets of the input, nothing is asked.
+  /// Whether maintenance left next to no bad tets; nothing is asked of needles, of bodies with flat tets at load, and
+  /// of those that fold over themselves, which are not maintained.
   bool is_fit() {
     const BadTets::Count left = bad_tets_.left(engine_.mesh());
     tally_.bad_tets += left.bad;
     if (left.bad == 0) return true;
     const std::string text =
         " " + std::to_string(left.bad) + " of " + std::to_string(left.of) + " tets at cuts have L/r > 200";
-    const bool is_judged = is_bulky_ && engine_.mesh().flat_at_load().empty();
+    const TetMesh& mesh = engine_.mesh();
+    const bool is_judged = is_bulky_ && mesh.flat_at_load().empty() && !mesh.folds_over_at_load();
     if (is_judged && left.is_too_many()) return fail(text);
     std::printf("note %s:%s\n", doing_now, text.c_str());
     return true;
@@ -426,7 +428,7 @@ void soak_real_mesh(const TetMesh& mesh, const std::string& name, const Settings
     if (course.is_paper() && mesh.touched_itself_at_load()) continue;
     Soak soak(mesh, name, course, seed, tally);
     soak.run(std::max(1U, settings.strokes / course.share), clock);
-    if (course.upkeep == Upkeep::kWhole) soak.improve();
+    if (course.upkeep == Upkeep::kWhole && !mesh.folds_over_at_load()) soak.improve();
   }
 }
 
