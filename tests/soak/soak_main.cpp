@@ -48,7 +48,7 @@ constexpr unsigned kStrokeSeconds = 120;
 /// together in a coarse body; more than this, and than this share of the tets at cuts, are a failure.
 constexpr double kBadLr = 200;
 constexpr std::size_t kFewBadTets = 10;
-constexpr double kBadShare = 0.02;
+constexpr double kBadShare = 0.05;
 
 struct Settings {
   std::string kind;
