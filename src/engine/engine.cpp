@@ -34,7 +34,8 @@ Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
     return Error{ErrorCode::kBadArgument, "the number of threads must lie in [1, 256]", {}};
   }
   if (options.log && mesh.folds_over_at_load() && (options.maintain.merge || options.maintain.improve)) {
-    options.log(LogLevel::kWarning, "the mesh folds over itself: it is cut, but not maintained; mend its inverted tets");
+    options.log(LogLevel::kWarning,
+                "the mesh folds over itself: it is cut, but not maintained; mend its inverted tets");
   }
   return Engine(std::move(mesh), std::move(options));
 }
@@ -107,12 +108,9 @@ bool Engine::has_maintenance() const {
 
 MaintainReport Engine::improve(const ShouldStop& should_stop) {
   MaintainReport report;
-  if (!maintains()) {
-    return report;
-  }
-  if (is_paper()) {
+  if (maintains() && is_paper()) {
     report.maintain = maintain_all_as_paper(mesh_, journal_, options_.maintain, report.times);
-  } else {
+  } else if (maintains()) {
     maintainer_.take_up_all(mesh_);
     report.maintain = maintainer_.run(mesh_, journal_, options_.maintain.work_units, report.times, should_stop);
   }

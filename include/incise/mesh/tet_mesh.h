@@ -146,8 +146,8 @@ class TetMesh {
   /// than two boundary faces, or a pinched vertex).
   [[nodiscard]] bool touched_itself_at_load() const { return touched_itself_at_load_; }
 
-  /// Whether two neighbours lay on one side of the face between them at load: the space around it is taken twice. Such a
-  /// mesh is cut, but not maintained.
+  /// Whether two neighbours lay on one side of the face between them at load: the space around it is taken twice. Such
+  /// a mesh is cut, but not maintained.
   [[nodiscard]] bool folds_over_at_load() const { return folds_over_at_load_; }
 
   /// Whether an edge belonged to a face with more than two tets at load. Where the input overlaps itself so, its edges
