@@ -12,8 +12,8 @@ namespace incise::inline v0 {
 namespace {
 
 /// A cavity has at most so many tets.
-constexpr std::size_t kMostTets = 12;
-constexpr unsigned kNewtonSteps = 4;
+constexpr std::size_t kMostTets = 16;
+constexpr unsigned kNewtonSteps = 6;
 /// A new vertex must make the worst tet better by this share: it makes the mesh larger for good.
 constexpr double kLeastInsertionGain = 0.25;
 
