@@ -64,6 +64,58 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   return report;
 }
 
+Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
+  if (is_in_stroke_) {
+    return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
+  }
+  Stroke stroke;
+  stroke.times = {0.0};
+  stroke.edges = {pose.edge};
+  if (Status status = check(stroke); !status) {
+    return status.error();
+  }
+  open_stroke_ = std::move(stroke);
+  is_in_stroke_ = true;
+  return stroke_count() + 1;
+}
+
+Result<StepReport> Engine::step(const BladePose& pose) {
+  if (!is_in_stroke_) {
+    return Error{ErrorCode::kBadArgument, "no stroke is under way; begin one first", {}};
+  }
+  Stroke stroke = open_stroke_;
+  stroke.times.push_back(stroke.times.back() + 1.0);
+  stroke.edges.push_back(pose.edge);
+  if (Status status = check(stroke); !status) {
+    return status.error();
+  }
+  open_stroke_ = std::move(stroke);
+  return StepReport{};
+}
+
+Result<StrokeReport> Engine::end_stroke() {
+  if (!is_in_stroke_) {
+    return Error{ErrorCode::kBadArgument, "no stroke is under way; begin one first", {}};
+  }
+  is_in_stroke_ = false;
+  return cut(open_stroke_);
+}
+
+Status Engine::set_positions(std::span<const Vec3> positions) {
+  if (positions.size() != mesh_.vertex_slots()) {
+    return Error{ErrorCode::kBadArgument,
+                 "positions must be given for all " + std::to_string(mesh_.vertex_slots()) + " vertex slots",
+                 {}};
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (mesh_.is_live(VertexId(static_cast<std::uint32_t>(i))) && !positions[i].allFinite()) {
+      return Error{ErrorCode::kBadArgument, "the position of vertex " + std::to_string(i) + " is not finite", {}};
+    }
+  }
+  mesh_.set_current(positions);
+  return {};
+}
+
 /// Hands the surroundings of a fresh cut to whoever maintains the mesh.
 void Engine::take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_step) {
   if (!maintains()) {

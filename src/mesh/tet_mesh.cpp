@@ -2,6 +2,7 @@
 #include "incise/mesh/tet_mesh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -37,6 +38,15 @@ Error bad_tet(std::size_t tet, const std::string& what) {
 }
 
 }  // namespace
+
+void TetMesh::set_current(std::span<const Vec3> positions) {
+  assert(positions.size() == vertex_slots());
+  for (std::uint32_t slot = 0; slot < vertex_slots(); ++slot) {
+    if (is_live(VertexId(slot))) {
+      current_[VertexId(slot)] = positions[slot];
+    }
+  }
+}
 
 double TetMesh::rest_volume6(TetId tet) const {
   const TetVertices& v = tet_vertices_[tet];

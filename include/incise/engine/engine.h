@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "incise/core/log.h"
@@ -32,6 +33,18 @@ struct StrokeReport {
   std::uint32_t stroke = 0;     ///< its number, from 1: the tag of the walls that it made
 };
 
+/// The blade at one moment.
+struct BladePose {
+  std::vector<Vec3> edge;         ///< the cutting edge as a polyline, at least 2 points, as the body stands now
+  Vec3 direction = Vec3::Zero();  ///< where the edge cuts, of any length; zero: where it moves
+};
+
+/// What one step of the blade did.
+struct StepReport {
+  CutStatistics cut;
+  StageTimes times;
+};
+
 /// What maintenance between strokes did.
 struct MaintainReport {
   MaintainStatistics maintain;
@@ -58,6 +71,22 @@ class Engine {
   /// Errors: kBadArgument for a malformed stroke; kOutOfMemory where ids run out; the mesh is then unchanged.
   /// Cost: O(tets) to find the first contact, then O(cut tets).
   Result<StrokeReport> cut(const Stroke& stroke);
+
+  /// Puts the blade in place for a stroke that will be cut step by step; nothing is cut yet. Returns the stroke's
+  /// number. Errors: kBadArgument for a malformed pose, or while another stroke is under way; nothing changes then.
+  Result<std::uint32_t> begin_stroke(const BladePose& pose);
+  /// Moves the blade on and cuts what it passes through on the way, up to where it stands now. All poses of a stroke
+  /// have the same number of points. Errors: kBadArgument without a stroke or for a malformed pose; kOutOfMemory where
+  /// ids run out; the mesh is then as before the step. Cost: O(tets that the blade touches), whatever the mesh's size.
+  Result<StepReport> step(const BladePose& pose);
+  /// Lifts the blade off: what it cut stays, and is maintained within the budget. Errors: kBadArgument without a stroke.
+  Result<StrokeReport> end_stroke();
+  [[nodiscard]] bool is_in_stroke() const { return is_in_stroke_; }
+
+  /// Tells where the body stands now: `positions[slot]` for every vertex slot, dead ones ignored. Finite, in the mesh's
+  /// length unit; the rest shape stays. Errors: kBadArgument for a wrong count or a position that is not finite.
+  /// Cost: O(vertices).
+  Status set_positions(std::span<const Vec3> positions);
 
   /// Goes on with the maintenance that a budget left undone, for `work_units` more or until `should_stop` says so; it
   /// counts as part of the last stroke. The same units on the same mesh give the same result, whatever stopped it.
@@ -99,6 +128,8 @@ class Engine {
   std::vector<Operation> operations_;
   std::vector<Operation> undone_;  // what redo would apply, last first
   std::uint32_t stroke_count_ = 0;
+  Stroke open_stroke_;  // poses so far
+  bool is_in_stroke_ = false;
 
   static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);
 };

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "incise/core/id_array.h"
@@ -132,6 +133,9 @@ class TetMesh {
   [[nodiscard]] VertexId origin(VertexId vertex) const { return vertex_origin_[vertex]; }
   [[nodiscard]] const Vec3& rest(VertexId vertex) const { return rest_[vertex]; }
   [[nodiscard]] const Vec3& current(VertexId vertex) const { return current_[vertex]; }
+  /// Puts every live vertex where `positions[slot]` says: where the body stands now. One entry per vertex slot; finite.
+  /// No step of the journal: the rest shape, and with it the hash, stays. Not while a transaction is open.
+  void set_current(std::span<const Vec3> positions);
   /// Six times the signed rest volume; positive for a sound tet.
   [[nodiscard]] double rest_volume6(TetId tet) const;
   /// The signed rest volume, in cubed length units.
