@@ -41,15 +41,17 @@ class SteppedEngine {
   [[nodiscard]] double h() const { return body_.mean_edge(); }
   [[nodiscard]] std::size_t piece_count() const { return find_components(mesh()).count(); }
 
-  void begin(const BladePose& pose);
-  void step(const BladePose& pose);
-  /// Returns the stroke's number.
+  /// Whether all is well; what is not is reported to the test.
+  bool begin(const BladePose& pose);
+  bool step(const BladePose& pose);
+  /// Returns the stroke's number; 0 where it failed.
   std::uint32_t end();
   /// All of a stroke; `before_step(i)` is called before the i-th pose is taken up. Returns its number.
+  /// Ends early where a step breaks something.
   std::uint32_t run(const Stroke& stroke, const std::function<void(std::size_t)>& before_step = {});
   /// Puts every vertex where `place` says that its rest point stands now.
   void deform(const std::function<Vec3(VertexId)>& place);
-  void expect_sound() const;
+  bool expect_sound() const;
   void expect_back_and_forth();
 
  private:

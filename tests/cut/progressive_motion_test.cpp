@@ -345,6 +345,29 @@ Vec3 wave(const Vec3& p, double t, double amplitude) {
                   std::sin(kPi * p.x() + 1.1 * p.y() - turn));
 }
 
+/// How far rest points of walls lie from where the blade passed them, in the moving body.
+Deviation deviation_from_passage(const SteppedEngine& stepped, const Stroke& stroke, double amplitude) {
+  constexpr unsigned kMoments = 500;
+  const Stroke dense = subdivided(stroke_of({stroke.edges.front(), stroke.edges.back()}), kMoments);
+  Deviation result;
+  double count = 0;
+  stepped.mesh().for_each_vertex([&](VertexId v) {
+    if ((stepped.mesh().shape_of(v) & shape::kWall) == 0) return;
+    const Vec3& p = stepped.mesh().rest(v);
+    double nearest = HUGE_VAL;
+    for (unsigned i = 0; i <= kMoments; ++i) {
+      const Vec3 now = p + wave(p, static_cast<double>(i) / kMoments, amplitude);
+      const Vec3 &a = dense.edges[i][0], along = (dense.edges[i][1] - a).normalized();
+      nearest = std::min(nearest, (now - a).cross(along).norm());
+    }
+    result.greatest = std::max(result.greatest, nearest);
+    result.mean += nearest;
+    count += 1;
+  });
+  result.mean /= count;
+  return result;
+}
+
 /// A cut right through a cube while it waves.
 void expect_through_cut_of_waving_body(const TetSoup& soup, const SteppedOptions& options, double amplitude,
                                        unsigned frames) {
@@ -360,6 +383,9 @@ void expect_through_cut_of_waving_body(const TetSoup& soup, const SteppedOptions
   });
   expect_whole_pieces(stepped, 2);
   for (const double volume : piece_volumes(stepped.mesh())) EXPECT_GT(volume, 0.25);
+  const Deviation walls = deviation_from_passage(stepped, stroke, amplitude * stepped.h());
+  EXPECT_LE(walls.greatest, 0.5 * stepped.h());
+  EXPECT_LE(walls.mean, 0.08 * stepped.h());
 }
 
 TEST_P(Motion, through_a_body_that_waves_divides_it) {

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random strokes without end: on made meshes, or on every readable mesh of $INCISE_CORPUS/tets. Each body is cut in
-// several courses: without maintenance, with all of it after each stroke, with random budgets and portions, as the
-// paper does; the corpus is also maintained as a whole, uncut.
+// Random cuts without end: on made meshes (`cuts`), or on every readable mesh of $INCISE_CORPUS/tets (`corpus`). Each
+// body is cut in several courses: without maintenance, with all of it after each stroke, with random budgets and
+// portions, as the paper does; the corpus is also maintained as a whole, uncut.
 // After each stroke: the validity contract, the input's own defects not grown in number, no drift of volume (by
 // course), no tet with L/r > 200 left at the cut where the input had none nearby. After each few strokes they are taken
 // back, applied again and taken back one by one, and each time the hash must be what it was. A stroke that takes
 // longer than kStrokeSeconds hangs: the program says which one and ends.
-// usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
-// INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given. A
-// failure comes back with the seed that it names, `--rounds 1` or `--only NAME`, and the same other arguments.
-#include <unistd.h>
-
+// `strokes` moves blades step by step, as people do, through made meshes (motions.h); `seeds` does the same with the
+// seeds of a file, `describe` says what a seed makes, and `minimise` makes a failing one small.
+// usage: incise_soak strokes [--rounds N]
+//        incise_soak seeds FILE
+//        incise_soak describe|minimise SEED...
+//        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
+// INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
+// INCISE_SOAK_STROKES: `strokes` ends after so many. A failure comes back with the seed that it names, `--rounds 1` or
+// `--only NAME`, and the same other arguments.
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -34,6 +36,8 @@
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
+#include "soak/motion_soak.h"
+#include "soak/watch.h"
 
 namespace incise::test {
 namespace {
@@ -42,8 +46,6 @@ namespace fs = std::filesystem;
 
 constexpr int kSkipped = 77;
 constexpr unsigned kStrokesInARow = 4;
-/// Nothing takes nearly as long on the largest real mesh, under the sanitizers included.
-constexpr unsigned kStrokeSeconds = 120;
 /// The paper's quality figure counts tets above this L/r as bad. A few stay where walls of several strokes run close
 /// together in a coarse body; more than this, and than this share of the tets at cuts, are a failure.
 constexpr double kBadLr = 200;
@@ -51,7 +53,6 @@ constexpr std::size_t kFewBadTets = 10;
 constexpr double kBadShare = 0.05;
 
 struct Settings {
-  std::string kind;
   std::uint64_t seed = 1;
   double seconds = 0;
   unsigned rounds = 0;  // of made meshes
@@ -226,17 +227,6 @@ struct Tally {
   std::uint64_t bodies = 0, strokes = 0, bad_tets = 0, failures = 0;
 };
 
-/// What is being done, for whoever finds that it takes too long.
-char doing_now[512];
-
-void report_hang(int) {
-  constexpr std::string_view kHang = "HANGS: ";
-  [[maybe_unused]] ssize_t n = write(STDOUT_FILENO, kHang.data(), kHang.size());
-  n = write(STDOUT_FILENO, doing_now, std::strlen(doing_now));
-  n = write(STDOUT_FILENO, "\n", 1);
-  _exit(1);
-}
-
 /// A body that is cut in one course.
 class Soak {
  public:
@@ -274,13 +264,11 @@ class Soak {
 
  private:
   void begin(const std::string& what) {
-    std::snprintf(doing_now, sizeof doing_now, "%s: seed %llu, course '%s', %s", name_.c_str(),
-                  static_cast<unsigned long long>(seed_), course_.name, what.c_str());
-    alarm(kStrokeSeconds);
+    watch(name_ + ": seed " + std::to_string(seed_) + ", course '" + course_.name + "', " + what);
   }
   bool fail(const std::string& what) {
     ++tally_.failures;
-    std::printf("FAILED %s:%s\n", doing_now, what.c_str());
+    std::printf("FAILED %s:%s\n", watched(), what.c_str());
     return false;
   }
   bool cut(unsigned i) {
@@ -322,7 +310,7 @@ class Soak {
     const TetMesh& mesh = engine_.mesh();
     const bool is_judged = is_bulky_ && mesh.flat_at_load().empty() && !mesh.folds_over_at_load();
     if (is_judged && left.is_too_many()) return fail(text);
-    std::printf("note %s:%s\n", doing_now, text.c_str());
+    std::printf("note %s:%s\n", watched(), text.c_str());
     return true;
   }
   /// What a job allows per operation. The paper's maintenance pulls curved skin flat: of bodies that are skin nearly
@@ -334,14 +322,14 @@ class Soak {
   }
   /// All back, all again, and back one by one; the hash tells.
   bool go_back() {
-    alarm(kStrokeSeconds);
+    go_on_watching();
     while (engine_.undo()) {
     }
     bool is_same = engine_.mesh().hash() == hashes_.front();
     for (std::size_t i = 1; i < hashes_.size(); ++i) is_same = is_same && engine_.redo() && has_hash(i);
     for (std::size_t i = hashes_.size() - 1; i > 0; --i) is_same = is_same && engine_.undo() && has_hash(i - 1);
     hashes_.resize(1);
-    alarm(0);
+    stop_watching();
     return is_same || fail(" undo and redo do not restore the hash");
   }
   [[nodiscard]] bool has_hash(std::size_t i) const { return engine_.mesh().hash() == hashes_[i]; }
@@ -403,7 +391,7 @@ int soak_made_meshes(const Settings& settings) {
     Result<TetMesh> mesh = TetMesh::build(random_body(random));
     Soak(*mesh, "made mesh", random_course(random), seed, tally).run(std::min(settings.strokes, 8U), clock);
   }
-  print_tally("strokes", tally.bodies, tally, clock);
+  print_tally("cuts", tally.bodies, tally, clock);
   return tally.failures == 0 ? 0 : 1;
 }
 
@@ -466,43 +454,69 @@ int soak_corpus(const Settings& settings) {
 int usage() {
   std::fprintf(
       stderr,
-      "usage: incise_soak strokes|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n");
+      "usage: incise_soak strokes [--rounds N]\n"
+      "       incise_soak seeds FILE\n"
+      "       incise_soak describe|minimise SEED...\n"
+      "       incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n");
   return 2;
 }
 
-int run(int argc, char** argv) {
-  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // nothing is lost in a crash
-  std::signal(SIGALRM, report_hang);
-  Settings settings;
-  if (argc < 2 || argc % 2 != 0) return usage();
-  settings.kind = argv[1];
-  for (int i = 2; i + 1 < argc; i += 2) {
-    const std::string key = argv[i];
-    const auto number = static_cast<unsigned>(std::strtoul(argv[i + 1], nullptr, 10));
-    if (key == "--rounds") {
-      settings.rounds = number;
-    } else if (key == "--strokes") {
-      settings.strokes = number;
-    } else if (key == "--max-tets") {
-      settings.max_tets = number;
-    } else if (key == "--only") {
-      settings.only = argv[i + 1];
-    } else if (key == "--skip") {
-      settings.skip = argv[i + 1];
-    } else {
-      return usage();
-    }
+bool set(Settings& settings, const std::string& key, const char* value) {
+  const auto number = static_cast<unsigned>(std::strtoul(value, nullptr, 10));
+  if (key == "--rounds") {
+    settings.rounds = number;
+  } else if (key == "--strokes") {
+    settings.strokes = number;
+  } else if (key == "--max-tets") {
+    settings.max_tets = number;
+  } else if (key == "--only") {
+    settings.only = value;
+  } else if (key == "--skip") {
+    settings.skip = value;
+  } else {
+    return false;
   }
+  return true;
+}
+
+int run_campaign(const std::string& kind, Settings settings) {
   if (const char* seconds = std::getenv("INCISE_SOAK_SECONDS")) settings.seconds = std::atof(seconds);
   if (const char* seed = std::getenv("INCISE_SOAK_SEED")) settings.seed = std::strtoull(seed, nullptr, 10);
-  if (settings.kind == "strokes") return soak_made_meshes(settings);
-  if (settings.kind == "corpus") return soak_corpus(settings);
-  return usage();
+  if (kind == "cuts") return soak_made_meshes(settings);
+  if (kind == "corpus") return soak_corpus(settings);
+  if (kind != "strokes") return usage();
+  MotionLimits limits{settings.seed, settings.rounds, 0, settings.seconds};
+  if (const char* strokes = std::getenv("INCISE_SOAK_STROKES")) limits.strokes = std::strtoull(strokes, nullptr, 10);
+  return soak_motions(limits);
+}
+
+std::vector<std::uint64_t> numbers(const std::vector<std::string>& words) {
+  std::vector<std::uint64_t> result;
+  for (const std::string& word : words) result.push_back(std::strtoull(word.c_str(), nullptr, 10));
+  return result;
+}
+
+int run(const std::vector<std::string>& arguments) {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // nothing is lost in a crash
+  start_watch();
+  if (arguments.empty()) return usage();
+  const std::string& kind = arguments[0];
+  if (kind == "seeds") return arguments.size() == 2 ? soak_seeds(arguments[1]) : usage();
+  if (kind == "describe" || kind == "minimise") {
+    const std::vector<std::uint64_t> seeds = numbers({arguments.begin() + 1, arguments.end()});
+    return kind == "minimise" ? minimise_seeds(seeds) : describe_seeds(seeds);
+  }
+  Settings settings;
+  if (arguments.size() % 2 == 0) return usage();
+  for (std::size_t i = 1; i < arguments.size(); i += 2) {
+    if (!set(settings, arguments[i], arguments[i + 1].c_str())) return usage();
+  }
+  return run_campaign(kind, settings);
 }
 
 }  // namespace
 }  // namespace incise::test
 
 int main(int argc, char** argv) {
-  return incise::test::run(argc, argv);
+  return incise::test::run({argv + 1, argv + argc});
 }
