@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// A copy of a mesh that is kept by the journal alone, with a velocity of its own: where authors of solvers may start.
+// docs/journal.md explains every record; `JournalMirror::apply` is the order in which they take effect.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <iterator>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "incise/mesh/journal.h"
+#include "incise/mesh/tet_mesh.h"
+
+namespace incise::examples {
+
+/// Vertices and tets as a solver sees them, by slot, one journal step behind at most.
+///
+/// Call `follow` after every call of the engine that may change the mesh: an undo and a new cut in its place cannot be
+/// told from each other later. Memory: what the steps touched, for undo. Not thread-safe.
+class JournalMirror {
+ public:
+  struct Vertex {
+    Vec3 rest = Vec3::Zero(), current = Vec3::Zero(), velocity = Vec3::Zero();
+    bool is_live = false;
+  };
+  struct Tet {
+    TetVertices vertices{};  ///< the first one is invalid where the slot is free
+    std::int32_t region = 0;
+    std::array<std::uint32_t, 4> opened{};  ///< by side: the stroke that a step told to have opened it; 0: none told
+    [[nodiscard]] bool is_live() const { return vertices[0].is_valid(); }
+  };
+
+  /// Copies a mesh whose journal stands at `position`, with nothing to redo; velocities are zero. Cost: O(slots).
+  explicit JournalMirror(const TetMesh& mesh, std::size_t position = 0)
+      : base_(position), vertices_(mesh.vertex_slots()), tets_(mesh.tet_slots()) {
+    mesh.for_each_vertex([&](VertexId v) { vertices_[v.value] = {mesh.rest(v), mesh.current(v), Vec3::Zero(), true}; });
+    mesh.for_each_tet([&](TetId t) { tets_[t.value] = {mesh.vertices(t), mesh.region(t), {}}; });
+  }
+
+  /// Catches up with the journal, forwards or backwards. A record that does not fit what is held goes into `fault`.
+  /// Cost: O(size of the steps).
+  void follow(const Journal& journal) {
+    fresh_.clear();
+    while (position() > journal.position() && applied_ > 0) swap_with(past_[--applied_]);
+    expect(position() <= journal.position(), "the journal goes back behind the place where the mirror began");
+    while (position() < journal.position()) go_forward(journal.step(position()));
+    std::sort(fresh_.begin(), fresh_.end());
+    fresh_.erase(std::unique(fresh_.begin(), fresh_.end()), fresh_.end());
+    std::erase_if(fresh_, [&](VertexId v) { return v.value >= vertices_.size() || !vertices_[v.value].is_live; });
+  }
+
+  [[nodiscard]] std::size_t position() const { return base_ + applied_; }
+  [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
+  [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
+  /// A solver writes `current` and `velocity`, and hands the places on by `Engine::set_positions`.
+  [[nodiscard]] Vertex& vertex(VertexId id) { return vertices_[id.value]; }
+  [[nodiscard]] const Vertex& vertex(VertexId id) const { return vertices_[id.value]; }
+  /// The live vertices that the last `follow` put where they are, ascending: not yet in balance with their neighbours.
+  [[nodiscard]] const std::vector<VertexId>& fresh() const { return fresh_; }
+  /// The places of all slots, for `Engine::set_positions`.
+  [[nodiscard]] std::vector<Vec3> positions() const {
+    std::vector<Vec3> places;
+    for (const Vertex& vertex : vertices_) places.push_back(vertex.current);
+    return places;
+  }
+
+  /// The first record that did not fit; empty as long as all is well.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+  /// The first place where the mirror is not the mesh bit for bit; empty where it is. Cost: O(slots).
+  [[nodiscard]] std::string difference(const TetMesh& mesh) const {
+    if (!fault_.empty()) return fault_;
+    if (vertices_.size() != mesh.vertex_slots() || tets_.size() != mesh.tet_slots()) return "number of slots";
+    for (std::uint32_t slot = 0; slot < vertices_.size(); ++slot) {
+      if (differs(mesh, VertexId(slot))) return "vertex " + std::to_string(slot);
+    }
+    for (std::uint32_t slot = 0; slot < tets_.size(); ++slot) {
+      if (differs(mesh, TetId(slot))) return "tet " + std::to_string(slot);
+    }
+    return {};
+  }
+
+ private:
+  /// What a step touched, as it stands on the other side of the step.
+  struct Past {
+    std::vector<std::pair<VertexId, Vertex>> vertices;
+    std::vector<std::pair<TetId, Tet>> tets;
+    std::size_t vertex_slots = 0, tet_slots = 0;
+  };
+
+  /// An undone step has its image `after`: it comes back as it was left. A new one drops those that were undone.
+  void go_forward(const Step& step) {
+    const bool was_undone = !step.after.tets.empty() || !step.after.vertices.empty();
+    if (was_undone && applied_ < past_.size()) {
+      swap_with(past_[applied_++]);
+      return;
+    }
+    past_.resize(applied_++);
+    past_.push_back(remember(step));
+    apply(step);
+  }
+
+  void apply(const Step& step) {
+    if (step.edits.empty()) {
+      apply_lists(step);
+    } else {
+      apply_edits(step);
+    }
+    for (const OpenedFace& face : step.opened) {
+      for (const Side side : {face.a, face.b}) tets_[side.tet().value].opened[side.side()] = face.tag;
+    }
+    for (const VertexId v : step.died) vertices_[v.value].is_live = false;
+  }
+  void apply_lists(const Step& step) {
+    for (const BornVertex& born : step.born) bear(born, step.copied);
+    for (const MovedVertex& moved : step.moved) move(moved);
+    for (const CopiedVertex& copied : step.copied) copy(copied);
+    replace(step.consumed, step.produced);
+    for (const RewiredTet& rewired : step.rewired) {
+      expect(tets_[rewired.id.value].vertices == rewired.old_vertices, "a rewired tet had other vertices");
+      tets_[rewired.id.value].vertices = rewired.vertices;
+    }
+  }
+  /// Maintenance changes one place many times: edit by edit, each from what the ones before it left.
+  void apply_edits(const Step& step) {
+    std::size_t consumed = 0, produced = 0;
+    for (const Edit& edit : step.edits) {
+      if (edit.kind == Edit::Kind::kMove) {
+        move(step.moved[edit.vertex]);
+      } else if (edit.vertex != kInvalidIndex) {
+        bear(step.born[edit.vertex], {});
+      }
+      replace(std::span(step.edit_consumed).subspan(consumed, edit.consumed_end - consumed),
+              std::span(step.edit_produced).subspan(produced, edit.produced_end - produced));
+      consumed = edit.consumed_end;
+      produced = edit.produced_end;
+    }
+  }
+
+  void bear(const BornVertex& born, std::span<const CopiedVertex> copied) {
+    Vec3 velocity = Vec3::Zero();
+    for (unsigned i = 0; i < 4; ++i) {
+      if (born.parents[i].is_valid()) velocity += born.weights[i] * velocity_of(born.parents[i], copied);
+    }
+    vertices_[born.id.value] = {born.rest, born.current, velocity, true};
+    fresh_.push_back(born.id);
+  }
+  /// A parent may be a copy that the same step makes only later: its source is at the same place.
+  [[nodiscard]] Vec3 velocity_of(VertexId parent, std::span<const CopiedVertex> copied) {
+    const auto is_parent = [&](const CopiedVertex& copy) { return copy.id == parent; };
+    while (!vertices_[parent.value].is_live) {
+      const auto copy = std::find_if(copied.begin(), copied.end(), is_parent);
+      expect(copy != copied.end(), "a parent is neither live nor copied");
+      if (copy == copied.end()) break;
+      parent = copy->source;
+    }
+    return vertices_[parent.value].velocity;
+  }
+  void move(const MovedVertex& moved) {
+    Vertex& vertex = vertices_[moved.id.value];
+    expect(same(vertex.rest, moved.old_rest), "a moved vertex was elsewhere");
+    Vec3 velocity = Vec3::Zero();
+    for (unsigned i = 0; i < 4; ++i) velocity += moved.weights[i] * vertices_[moved.basis[i].value].velocity;
+    vertex = {moved.rest, moved.current, velocity, true};
+    fresh_.push_back(moved.id);
+  }
+  void copy(const CopiedVertex& copied) {
+    expect(vertices_[copied.source.value].is_live, "the source of a copy is not live");
+    vertices_[copied.id.value] = vertices_[copied.source.value];
+    fresh_.push_back(copied.id);
+  }
+  /// A tet that lives on stands in both lists: all the old ones go before the new ones come.
+  void replace(std::span<const ConsumedTet> consumed, std::span<const ProducedTet> produced) {
+    for (const ConsumedTet& old : consumed) {
+      expect(tets_[old.id.value].vertices == old.vertices, "a consumed tet had other vertices");
+      tets_[old.id.value].vertices = {};
+    }
+    for (const ProducedTet& tet : produced) {
+      expect(!tets_[tet.parent.value].is_live() || tet.parent == tet.id || is_among(produced, tet.parent),
+             "a parent was not consumed");
+      expect(tets_[tet.parent.value].region == tet.region, "a tet's region is not its parent's");
+      expect(!tets_[tet.id.value].is_live(), "a produced tet's slot was taken");
+      tets_[tet.id.value] = {tet.vertices, tet.region, {}};
+    }
+  }
+  /// A parent that lives on is live again once it has been produced.
+  static bool is_among(std::span<const ProducedTet> produced, TetId id) {
+    return std::any_of(produced.begin(), produced.end(), [&](const ProducedTet& tet) { return tet.id == id; });
+  }
+
+  template <class Array, class Ids>
+  static void grow(Array& slots, const Ids& taken) {
+    for (const auto id : taken) {
+      if (id.value >= slots.size()) slots.resize(id.value + 1);
+    }
+  }
+  /// Makes room for what the step took, and keeps what it touches.
+  Past remember(const Step& step) {
+    Past past{{}, {}, vertices_.size(), tets_.size()};
+    grow(vertices_, step.new_vertices);
+    grow(tets_, step.new_tets);
+    const auto keep_vertex = [&](VertexId id) { past.vertices.emplace_back(id, vertices_[id.value]); };
+    const auto keep_tet = [&](TetId id) { past.tets.emplace_back(id, tets_[id.value]); };
+    for (const VertexImage& image : step.before.vertices) keep_vertex(image.id);
+    for (const TetImage& image : step.before.tets) keep_tet(image.id);
+    for (const VertexId id : step.new_vertices) keep_vertex(id);
+    for (const TetId id : step.new_tets) keep_tet(id);
+    return past;
+  }
+  /// Undo and redo alike: what the step touched goes back to what it was, places and velocities included.
+  void swap_with(Past& past) {
+    const std::size_t vertex_slots = vertices_.size(), tet_slots = tets_.size();
+    vertices_.resize(std::max(vertex_slots, past.vertex_slots));
+    tets_.resize(std::max(tet_slots, past.tet_slots));
+    for (auto& [id, vertex] : past.vertices) {
+      std::swap(vertices_[id.value], vertex);
+      fresh_.push_back(id);
+    }
+    for (auto& [id, tet] : past.tets) std::swap(tets_[id.value], tet);
+    vertices_.resize(past.vertex_slots);
+    tets_.resize(past.tet_slots);
+    past.vertex_slots = vertex_slots;
+    past.tet_slots = tet_slots;
+  }
+
+  static bool same(const Vec3& a, const Vec3& b) { return std::memcmp(a.data(), b.data(), sizeof(Vec3)) == 0; }
+  [[nodiscard]] bool differs(const TetMesh& mesh, VertexId id) const {
+    const Vertex& vertex = vertices_[id.value];
+    if (vertex.is_live != mesh.is_live(id)) return true;
+    return vertex.is_live && !(same(vertex.rest, mesh.rest(id)) && same(vertex.current, mesh.current(id)));
+  }
+  [[nodiscard]] bool differs(const TetMesh& mesh, TetId id) const {
+    const Tet& tet = tets_[id.value];
+    if (tet.is_live() != mesh.is_live(id)) return true;
+    if (!tet.is_live()) return false;
+    for (unsigned side = 0; side < 4; ++side) {
+      const Link link = mesh.links(id)[side];
+      if (tet.opened[side] != 0 && !(link.is_boundary() && link.tag() == tet.opened[side])) return true;
+    }
+    return tet.vertices != mesh.vertices(id) || tet.region != mesh.region(id);
+  }
+  void expect(bool holds, const char* what) {
+    if (!holds && fault_.empty()) fault_ = what;
+  }
+
+  std::size_t base_, applied_ = 0;
+  std::vector<Vertex> vertices_;
+  std::vector<Tet> tets_;
+  std::vector<Past> past_;  // those from applied_ on are undone
+  std::vector<VertexId> fresh_;
+  std::string fault_;
+};
+
+}  // namespace incise::examples

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// A slice of incise_leaks: all motions through moving bodies.
+#include <gtest/gtest.h>
+
+#include "deforming/leak_run.h"
+
+namespace incise::test {
+namespace {
+
+void expect_no_leak(const LeakSettings& settings) {
+  const LeakResult result = run_leak(settings);
+  SCOPED_TRACE(testing::Message() << name_of(settings.body) << ", motion " << static_cast<unsigned>(settings.motion)
+                                  << ", steps " << settings.steps << ", seed " << settings.seed);
+  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.invalid, 0U);
+  EXPECT_EQ(result.pieces, result.expected);
+  EXPECT_EQ(result.crumbs, 0U);
+  EXPECT_LE(result.energy_up, kEnergyRise);
+}
+
+void expect_no_leaks(LeakSettings settings) {
+  for (unsigned motion = 0; motion < kMotions; ++motion) {
+    settings.motion = static_cast<Motion>(motion);
+    expect_no_leak(settings);
+  }
+}
+
+TEST(Leaks, none_in_a_beam_under_a_solver) {
+  for (const unsigned steps : {30U, 120U}) {
+    LeakSettings settings;
+    settings.steps = steps;
+    settings.check_every = 4;
+    expect_no_leaks(settings);
+  }
+}
+
+TEST(Leaks, none_in_other_bodies_under_a_solver) {
+  for (const BodyKind body : {BodyKind::kCube, BodyKind::kBall, BodyKind::kShuffled}) {
+    LeakSettings settings;
+    settings.body = body;
+    settings.steps = 60;
+    settings.seed = 11;
+    settings.check_every = 4;
+    expect_no_leaks(settings);
+  }
+}
+
+TEST(Leaks, none_in_a_body_that_sways_with_its_wound_open) {
+  for (const double amplitude : {0.1, 0.25, 0.4, 0.6}) {
+    LeakSettings settings;
+    settings.mover = Mover::kField;
+    settings.amplitude = amplitude;
+    settings.steps = 90;
+    settings.check_every = 4;
+    expect_no_leaks(settings);
+  }
+}
+
+}  // namespace
+}  // namespace incise::test
