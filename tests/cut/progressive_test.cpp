@@ -28,10 +28,11 @@ Stroke through(double x, unsigned steps) {
   return quad_stroke(Vec3(x, kLow, kHigh), Vec3(x, kHigh, kHigh), Vec3(x, kLow, kLow), Vec3(x, kHigh, kLow), steps);
 }
 
-/// What a cut that ends inside must keep to, in a body at rest.
-void expect_exact_front(SteppedEngine& stepped, const Stroke& stroke, std::uint32_t tag) {
+/// What a cut that ends inside must keep to, in a body at rest. `euler` of its surface: 4 where the cut does not reach
+/// the skin, and is a ball of its own.
+void expect_exact_front(SteppedEngine& stepped, const Stroke& stroke, std::uint32_t tag, int euler = 2) {
   const double h = stepped.h();
-  EXPECT_EQ(euler_characteristics(stepped.mesh()), std::vector<int>{2});
+  EXPECT_EQ(euler_characteristics(stepped.mesh()), std::vector<int>{euler});
   const bench::Accuracy walls = bench::measure_accuracy(stepped.mesh(), stepped.body(), stroke, tag);
   const double allowed = std::max(0.02 * walls.sweep_area, 0.1 * h * border_length(stepped, stroke));
   EXPECT_LE(walls.area_error * walls.sweep_area, allowed) << "of an area of " << walls.sweep_area;
@@ -145,7 +146,7 @@ TEST_P(Progressive, blades_that_start_inside_cut_from_there) {
   const Stroke stroke = fitted(
       quad_stroke(Vec3(0.25, 0.3, 0.47), Vec3(0.25, 0.7, 0.5), Vec3(0.75, 0.28, 0.53), Vec3(0.75, 0.72, 0.52), 12));
   const std::uint32_t tag = stepped.run(stroke);
-  expect_exact_front(stepped, stroke, tag);
+  expect_exact_front(stepped, stroke, tag, 4);
 }
 
 TEST_P(Progressive, every_step_cuts_up_to_the_blade) {

@@ -84,7 +84,11 @@ class Minimiser {
   bool simplify() {
     bool is_smaller = motion_.maintains && attempt([](MotionCase& m) { m.maintains = false; });
     is_smaller = (motion_.wave != 0 && attempt([](MotionCase& m) { m.wave = 0; })) || is_smaller;
-    for (std::size_t i = 0; i < motion_.strokes.size(); ++i) is_smaller = straighten(i) || is_smaller;
+    for (std::size_t i = 0; i < motion_.strokes.size(); ++i) {
+      is_smaller = straighten(i) || is_smaller;
+      if (!motion_.strokes[i].is_aborted) continue;
+      is_smaller = attempt([i](MotionCase& m) { m.strokes[i].is_aborted = false; }) || is_smaller;
+    }
     return is_smaller;
   }
   /// The ends of the edge alone.
