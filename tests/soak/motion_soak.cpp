@@ -7,7 +7,9 @@
 #include <fstream>
 #include <map>
 
+#include "incise/app/mesh_loader.h"
 #include "soak/minimise.h"
+#include "soak/models.h"
 #include "soak/motion_run.h"
 #include "soak/motions.h"
 
@@ -17,8 +19,8 @@ namespace {
 /// The results of many cases.
 class Tally {
  public:
-  void run(std::uint64_t seed) {
-    const MotionCase motion = random_case(seed);
+  void run(std::uint64_t seed, const std::vector<std::filesystem::path>& models) {
+    const MotionCase motion = random_case(seed, models);
     const Outcome outcome = run_case(motion);
     ++cases_;
     strokes_ += outcome.strokes;
@@ -56,10 +58,20 @@ bool is_over(const Tally& tally, const MotionLimits& limits) {
 
 }  // namespace
 
-int soak_motions(const MotionLimits& limits) {
+std::vector<std::filesystem::path> sound_models() {
+  constexpr std::size_t kMaxTets = 20000;
+  std::vector<std::filesystem::path> models;
+  for (const std::filesystem::path& path : corpus_files()) {
+    const Result<app::LoadedMesh> loaded = app::load_mesh(path);
+    if (loaded.ok() && loaded->mesh.tet_count() > 0 && loaded->mesh.tet_count() <= kMaxTets) models.push_back(path);
+  }
+  return models;
+}
+
+int soak_motions(const MotionLimits& limits, const std::vector<std::filesystem::path>& models) {
   Tally tally;
-  for (std::uint64_t seed = limits.first_seed; !is_over(tally, limits); ++seed) tally.run(seed);
-  return tally.print("strokes");
+  for (std::uint64_t seed = limits.first_seed; !is_over(tally, limits); ++seed) tally.run(seed, models);
+  return tally.print(models.empty() ? "strokes" : "models");
 }
 
 int soak_seeds(const std::string& file) {
@@ -71,21 +83,21 @@ int soak_seeds(const std::string& file) {
   Tally tally;
   for (std::string line; std::getline(lines, line);) {
     const std::string number = line.substr(0, line.find('#'));
-    if (number.find_first_of("0123456789") != std::string::npos) tally.run(std::stoull(number));
+    if (number.find_first_of("0123456789") != std::string::npos) tally.run(std::stoull(number), {});
   }
   return tally.print("seeds");
 }
 
-int describe_seeds(const std::vector<std::uint64_t>& seeds) {
+int describe_seeds(const std::vector<std::uint64_t>& seeds, const std::vector<std::filesystem::path>& models) {
   for (const std::uint64_t seed : seeds) {
-    std::printf("seed %llu: %s", static_cast<unsigned long long>(seed), describe(random_case(seed)).c_str());
+    std::printf("seed %llu: %s", static_cast<unsigned long long>(seed), describe(random_case(seed, models)).c_str());
   }
   return 0;
 }
 
-int minimise_seeds(const std::vector<std::uint64_t>& seeds) {
+int minimise_seeds(const std::vector<std::uint64_t>& seeds, const std::vector<std::filesystem::path>& models) {
   for (const std::uint64_t seed : seeds) {
-    const MotionCase motion = random_case(seed);
+    const MotionCase motion = random_case(seed, models);
     const FailureKind failure = failure_of(motion);
     if (failure.is_none()) {
       std::printf("seed %llu does not fail\n", static_cast<unsigned long long>(seed));

@@ -9,6 +9,8 @@
 #include "cut/bodies.h"
 #include "cut/random_strokes.h"
 #include "cut/strokes.h"
+#include "incise/app/mesh_loader.h"
+#include "soak/models.h"
 
 namespace incise::test {
 namespace {
@@ -18,7 +20,7 @@ using Kind = BodyPlan::Kind;
 // --- bodies
 // -------------------------------------------------------------------------------------------------------------------
 
-BodyPlan random_body(Random& random) {
+BodyPlan random_body(Random& random, const std::vector<std::filesystem::path>& models) {
   constexpr std::array<Kind, 10> kKinds = {Kind::kKuhn,     Kind::kKuhn,       Kind::kJittered, Kind::kJittered,
                                            Kind::kJittered, Kind::kRenumbered, Kind::kBall,     Kind::kBall,
                                            Kind::kPlate,    Kind::kNeedle};
@@ -26,7 +28,8 @@ BodyPlan random_body(Random& random) {
   plan.kind = random.integer(0, 24) == 0 ? Kind::kDoubled : kKinds[static_cast<std::size_t>(random.integer(0, 9))];
   plan.n = static_cast<std::uint32_t>(random.integer(2, 7));
   plan.seed = static_cast<std::uint64_t>(random.integer(1, 1000));
-  return plan;
+  if (models.empty()) return plan;
+  return {Kind::kModel, 0, 0, models[plan.seed % models.size()]};
 }
 
 Box box_of(const TetSoup& soup) {
@@ -255,6 +258,8 @@ TetSoup make_body(const BodyPlan& plan) {
       return kuhn_box(Vec3(0, 0, 0), Vec3(1, 1, 0.5 / plan.n), {2 * plan.n, 2 * plan.n, 1});
     case Kind::kNeedle:
       return needle(2 * plan.n);
+    case Kind::kModel:
+      return to_soup(app::load_mesh(plan.model).value().mesh);
     default:
       return doubled_cube(plan.n);
   }
@@ -275,17 +280,19 @@ std::string describe(const BodyPlan& plan) {
       return "kuhn_box(Vec3(0, 0, 0), Vec3(1, 1, 0.5 / " + n + "), {2 * " + n + ", 2 * " + n + ", 1})";
     case Kind::kNeedle:
       return "needle(2 * " + n + ")";
+    case Kind::kModel:
+      return plan.model.filename().string();
     default:
       return "doubled_cube(" + n + ")";
   }
 }
 
-MotionCase random_case(std::uint64_t seed) {
+MotionCase random_case(std::uint64_t seed, const std::vector<std::filesystem::path>& models) {
   constexpr std::array<double, 5> kSnaps = {0.2, 0.2, 0.0, 0.0, 0.1};
   Random random(seed);
   MotionCase made;
   made.seed = seed;
-  made.body = random_body(random);
+  made.body = random_body(random, models);
   made.snap = kSnaps[static_cast<std::size_t>(random.integer(0, 4))];
   made.maintains = random.integer(0, 3) == 0;
   made.wave = random.integer(0, 3) == 0 ? random.real(0.005, 0.08) : 0;

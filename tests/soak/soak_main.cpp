@@ -6,14 +6,15 @@
 // course), no tet with L/r > 200 left at the cut where the input had none nearby. After each few strokes they are taken
 // back, applied again and taken back one by one, and each time the hash must be what it was. A stroke that takes
 // longer than kStrokeSeconds hangs: the program says which one and ends.
-// `strokes` moves blades step by step, as people do, through made meshes (motions.h); `seeds` does the same with the
-// seeds of a file, `describe` says what a seed makes, and `minimise` makes a failing one small.
-// usage: incise_soak strokes [--rounds N]
+// `strokes` moves blades step by step, as people do, through made meshes (motions.h), `models` through those of the
+// corpus; `seeds` does it with the seeds of a file, `describe` says what a seed makes, and `minimise` makes a failing
+// one small. usage: incise_soak strokes|models [--rounds N]
 //        incise_soak seeds FILE
-//        incise_soak describe|minimise SEED...
+//        incise_soak describe|minimise strokes|models SEED...
 //        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
 // INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
-// INCISE_SOAK_STROKES: `strokes` ends after so many. A failure comes back with the seed that it names, `--rounds 1` or
+// INCISE_SOAK_STROKES: `strokes` and `models` end after so many. A failure comes back with the seed that it names,
+// `--rounds 1` or
 // `--only NAME`, and the same other arguments.
 #include <algorithm>
 #include <chrono>
@@ -36,6 +37,7 @@
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
+#include "soak/models.h"
 #include "soak/motion_soak.h"
 #include "soak/watch.h"
 
@@ -74,20 +76,6 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double seconds_;
 };
-
-TetSoup to_soup(const TetMesh& mesh) {
-  TetSoup soup;
-  std::vector<std::uint32_t> number(mesh.vertex_slots());
-  mesh.for_each_vertex([&](VertexId v) {
-    number[v.value] = static_cast<std::uint32_t>(soup.points.size());
-    soup.points.push_back(mesh.rest(v));
-  });
-  mesh.for_each_tet([&](TetId tet) {
-    const TetVertices& v = mesh.vertices(tet);
-    soup.tets.push_back({number[v[0].value], number[v[1].value], number[v[2].value], number[v[3].value]});
-  });
-  return soup;
-}
 
 struct State {
   ValidityReport validity;
@@ -398,16 +386,6 @@ int soak_made_meshes(const Settings& settings) {
 // --- real meshes
 // --------------------------------------------------------------------------------------------------------------
 
-std::vector<fs::path> corpus_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    // A TetGen mesh is named by either of its files.
-    if (entry.is_regular_file() && entry.path().extension() != ".node") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 /// Every course of one real mesh.
 void soak_real_mesh(const TetMesh& mesh, const std::string& name, const Settings& settings, std::uint64_t seed,
                     const Clock& clock, Tally& tally) {
@@ -420,17 +398,19 @@ void soak_real_mesh(const TetMesh& mesh, const std::string& name, const Settings
   }
 }
 
+int skip_without_corpus() {
+  std::printf("INCISE_CORPUS is not set: real meshes are not cut\n");
+  return kSkipped;
+}
+
 int soak_corpus(const Settings& settings) {
-  const char* root = std::getenv("INCISE_CORPUS");
-  if (root == nullptr || !fs::is_directory(fs::path(root) / "tets")) {
-    std::printf("INCISE_CORPUS is not set: real meshes are not cut\n");
-    return kSkipped;
-  }
+  const std::vector<fs::path> files = corpus_files();
+  if (files.empty()) return skip_without_corpus();
   const Clock clock(settings.seconds);
   Tally tally;
   std::uint64_t seed = settings.seed;
   do {
-    for (const fs::path& path : corpus_files(fs::path(root) / "tets")) {
+    for (const fs::path& path : files) {
       const std::string name = path.filename().string();
       const auto is_named = [&](const std::string& part) {
         return !part.empty() && name.find(part) != std::string::npos;
@@ -454,9 +434,9 @@ int soak_corpus(const Settings& settings) {
 int usage() {
   std::fprintf(
       stderr,
-      "usage: incise_soak strokes [--rounds N]\n"
+      "usage: incise_soak strokes|models [--rounds N]\n"
       "       incise_soak seeds FILE\n"
-      "       incise_soak describe|minimise SEED...\n"
+      "       incise_soak describe|minimise strokes|models SEED...\n"
       "       incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n");
   return 2;
 }
@@ -479,15 +459,22 @@ bool set(Settings& settings, const std::string& key, const char* value) {
   return true;
 }
 
+/// The bodies of a campaign of moving blades; none: made ones.
+std::vector<fs::path> models_of(const std::string& kind) {
+  return kind == "models" ? sound_models() : std::vector<fs::path>();
+}
+
 int run_campaign(const std::string& kind, Settings settings) {
   if (const char* seconds = std::getenv("INCISE_SOAK_SECONDS")) settings.seconds = std::atof(seconds);
   if (const char* seed = std::getenv("INCISE_SOAK_SEED")) settings.seed = std::strtoull(seed, nullptr, 10);
   if (kind == "cuts") return soak_made_meshes(settings);
   if (kind == "corpus") return soak_corpus(settings);
-  if (kind != "strokes") return usage();
+  if (kind != "strokes" && kind != "models") return usage();
   MotionLimits limits{settings.seed, settings.rounds, 0, settings.seconds};
   if (const char* strokes = std::getenv("INCISE_SOAK_STROKES")) limits.strokes = std::strtoull(strokes, nullptr, 10);
-  return soak_motions(limits);
+  const std::vector<fs::path> models = models_of(kind);
+  if (kind == "models" && models.empty()) return skip_without_corpus();
+  return soak_motions(limits, models);
 }
 
 std::vector<std::uint64_t> numbers(const std::vector<std::string>& words) {
@@ -503,8 +490,10 @@ int run(const std::vector<std::string>& arguments) {
   const std::string& kind = arguments[0];
   if (kind == "seeds") return arguments.size() == 2 ? soak_seeds(arguments[1]) : usage();
   if (kind == "describe" || kind == "minimise") {
-    const std::vector<std::uint64_t> seeds = numbers({arguments.begin() + 1, arguments.end()});
-    return kind == "minimise" ? minimise_seeds(seeds) : describe_seeds(seeds);
+    if (arguments.size() < 3) return usage();
+    const std::vector<std::uint64_t> seeds = numbers({arguments.begin() + 2, arguments.end()});
+    const std::vector<fs::path> models = models_of(arguments[1]);
+    return kind == "minimise" ? minimise_seeds(seeds, models) : describe_seeds(seeds, models);
   }
   Settings settings;
   if (arguments.size() % 2 == 0) return usage();
