@@ -34,9 +34,15 @@ class JournalMirror {
     [[nodiscard]] bool is_live() const { return vertices[0].is_valid(); }
   };
 
+  /// What is read of steps that change a place several times.
+  enum class Reading : std::uint8_t {
+    kEdits,  ///< every change, as state that is carried along needs it
+    kLists,  ///< the net effect: enough for the mesh itself, velocities are approximate
+  };
+
   /// Copies a mesh whose journal stands at `position`, with nothing to redo; velocities are zero. Cost: O(slots).
-  explicit JournalMirror(const TetMesh& mesh, std::size_t position = 0)
-      : base_(position), vertices_(mesh.vertex_slots()), tets_(mesh.tet_slots()) {
+  explicit JournalMirror(const TetMesh& mesh, std::size_t position = 0, Reading reading = Reading::kEdits)
+      : reading_(reading), base_(position), vertices_(mesh.vertex_slots()), tets_(mesh.tet_slots()) {
     mesh.for_each_vertex([&](VertexId v) { vertices_[v.value] = {mesh.rest(v), mesh.current(v), Vec3::Zero(), true}; });
     mesh.for_each_tet([&](TetId t) { tets_[t.value] = {mesh.vertices(t), mesh.region(t), {}}; });
   }
@@ -45,7 +51,7 @@ class JournalMirror {
   /// Cost: O(size of the steps).
   void follow(const Journal& journal) {
     fresh_.clear();
-    while (position() > journal.position() && applied_ > 0) swap_with(past_[--applied_]);
+    while (position() > journal.position() && applied_ > 0) go_back();
     expect(position() <= journal.position(), "the journal goes back behind the place where the mirror began");
     while (position() < journal.position()) go_forward(journal.step(position()));
     std::sort(fresh_.begin(), fresh_.end());
@@ -84,27 +90,36 @@ class JournalMirror {
   }
 
  private:
-  /// What a step touched, as it stands on the other side of the step.
-  struct Past {
+  /// What a step touched, as it stood on one side of the step.
+  struct Image {
     std::vector<std::pair<VertexId, Vertex>> vertices;
     std::vector<std::pair<TetId, Tet>> tets;
     std::size_t vertex_slots = 0, tet_slots = 0;
+  };
+  /// Both sides of a step: as all was when the step came first, and when it was last undone.
+  struct Past {
+    Image before, after;
   };
 
   /// An undone step has its image `after`: it comes back as it was left. A new one drops those that were undone.
   void go_forward(const Step& step) {
     const bool was_undone = !step.after.tets.empty() || !step.after.vertices.empty();
     if (was_undone && applied_ < past_.size()) {
-      swap_with(past_[applied_++]);
+      restore(past_[applied_++].after);
       return;
     }
     past_.resize(applied_++);
-    past_.push_back(remember(step));
+    past_.push_back({image_before(step), {}});
     apply(step);
+  }
+  void go_back() {
+    Past& past = past_[--applied_];
+    past.after = image_of(past.before);
+    restore(past.before);
   }
 
   void apply(const Step& step) {
-    if (step.edits.empty()) {
+    if (step.edits.empty() || reading_ == Reading::kLists) {
       apply_lists(step);
     } else {
       apply_edits(step);
@@ -198,32 +213,37 @@ class JournalMirror {
     }
   }
   /// Makes room for what the step took, and keeps what it touches.
-  Past remember(const Step& step) {
-    Past past{{}, {}, vertices_.size(), tets_.size()};
+  Image image_before(const Step& step) {
+    Image image{{}, {}, vertices_.size(), tets_.size()};
     grow(vertices_, step.new_vertices);
     grow(tets_, step.new_tets);
-    const auto keep_vertex = [&](VertexId id) { past.vertices.emplace_back(id, vertices_[id.value]); };
-    const auto keep_tet = [&](TetId id) { past.tets.emplace_back(id, tets_[id.value]); };
-    for (const VertexImage& image : step.before.vertices) keep_vertex(image.id);
-    for (const TetImage& image : step.before.tets) keep_tet(image.id);
+    const auto keep_vertex = [&](VertexId id) { image.vertices.emplace_back(id, vertices_[id.value]); };
+    const auto keep_tet = [&](TetId id) { image.tets.emplace_back(id, tets_[id.value]); };
+    for (const VertexImage& touched : step.before.vertices) keep_vertex(touched.id);
+    for (const TetImage& touched : step.before.tets) keep_tet(touched.id);
     for (const VertexId id : step.new_vertices) keep_vertex(id);
     for (const TetId id : step.new_tets) keep_tet(id);
-    return past;
+    return image;
   }
-  /// Undo and redo alike: what the step touched goes back to what it was, places and velocities included.
-  void swap_with(Past& past) {
-    const std::size_t vertex_slots = vertices_.size(), tet_slots = tets_.size();
-    vertices_.resize(std::max(vertex_slots, past.vertex_slots));
-    tets_.resize(std::max(tet_slots, past.tet_slots));
-    for (auto& [id, vertex] : past.vertices) {
-      std::swap(vertices_[id.value], vertex);
+  /// What stands now in the slots of another image.
+  [[nodiscard]] Image image_of(Image slots) const {
+    for (auto& [id, vertex] : slots.vertices) vertex = vertices_[id.value];
+    for (auto& [id, tet] : slots.tets) tet = tets_[id.value];
+    slots.vertex_slots = vertices_.size();
+    slots.tet_slots = tets_.size();
+    return slots;
+  }
+  /// Undo and redo alike: what the step touched is as it was, places and velocities included; the rest stays.
+  void restore(const Image& image) {
+    vertices_.resize(std::max(vertices_.size(), image.vertex_slots));
+    tets_.resize(std::max(tets_.size(), image.tet_slots));
+    for (const auto& [id, vertex] : image.vertices) {
+      vertices_[id.value] = vertex;
       fresh_.push_back(id);
     }
-    for (auto& [id, tet] : past.tets) std::swap(tets_[id.value], tet);
-    vertices_.resize(past.vertex_slots);
-    tets_.resize(past.tet_slots);
-    past.vertex_slots = vertex_slots;
-    past.tet_slots = tet_slots;
+    for (const auto& [id, tet] : image.tets) tets_[id.value] = tet;
+    vertices_.resize(image.vertex_slots);
+    tets_.resize(image.tet_slots);
   }
 
   static bool same(const Vec3& a, const Vec3& b) { return std::memcmp(a.data(), b.data(), sizeof(Vec3)) == 0; }
@@ -246,6 +266,7 @@ class JournalMirror {
     if (!holds && fault_.empty()) fault_ = what;
   }
 
+  Reading reading_;
   std::size_t base_, applied_ = 0;
   std::vector<Vertex> vertices_;
   std::vector<Tet> tets_;

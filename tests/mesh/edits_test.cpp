@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,15 +23,12 @@
 #include "incise/mesh/remesh.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
+#include "mesh/mirror_checks.h"
 
 namespace incise::test {
 namespace {
 
 constexpr double kLeastVolume = 1e-6;  // of a tet that an edit makes, of the unit cube's: rounding stays below 1e-12
-
-Vec3 velocity_at(const Vec3& x) {
-  return {1.0 + 2.0 * x.x() - x.z(), -0.5 + x.x() + 3.0 * x.y(), 0.25 - x.y() + 0.5 * x.z()};
-}
 
 double density_of(std::int32_t region) {
   return 2.5 + region;
@@ -199,120 +195,6 @@ class Program {
   StarWalker walker_;
 };
 
-/// Vertices and tets, kept up to date by a step's records alone.
-class Mirror {
- public:
-  explicit Mirror(const TetMesh& mesh) {
-    mesh.for_each_tet([&](TetId tet) { tets_[tet] = {mesh.vertices(tet), mesh.region(tet)}; });
-    mesh.for_each_vertex([&](VertexId v) {
-      vertices_[v] = {mesh.rest(v), mesh.current(v), velocity_at(mesh.rest(v))};
-    });
-  }
-  /// By the lists of net effects.
-  void apply_lists(const Step& step) {
-    for (const BornVertex& born : step.born) bear(born);
-    for (const MovedVertex& moved : step.moved) move(moved);
-    ASSERT_TRUE(step.copied.empty());
-    replace(step.consumed, step.produced);
-    for (const RewiredTet& tet : step.rewired) {
-      ASSERT_EQ(tets_.at(tet.id).vertices, tet.old_vertices);
-      tets_.at(tet.id).vertices = tet.vertices;
-    }
-    for (const VertexId v : step.died) ASSERT_EQ(vertices_.erase(v), 1U);
-  }
-  /// Edit by edit.
-  void apply_edits(const Step& step) {
-    std::size_t consumed = 0, produced = 0;
-    for (const Edit& edit : step.edits) {
-      const std::span<const ConsumedTet> old(step.edit_consumed.begin() + static_cast<long>(consumed),
-                                             step.edit_consumed.begin() + edit.consumed_end);
-      const std::span<const ProducedTet> now(step.edit_produced.begin() + static_cast<long>(produced),
-                                             step.edit_produced.begin() + edit.produced_end);
-      consumed = edit.consumed_end;
-      produced = edit.produced_end;
-      if (edit.kind == Edit::Kind::kMove) {
-        ASSERT_TRUE(old.empty() && now.empty());
-        move(step.moved[edit.vertex]);
-        continue;
-      }
-      if (edit.vertex != kInvalidIndex) bear(step.born[edit.vertex]);
-      double before = 0, after = 0;
-      for (const ConsumedTet& tet : old) before += volume(tet.vertices);
-      for (const ProducedTet& tet : now) after += volume(tet.vertices);
-      ASSERT_NEAR(after, before, 2e-14);
-      replace(old, now);
-    }
-    ASSERT_EQ(consumed, step.edit_consumed.size());
-    ASSERT_EQ(produced, step.edit_produced.size());
-    for (const VertexId v : step.died) vertices_.erase(v);  // one that no edit put in was never here
-  }
-  void expect_equal(const TetMesh& mesh) const {
-    ASSERT_EQ(tets_.size(), mesh.tet_count());
-    ASSERT_EQ(vertices_.size(), mesh.vertex_count());
-    for (const auto& [id, tet] : tets_) {
-      ASSERT_TRUE(mesh.is_live(id));
-      ASSERT_EQ(tet.vertices, mesh.vertices(id));
-      ASSERT_EQ(tet.region, mesh.region(id));
-    }
-    for (const auto& [id, vertex] : vertices_) {
-      ASSERT_TRUE(mesh.is_live(id));
-      ASSERT_EQ(vertex.rest, mesh.rest(id));
-      ASSERT_EQ(vertex.current, mesh.current(id));
-    }
-  }
-  /// An affine velocity is known everywhere: it must be met wherever vertices were born or moved.
-  void expect_affine_velocity() const {
-    for (const auto& [id, vertex] : vertices_) {
-      EXPECT_LT((vertex.velocity - velocity_at(vertex.rest)).norm(), 1e-12) << "vertex " << id.value;
-    }
-  }
-
- private:
-  struct Vertex {
-    Vec3 rest, current, velocity;
-  };
-  struct Tet {
-    TetVertices vertices;
-    std::int32_t region = 0;
-  };
-
-  [[nodiscard]] Vec3 sample(const std::array<VertexId, 4>& parents, const std::array<double, 4>& weights) const {
-    Vec3 velocity = Vec3::Zero();
-    for (unsigned i = 0; i < 4; ++i) {
-      if (parents[i].is_valid()) velocity += weights[i] * vertices_.at(parents[i]).velocity;
-    }
-    return velocity;
-  }
-  void bear(const BornVertex& born) {
-    vertices_[born.id] = {born.rest, born.current, sample(born.parents, born.weights)};
-  }
-  void move(const MovedVertex& moved) {
-    ASSERT_EQ(vertices_.at(moved.id).rest, moved.old_rest);
-    vertices_.at(moved.id) = {moved.rest, moved.current, sample(moved.basis, moved.weights)};
-  }
-  void replace(std::span<const ConsumedTet> consumed, std::span<const ProducedTet> produced) {
-    std::map<TetId, Tet> old;
-    for (const ConsumedTet& tet : consumed) {
-      ASSERT_EQ(tets_.at(tet.id).vertices, tet.vertices);
-      old[tet.id] = tets_.at(tet.id);
-      tets_.erase(tet.id);
-    }
-    for (const ProducedTet& tet : produced) {
-      ASSERT_EQ(old.count(tet.parent), 1U) << "a tet's parent is consumed with it";
-      ASSERT_EQ(old.at(tet.parent).region, tet.region);
-      ASSERT_EQ(tets_.count(tet.id), 0U);
-      tets_[tet.id] = {tet.vertices, tet.region};
-    }
-  }
-  [[nodiscard]] double volume(const TetVertices& v) const {
-    const auto at = [&](unsigned c) { return vertices_.at(v[c]).rest; };
-    return (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6.0;
-  }
-
-  std::map<TetId, Tet> tets_;
-  std::map<VertexId, Vertex> vertices_;
-};
-
 /// What a solver keeps: mass by region at the tets, a uniform mass and a linear velocity at the vertices, and labels.
 class Body {
  public:
@@ -371,7 +253,7 @@ class Body {
   void start(const TetMesh& mesh) {
     Random random(99);
     mesh.for_each_vertex([&](VertexId v) {
-      const Vec3 speed = velocity_at(mesh.rest(v));
+      const Vec3 speed = affine_velocity(mesh.rest(v));
       all.value(mass, v.value)[0] = 2.5 * all.lumped_volume(v);
       all.value(any_mass, v.value)[0] = random.real(0, 1) < 0.5 ? 0.0 : random.real(0, 1);
       all.value(any_mass, v.value)[1] = random.real(-1, 1);
@@ -425,7 +307,7 @@ class Body {
       EXPECT_NEAR(all.lumped_volume(v), lumped[v.value], 1e-12 * lumped[v.value]);
       note_error(all.value(mass, v.value)[0] / (2.5 * lumped[v.value]));
       const auto speed = all.value(velocity, v.value);
-      EXPECT_LE((Vec3(speed[0], speed[1], speed[2]) - velocity_at(mesh.rest(v))).norm(), 1e-12);
+      EXPECT_LE((Vec3(speed[0], speed[1], speed[2]) - affine_velocity(mesh.rest(v))).norm(), 1e-12);
       EXPECT_GE(all.value(label, v.value)[0], 1.0);
     });
   }
@@ -460,8 +342,8 @@ class Scene {
   Scene(TetMesh start, std::uint64_t seed)
       : mesh(std::move(start)),
         body(mesh),
-        by_lists_(mesh),
-        by_edits_(mesh),
+        by_lists_(mirror_of(mesh, JournalMirror::Reading::kLists)),
+        by_edits_(mirror_of(mesh)),
         random_(seed),
         volume_(volume_of(mesh)),
         hashes_{mesh.hash()},
@@ -474,7 +356,7 @@ class Scene {
     program.run(count);
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += program.counts[i];
     journal.append(transaction.commit());
-    check_step(journal.step(journal.size() - 1));
+    check_step();
   }
   /// Undo and redo of everything return every hash, and every bit of the followers' values.
   void expect_reversible() {
@@ -494,24 +376,26 @@ class Scene {
   std::array<unsigned, 9> counts{};
 
  private:
-  void check_step(const Step& step) {
+  void check_step() {
     expect_valid(mesh, volume_);
-    by_lists_.apply_lists(step);
-    by_lists_.expect_equal(mesh);
-    by_edits_.apply_edits(step);
-    by_edits_.expect_equal(mesh);
-    by_edits_.expect_affine_velocity();
+    expect_mirrors();
+    expect_affine_velocity(by_edits_, 1e-12);
     body.follow(journal, mesh);
     hashes_.push_back(mesh.hash());
     states_.push_back(body.snapshot());
   }
+  void expect_mirrors() {
+    expect_follows(by_lists_, journal, mesh);
+    expect_follows(by_edits_, journal, mesh);
+  }
   void expect_state(std::size_t i) {
     ASSERT_EQ(mesh.hash(), hashes_[i]);
+    expect_mirrors();
     ASSERT_TRUE(body.all.follow(journal, mesh).ok());
     body.expect_equal(states_[i]);
   }
 
-  Mirror by_lists_, by_edits_;
+  JournalMirror by_lists_, by_edits_;
   Random random_;
   double volume_;
   std::vector<std::uint64_t> hashes_;
@@ -600,7 +484,7 @@ TEST(EditProgram, many_steps_at_once_give_what_they_give_one_by_one) {
 
 TEST(EditStep, lists_a_vertex_that_was_born_and_merged_away) {
   TetMesh mesh = build(kuhn_cube(3));
-  Mirror mirror(mesh);
+  JournalMirror mirror = mirror_of(mesh, JournalMirror::Reading::kLists);
   Body body(mesh);
   Journal journal;
   Transaction transaction(mesh, true);
@@ -617,15 +501,14 @@ TEST(EditStep, lists_a_vertex_that_was_born_and_merged_away) {
   EXPECT_EQ(step.edits.size(), 2U);
   EXPECT_EQ(step.consumed.size(), 1U);
   EXPECT_EQ(step.produced.size(), 1U);
-  mirror.apply_lists(step);
-  mirror.expect_equal(mesh);
+  expect_follows(mirror, journal, mesh);
   body.follow(journal, mesh);
   expect_valid(mesh, 1.0);
 }
 
 TEST(EditStep, may_name_a_vertex_that_no_edit_put_in) {
   TetMesh mesh = build(kuhn_cube(2));
-  Mirror by_lists(mesh), by_edits(mesh);
+  JournalMirror by_lists = mirror_of(mesh, JournalMirror::Reading::kLists), by_edits = mirror_of(mesh);
   Body body(mesh);
   Journal journal;
   const std::uint64_t hash = mesh.hash();
@@ -637,10 +520,8 @@ TEST(EditStep, may_name_a_vertex_that_no_edit_put_in) {
   const Step& step = journal.step(0);
   EXPECT_EQ(step.died, std::vector<VertexId>{given_up});
   EXPECT_EQ(step.born[step.edits[0].vertex].id, kept);
-  by_lists.apply_lists(step);
-  by_lists.expect_equal(mesh);
-  by_edits.apply_edits(step);
-  by_edits.expect_equal(mesh);
+  expect_follows(by_lists, journal, mesh);
+  expect_follows(by_edits, journal, mesh);
   body.follow(journal, mesh);
   expect_valid(mesh, 1.0);
   ASSERT_TRUE(journal.undo(mesh));
