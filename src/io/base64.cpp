@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Base64 after RFC 4648 §4, with white space allowed between characters.
-#include "io/base64.h"
+#include "incise/io/base64.h"
 
 #include <algorithm>
 #include <cstring>

@@ -11,7 +11,7 @@
 #include <pugixml.hpp>
 #include <type_traits>
 
-#include "io/base64.h"
+#include "incise/io/base64.h"
 #include "io/cells.h"
 #include "io/gzip.h"
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <type_traits>
 
+#include "incise/io/base64.h"
 #include "incise/io/mesh_file.h"
-#include "io/base64.h"
 #include "io/files.h"
 #include "io/gzip.h"
 #include "io/text.h"
