@@ -11,18 +11,7 @@ namespace app {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
-constexpr double kVersion = 1;
-
-std::string at(const std::string& path, std::size_t index) {
-  return path + "[" + std::to_string(index) + "]";
-}
-
-std::string short_number(double x) {
-  std::string text = std::to_string(x);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
+constexpr std::uint32_t kVersion = 1;
 
 /// The columns of the rotation that a unit quaternion w + xi + yj + zk stands for.
 struct Pose {
@@ -54,17 +43,8 @@ class BladeReader {
 
  private:
   bool read_header(const JsonValue& root) {
-    if (!read_.is_object(root, "", {"format", "version", "strokes"})) return false;
-    const JsonValue* format = read_.member(root, "", "format");
-    const JsonValue* version = format ? read_.member(root, "", "version") : nullptr;
-    if (version == nullptr || read_.member(root, "", "strokes") == nullptr) return false;
-    if (format->kind != JsonValue::Kind::kString || format->text != "incise-blade") {
-      return read_.fail(*format, "format", "must be \"incise-blade\"");
-    }
-    double number = 0;
-    if (!read_.number(*version, "version", number)) return false;
-    if (number == kVersion) return true;
-    return read_.fail(*version, "version", "is " + short_number(number) + "; this program reads version 1");
+    return read_.is_format(root, "incise-blade", kVersion) &&
+           read_.is_object(root, "", {"format", "version", "strokes"}) && read_.member(root, "", "strokes") != nullptr;
   }
 
   bool read_strokes(const JsonValue& list, std::vector<Stroke>& strokes) {
@@ -156,12 +136,7 @@ class BladeReader {
   }
 
   bool read_points(const JsonValue& value, const std::string& path, std::vector<Vec3>& points) {
-    if (!read_.is_array(value, path, 2, kMaxBladePoints)) return false;
-    points.resize(value.items.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!read_.numbers(value.items[i], at(path, i), points[i].data(), 3)) return false;
-    }
-    return true;
+    return read_.points(value, path, kMaxBladePoints, points);
   }
 
   bool has_room(const JsonValue& value, const std::string& path, const Stroke& stroke) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/job_internal.h"
+#include "incise/app/recorded_engine.h"
 
 namespace incise::inline v0 {
 namespace app {
@@ -15,21 +16,60 @@ Error in_stroke(Error error, const CutJob& job, std::size_t index) {
   return error;
 }
 
+Result<StrokeReport> cut_whole(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples) {
+  Result<StrokeReport> report = engine.cut(stroke);
+  if (report.ok()) samples.add(engine.last_ms(), report->times);
+  return report;
+}
+
+/// What a stroke took beyond its steps.
+StageTimes rest_of(const StageTimes& whole, const std::vector<StageTimes>& steps) {
+  StageTimes rest = whole;
+  for (const StageTimes& step : steps) {
+    for (std::size_t i = 0; i < rest.ms.size(); ++i) rest.ms[i] -= step.ms[i];
+  }
+  return rest;
+}
+
+/// Moves the blade from time to time; the last step's sample has the stroke's beginning and end as well.
+Result<StrokeReport> cut_by_steps(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples) {
+  const Result<std::uint32_t> begun = engine.begin_stroke({stroke.edges.front()});
+  if (!begun.ok()) return begun.error();
+  double ends_ms = engine.last_ms();
+  for (std::size_t i = 1; i < stroke.edges.size(); ++i) {
+    const Result<StepReport> step = engine.step({stroke.edges[i]});
+    if (!step.ok()) return step.error();
+    samples.add(engine.last_ms(), step->times);
+  }
+  Result<StrokeReport> report = engine.end_stroke();
+  ends_ms += engine.last_ms();
+  if (report.ok()) samples.extend(ends_ms, rest_of(report->times, samples.stages));
+  return report;
+}
+
+/// Whether the blade goes step by step: the paper cuts when a stroke is complete.
+bool goes_by_steps(const CutJob& job) {
+  return job.by_steps && job.engine.cut.profile != Profile::kPaper;
+}
+
 /// Cuts along one stroke and maintains the mesh; the last cut is measured in between, off the clock.
-Status cut_one(Engine& engine, const CutJob& job, std::size_t index, detail::Upkeep& upkeep, JobReport& report) {
-  const detail::Stopwatch watch;
-  const Result<StrokeReport> stroke = engine.cut(job.strokes[index]);
-  const double cut_ms = watch.ms();
+Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, detail::Upkeep& upkeep,
+               JobReport& report) {
+  detail::StepSamples samples;
+  const auto cut = goes_by_steps(job) ? cut_by_steps : cut_whole;
+  const Result<StrokeReport> stroke = cut(engine, job.strokes[index], samples);
   if (!stroke.ok()) return in_stroke(stroke.error(), job, index);
   report.cut += stroke->cut;
   if (index + 1 == job.strokes.size()) detail::measure_cut(engine.mesh(), report);
-  MaintainReport maintained{stroke->maintain, stroke->times};
-  const double maintain_ms = upkeep.run(engine, maintained);
-  detail::add_operation(maintained, cut_ms + maintain_ms, report);
+  MaintainReport maintained{stroke->maintain, {}};
+  const Result<double> upkeep_ms = upkeep.run(engine, maintained);
+  if (!upkeep_ms.ok()) return upkeep_ms.error();
+  samples.extend(*upkeep_ms, maintained.times);
+  detail::add_operation(maintained.maintain, samples, report);
   return {};
 }
 
-Status cut_all(Engine& engine, const CutJob& job, JobReport& report) {
+Status cut_all(RecordedEngine& engine, const CutJob& job, JobReport& report) {
   detail::Upkeep upkeep(job.engine, job.budget_us);
   for (std::size_t i = 0; i < job.strokes.size(); ++i) {
     if (job.progress) job.progress(i, job.strokes.size());
@@ -48,10 +88,11 @@ Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh)
   detail::describe_job(loaded, job.engine, job.budget_us, report);
   report.strokes = job.strokes.size();
   detail::measure_before(loaded.mesh, report);
-  Result<Engine> engine = Engine::create(std::move(loaded.mesh), detail::without_upkeep(job.engine));
+  Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), detail::without_upkeep(job.engine),
+                                                         {job.record, loaded.source.file, job.options.seed});
   if (!engine.ok()) return engine.error();
   if (const Status status = cut_all(*engine, job, report); !status.ok()) return status.error();
-  detail::finish(*engine, loaded, wants_mesh, result);
+  detail::finish(engine->engine(), loaded, wants_mesh, result);
   return result;
 }
 

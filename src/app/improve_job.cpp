@@ -9,12 +9,18 @@ namespace incise::inline v0 {
 namespace app {
 namespace {
 
-void improve(Engine& engine, const ImproveJob& job, JobReport& report) {
+Status improve(RecordedEngine& engine, const ImproveJob& job, JobReport& report) {
   detail::Upkeep upkeep(job.engine, job.budget_us);
-  const detail::Stopwatch watch;
-  MaintainReport maintained = engine.improve();
-  upkeep.run(engine, maintained);
-  detail::add_operation(maintained, watch.ms(), report);
+  const Result<MaintainReport> begun = engine.improve();
+  if (!begun.ok()) return begun.error();
+  MaintainReport maintained = *begun;
+  const double begin_ms = engine.last_ms();
+  const Result<double> upkeep_ms = upkeep.run(engine, maintained);
+  if (!upkeep_ms.ok()) return upkeep_ms.error();
+  detail::StepSamples samples;
+  samples.add(begin_ms + *upkeep_ms, maintained.times);
+  detail::add_operation(maintained.maintain, samples, report);
+  return {};
 }
 
 }  // namespace
@@ -23,10 +29,10 @@ Result<JobResult> run_improve(LoadedMesh loaded, const ImproveJob& job, bool wan
   JobResult result;
   detail::describe_job(loaded, job.engine, job.budget_us, result.report);
   detail::measure_before(loaded.mesh, result.report);
-  Result<Engine> engine = Engine::create(std::move(loaded.mesh), detail::without_upkeep(job.engine));
+  Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), detail::without_upkeep(job.engine));
   if (!engine.ok()) return engine.error();
-  improve(*engine, job, result.report);
-  detail::finish(*engine, loaded, wants_mesh, result);
+  if (const Status status = improve(*engine, job, result.report); !status.ok()) return status.error();
+  detail::finish(engine->engine(), loaded, wants_mesh, result);
   return result;
 }
 

@@ -17,10 +17,6 @@ void add(const MaintainReport& more, MaintainReport& sum) {
   sum.times += more.times;
 }
 
-MeshCounts counts_of(const TetMesh& mesh, const Components& pieces) {
-  return {mesh.vertex_count(), mesh.tet_count(), pieces.count()};
-}
-
 QualityStats measure_incision(const TetMesh& mesh) {
   return measure_quality(mesh, [&](TetId tet) { return touches_cut(mesh, tet); });
 }
@@ -33,15 +29,17 @@ Upkeep::Upkeep(const EngineOptions& wanted, std::uint64_t budget_us)
       work_units_(wanted.maintain.work_units),
       budget_us_(static_cast<double>(budget_us)) {}
 
-double Upkeep::run(Engine& engine, MaintainReport& sum) {
-  if (!is_on_) return 0;
+Result<double> Upkeep::run(RecordedEngine& engine, MaintainReport& sum) {
+  if (!is_on_) return 0.0;
   const Stopwatch watch;
   left_us_ += budget_us_;
   ShouldStop should_stop;
   if (has_clock_) should_stop = [&] { return 1e3 * watch.ms() >= left_us_; };
-  add(engine.maintain(work_units_, should_stop), sum);
-  left_us_ -= 1e3 * watch.ms();
-  return watch.ms();
+  const Result<MaintainReport> report = engine.maintain(work_units_, should_stop);
+  if (!report.ok()) return report.error();
+  add(*report, sum);
+  left_us_ -= 1e3 * engine.last_ms();
+  return engine.last_ms();
 }
 
 EngineOptions without_upkeep(EngineOptions options) {
@@ -59,6 +57,10 @@ void describe_job(const LoadedMesh& loaded, const EngineOptions& engine, std::ui
   report.options.improve = engine.maintain.improve;
   report.options.budget_us = budget_us;
   report.options.threads = engine.threads;
+}
+
+MeshCounts counts_of(const TetMesh& mesh, const Components& pieces) {
+  return {mesh.vertex_count(), mesh.tet_count(), pieces.count()};
 }
 
 void measure_before(const TetMesh& mesh, JobReport& report) {
@@ -87,13 +89,24 @@ void measure_after(const TetMesh& mesh, const Components& pieces, double volume_
   report.hash = mesh.hash();
 }
 
-void add_operation(const MaintainReport& maintained, double ms, JobReport& report) {
-  report.maintain += maintained.maintain;
-  report.units_per_stroke.push_back(maintained.maintain.work_units);
-  report.times += maintained.times;
-  report.stage_ms.push_back(maintained.times);
-  report.step_ms.push_back(ms);
-  report.total_ms += ms;
+void StepSamples::add(double step_ms, const StageTimes& times) {
+  ms.push_back(step_ms);
+  stages.push_back(times);
+}
+
+void StepSamples::extend(double more_ms, const StageTimes& times) {
+  if (ms.empty()) add(0, {});
+  ms.back() += more_ms;
+  stages.back() += times;
+}
+
+void add_operation(const MaintainStatistics& maintained, const StepSamples& samples, JobReport& report) {
+  report.maintain += maintained;
+  report.units_per_stroke.push_back(maintained.work_units);
+  for (const double ms : samples.ms) report.total_ms += ms;
+  for (const StageTimes& times : samples.stages) report.times += times;
+  report.step_ms.insert(report.step_ms.end(), samples.ms.begin(), samples.ms.end());
+  report.stage_ms.insert(report.stage_ms.end(), samples.stages.begin(), samples.stages.end());
 }
 
 void finish(const Engine& engine, const LoadedMesh& loaded, bool wants_mesh, JobResult& result) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "incise/app/cut_job.h"
+#include "incise/app/recorded_engine.h"
 #include "incise/mesh/components.h"
 
 namespace incise::inline v0 {
@@ -32,7 +33,8 @@ class Upkeep {
   Upkeep(const EngineOptions& wanted, std::uint64_t budget_us);
 
   /// Maintains until nothing waits or the budget is spent, and adds what was done to `sum`. Returns its milliseconds.
-  double run(Engine& engine, MaintainReport& sum);
+  /// Errors: kIo where the recording fails.
+  Result<double> run(RecordedEngine& engine, MaintainReport& sum);
 
  private:
   bool is_on_, has_clock_;
@@ -47,13 +49,25 @@ class Upkeep {
 /// The fields of a report that say what was loaded and what was asked for.
 void describe_job(const LoadedMesh& loaded, const EngineOptions& engine, std::uint64_t budget_us, JobReport& report);
 
+[[nodiscard]] MeshCounts counts_of(const TetMesh& mesh, const Components& pieces);
+
 void measure_before(const TetMesh& mesh, JobReport& report);
 /// `quality.cut`: between the last cut and its maintenance.
 void measure_cut(const TetMesh& mesh, JobReport& report);
 void measure_after(const TetMesh& mesh, const Components& pieces, double volume_tolerance, JobReport& report);
 
-/// Adds one operation, a stroke or an improvement, that took `ms` in all.
-void add_operation(const MaintainReport& maintained, double ms, JobReport& report);
+/// What one operation took, step by step.
+struct StepSamples {
+  std::vector<double> ms;
+  std::vector<StageTimes> stages;
+
+  void add(double step_ms, const StageTimes& times);
+  /// Adds to the last step, or to a first one where there is none.
+  void extend(double more_ms, const StageTimes& times);
+};
+
+/// Adds one operation, a stroke or an improvement.
+void add_operation(const MaintainStatistics& maintained, const StepSamples& samples, JobReport& report);
 
 /// Measures what an engine ends with, and packs it where it is wanted.
 void finish(const Engine& engine, const LoadedMesh& loaded, bool wants_mesh, JobResult& result);

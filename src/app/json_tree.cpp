@@ -46,7 +46,12 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool null() override { return add(Kind::kNull, 0); }
   bool boolean(bool value) override { return add(Kind::kBool, value ? 1 : 0); }
   bool number_integer(number_integer_t value) override { return add(Kind::kNumber, static_cast<double>(value)); }
-  bool number_unsigned(number_unsigned_t value) override { return add(Kind::kNumber, static_cast<double>(value)); }
+  bool number_unsigned(number_unsigned_t value) override {
+    if (!add(Kind::kNumber, static_cast<double>(value))) return false;
+    last_->is_whole = true;
+    last_->whole = value;
+    return true;
+  }
   bool number_float(number_float_t value, const string_t&) override { return add(Kind::kNumber, value); }
   bool string(string_t& value) override {
     if (!add(Kind::kString, 0)) return false;
@@ -142,12 +147,15 @@ const JsonValue* JsonValue::find(std::string_view key) const {
   return nullptr;
 }
 
-Result<JsonValue> parse_json(std::string_view text, std::string_view file_name, const JsonLimits& limits) {
+Result<JsonValue> parse_json(std::string_view text, std::string_view file_name, const JsonLimits& limits,
+                             std::uint32_t first_line) {
+  std::uint32_t line = first_line;
   if (text.size() > limits.max_bytes) {
-    return bad_file(file_name, 1, "larger than " + std::to_string(limits.max_bytes >> 20U) + " MiB");
+    return bad_file(file_name, line, "larger than " + std::to_string(limits.max_bytes >> 20U) + " MiB");
   }
-  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return bad_file(file_name, 1, "the file is empty");
-  std::uint32_t line = 1;
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    return bad_file(file_name, line, first_line == 1 ? "the file is empty" : "the line is empty");
+  }
   TreeBuilder builder(line, limits);
   const LineCounter begin(text.data(), &line);
   const LineCounter end(text.data() + text.size(), &line);
@@ -179,6 +187,21 @@ const JsonValue* JsonReader::member(const JsonValue& object, const std::string& 
   return found;
 }
 
+bool JsonReader::is_format(const JsonValue& root, std::string_view format, std::uint32_t version) {
+  if (root.kind != Kind::kObject) return fail(root, "", "must be an object, not " + shown(root));
+  const JsonValue* name = member(root, "", "format");
+  const JsonValue* number = name ? member(root, "", "version") : nullptr;
+  if (number == nullptr) return false;
+  if (name->kind != Kind::kString || name->text != format) {
+    return fail(*name, "format", "must be \"" + std::string(format) + "\"");
+  }
+  double found = 0;
+  if (!this->number(*number, "version", found)) return false;
+  if (found == version) return true;
+  return fail(*number, "version",
+              "is " + short_number(found) + "; this program reads version " + std::to_string(version));
+}
+
 bool JsonReader::is_array(const JsonValue& value, const std::string& path, std::size_t min_items,
                           std::size_t max_items) {
   if (value.kind != Kind::kArray) return fail(value, path, "must be an array, not " + shown(value));
@@ -202,8 +225,30 @@ bool JsonReader::numbers(const JsonValue& value, const std::string& path, double
     return fail(value, path, "must be an array of " + std::to_string(count) + " numbers");
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (!number(value.items[i], path + "[" + std::to_string(i) + "]", out[i])) return false;
+    if (!number(value.items[i], at(path, i), out[i])) return false;
   }
+  return true;
+}
+
+bool JsonReader::points(const JsonValue& value, const std::string& path, std::size_t max_points,
+                        std::vector<Vec3>& out) {
+  if (!is_array(value, path, 2, max_points)) return false;
+  out.resize(value.items.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!numbers(value.items[i], at(path, i), out[i].data(), 3)) return false;
+  }
+  return true;
+}
+
+bool JsonReader::whole(const JsonValue& value, const std::string& path, std::uint64_t& out) {
+  if (!value.is_whole) return fail(value, path, "must be a whole number from 0 to 2^64 - 1");
+  out = value.whole;
+  return true;
+}
+
+bool JsonReader::boolean(const JsonValue& value, const std::string& path, bool& out) {
+  if (value.kind != Kind::kBool) return fail(value, path, "must be true or false, not " + shown(value));
+  out = value.number != 0;
   return true;
 }
 
@@ -211,6 +256,17 @@ bool JsonReader::text(const JsonValue& value, const std::string& path, std::stri
   if (value.kind != Kind::kString) return fail(value, path, "must be a string, not " + shown(value));
   out = value.text;
   return true;
+}
+
+std::string at(const std::string& path, std::size_t index) {
+  return path + "[" + std::to_string(index) + "]";
+}
+
+std::string short_number(double x) {
+  std::string text = std::to_string(x);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
 }
 
 }  // namespace app

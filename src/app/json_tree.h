@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "incise/core/result.h"
+#include "incise/geom/vec.h"
 
 namespace incise::inline v0 {
 namespace app {
@@ -22,6 +23,8 @@ struct JsonValue {
   Kind kind = Kind::kNull;
   std::uint32_t line = 1;         ///< where the value ends, for arrays and objects where it begins
   double number = 0;              ///< of kNumber; 0 or 1 of kBool
+  bool is_whole = false;          ///< a number written as an integer from 0 to 2^64 - 1
+  std::uint64_t whole = 0;        ///< that integer
   std::string text;               ///< of kString
   std::vector<JsonValue> items;   ///< of kArray; the values of kObject
   std::vector<std::string> keys;  ///< of kObject, one per item
@@ -35,8 +38,9 @@ struct JsonLimits {
   std::size_t max_depth = 16;
 };
 
-/// Parses a whole document. Errors: kBadFile "FILE:LINE: what".
-Result<JsonValue> parse_json(std::string_view text, std::string_view file_name, const JsonLimits& limits = {});
+/// Parses a whole document, whose first line is the file's line `first_line`. Errors: kBadFile "FILE:LINE: what".
+Result<JsonValue> parse_json(std::string_view text, std::string_view file_name, const JsonLimits& limits = {},
+                             std::uint32_t first_line = 1);
 
 /// Walks a tree and remembers the first error, named by file, line and JSON path.
 class JsonReader {
@@ -47,11 +51,17 @@ class JsonReader {
   [[nodiscard]] const Error& error() const { return error_; }
 
   /// Every one of these returns false, and keeps the first error, where the value is not as asked.
+  ///
+  /// `is_format` asks for an object that names this format and version, `points` for an array of at least two points.
+  bool is_format(const JsonValue& root, std::string_view format, std::uint32_t version);
   bool is_object(const JsonValue& value, const std::string& path, std::initializer_list<std::string_view> known_keys);
   const JsonValue* member(const JsonValue& object, const std::string& path, std::string_view key);
   bool is_array(const JsonValue& value, const std::string& path, std::size_t min_items, std::size_t max_items);
   bool number(const JsonValue& value, const std::string& path, double& out);
   bool numbers(const JsonValue& value, const std::string& path, double* out, std::size_t count);
+  bool points(const JsonValue& value, const std::string& path, std::size_t max_points, std::vector<Vec3>& out);
+  bool whole(const JsonValue& value, const std::string& path, std::uint64_t& out);
+  bool boolean(const JsonValue& value, const std::string& path, bool& out);
   bool text(const JsonValue& value, const std::string& path, std::string& out);
   bool fail(const JsonValue& value, const std::string& path, const std::string& what);
 
@@ -60,6 +70,11 @@ class JsonReader {
   Error error_;
   bool failed_ = false;
 };
+
+/// "path[index]".
+[[nodiscard]] std::string at(const std::string& path, std::size_t index);
+/// For messages: six digits after the point at most.
+[[nodiscard]] std::string short_number(double x);
 
 }  // namespace app
 }  // namespace incise::inline v0

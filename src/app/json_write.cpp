@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/json_write.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <string>
 
 namespace incise::inline v0 {
 namespace app {
@@ -13,6 +14,12 @@ Json encode(double number) {
 
 Json encode(const Vec3& point) {
   return Json::array({encode(point.x()), encode(point.y()), encode(point.z())});
+}
+
+Json encode(const std::vector<Vec3>& points) {
+  Json list = Json::array();
+  for (const Vec3& point : points) list.push_back(encode(point));
+  return list;
 }
 
 Json encode(const QualityStats& q) {
@@ -42,6 +49,10 @@ Json encode(const ValidityReport& report) {
     root["first"].push_back({{"kind", std::string(name_of(v.kind))}, {"ids", {v.ids[0], v.ids[1]}}});
   }
   return root;
+}
+
+std::string hash_text(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
 }
 
 }  // namespace app

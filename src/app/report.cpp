@@ -199,7 +199,7 @@ std::string to_json(const JobReport& report) {
   root["time_ms"] = json_of(report.times, report.total_ms);
   root["step_ms"] = json_of(percentiles(report.step_ms));
   root["stage_ms"] = stage_percentiles(report.stage_ms);
-  root["hash"] = fmt::format("{:016x}", report.hash);
+  root["hash"] = hash_text(report.hash);
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -207,7 +207,7 @@ std::string to_text(const JobReport& report) {
   return sizes_text(report) + work_text(report) + quality_text(report) +
          fmt::format("volume changed by {:.2g} (relative); {}\n", relative_error(report),
                      report.change.ok ? "valid" : "INVALID") +
-         fmt::format("{:.3f} ms, hash {:016x}\n", report.total_ms, report.hash);
+         fmt::format("{:.3f} ms, hash {}\n", report.total_ms, hash_text(report.hash));
 }
 
 }  // namespace app

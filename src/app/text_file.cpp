@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/app/text_file.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -39,11 +41,17 @@ Status write_in_place(const fs::path& path, std::string_view text) {
 
 }  // namespace
 
-Result<std::string> read_text_file(const fs::path& path, std::size_t max_bytes) {
+Status check_readable(const fs::path& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (!fs::exists(status)) return bad_file(path, "no such file; check the path");
   if (fs::is_directory(status)) return bad_file(path, "is a directory; name a file");
+  if (::access(path.c_str(), R_OK) == 0) return {};
+  return bad_file(path, std::string("cannot be opened: ") + std::strerror(errno));
+}
+
+Result<std::string> read_text_file(const fs::path& path, std::size_t max_bytes) {
+  if (const Status status = check_readable(path); !status.ok()) return status.error();
   File file(std::fopen(path.string().c_str(), "rb"));
   if (!file) return bad_file(path, std::string("cannot be opened: ") + std::strerror(errno));
   std::string text;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -18,12 +19,16 @@ inline constexpr std::uint64_t kMaxBudgetUs = 3'600'000'000;
 
 struct CutJob {
   std::vector<Stroke> strokes;
+  /// The blade goes from time to time, each pair of times one step of the engine, instead of cutting once a stroke is
+  /// complete. The profile paper always does the latter.
+  bool by_steps = false;
   EngineOptions engine;
   /// Microseconds for the maintenance that follows each stroke, at most `kMaxBudgetUs`; what one stroke leaves over the
   /// next may spend. 0: no clock, `engine.maintain.work_units` are the budget of each stroke. Cutting is never bounded,
   /// nor is the paper's maintenance.
   std::uint64_t budget_us = 0;
-  ReportOptions options;  ///< repeated in the report; what `engine` and `budget_us` say is taken from them
+  ReportOptions options;         ///< repeated in the report; what `engine` and `budget_us` say is taken from them
+  std::filesystem::path record;  ///< where the session is recorded, see `RecordedEngine`; empty: nowhere
   /// Called before each stroke and after the last: strokes done, strokes in all. May be empty.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
@@ -46,7 +51,8 @@ struct JobResult {
 /// Measuring counts in no time of the report. With `budget_us` the result depends on the clock; the report has the work
 /// that was done after each stroke.
 /// @param wants_mesh  whether `JobResult::mesh` is filled.
-/// Errors: as `Engine::create` and `Engine::cut`, naming the stroke. Cost: the cuts, plus about 3 µs per tet.
+/// Errors: as `Engine::create` and `Engine::cut`, naming the stroke; kIo where the recording fails. Cost: the cuts,
+/// plus about 3 µs per tet.
 [[nodiscard]] Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh);
 
 }  // namespace app

@@ -63,7 +63,7 @@ struct JobReport {
   ValidityChange change;  ///< `ok` is the report's verdict
   StageTimes times;
   double total_ms = 0;               ///< by the clock, over all strokes with their maintenance
-  std::vector<double> step_ms;       ///< of each stroke with its maintenance
+  std::vector<double> step_ms;       ///< of each step of the blade; a stroke's last with its end and maintenance
   std::vector<StageTimes> stage_ms;  ///< one sample per entry
   std::uint64_t hash = 0;            ///< of the mesh after
 };

@@ -11,6 +11,9 @@
 namespace incise::inline v0 {
 namespace app {
 
+/// Whether there is a file that can be opened for reading. Errors: kBadFile, naming the file. Cost: O(1).
+[[nodiscard]] Status check_readable(const std::filesystem::path& path);
+
 /// Reads a whole file. Errors: kBadFile, naming the file, where it is missing, a directory, unreadable or larger than
 /// `max_bytes`. Cost: O(size).
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t max_bytes);
