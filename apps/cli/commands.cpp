@@ -13,6 +13,7 @@
 #include "incise/app/cut_job.h"
 #include "incise/app/improve_job.h"
 #include "incise/app/mesh_info.h"
+#include "incise/app/replay_job.h"
 #include "incise/app/text_file.h"
 #include "incise/mesh/bounds.h"
 
@@ -75,6 +76,20 @@ std::optional<Plane> parse_plane(const std::string& text) {
   return Plane{normal, numbers[3]};
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code code;
+  if (fs::exists(a, code) && fs::exists(b, code)) return fs::equivalent(a, b, code);
+  return fs::absolute(a, code).lexically_normal() == fs::absolute(b, code).lexically_normal();
+}
+
+/// Whether the recording would take the place of something else that the command reads or writes.
+bool takes_a_place(const CutArguments& a) {
+  for (const std::string& other : {a.mesh, a.blade, a.output, a.report}) {
+    if (!a.record.empty() && !other.empty() && is_same_file(a.record, other)) return true;
+  }
+  return false;
+}
+
 /// What is wrong with the arguments, or nothing.
 std::string usage_problem(const CutArguments& a) {
   if (a.blade.empty() == a.plane.empty()) return "give either --blade B.json or --plane nx,ny,nz,d";
@@ -82,6 +97,7 @@ std::string usage_problem(const CutArguments& a) {
     return "--plane " + a.plane + ": four finite numbers nx,ny,nz,d are needed, the first three not all zero";
   }
   if (!std::isfinite(a.snap) || a.snap < 0 || a.snap > 0.4) return "--snap must lie between 0 and 0.4";
+  if (takes_a_place(a)) return "--record " + a.record + " is another file of this command; give it a name of its own";
   return {};
 }
 
@@ -93,13 +109,16 @@ bool has_folder(const std::string& file) {
   return folder.empty() || fs::is_directory(folder, code);
 }
 
-/// Whether both outputs can be written, as far as their names tell; else says why and gives the exit code.
-std::optional<ExitCode> refuse_outputs(const std::string& mesh, const std::string& report, const Terminal& terminal) {
+/// Whether outputs can be written, as far as their names tell; else says why and gives the exit code.
+std::optional<ExitCode> refuse_outputs(const std::string& mesh, const std::vector<std::string>& others,
+                                       const Terminal& terminal) {
   if (!mesh.empty() && !app::is_mesh_extension(mesh)) {
     terminal.error(mesh + ": unknown extension; use " + app::kMeshExtensions);
     return kUsage;
   }
-  for (const std::string& file : {mesh, report}) {
+  std::vector<std::string> files = others;
+  files.push_back(mesh);
+  for (const std::string& file : files) {
     if (has_folder(file)) continue;
     terminal.error(file + ": its folder does not exist; create it first");
     return kFailure;
@@ -134,6 +153,8 @@ Result<std::vector<Stroke>> strokes_of(const CutArguments& a, const TetMesh& mes
 app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Terminal& terminal) {
   app::CutJob job;
   job.strokes = std::move(strokes);
+  job.by_steps = !a.blade.empty();
+  job.record = a.record;
   job.engine.cut.profile = profile_of(a.profile);
   job.engine.cut.snap = a.snap;
   job.engine.maintain.merge = !a.no_merge;
@@ -197,7 +218,9 @@ int run_check(const InfoArguments& arguments, const Terminal& terminal) {
 
 int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
-  if (const auto code = refuse_outputs(arguments.output, arguments.report, terminal)) return *code;
+  if (const auto code = refuse_outputs(arguments.output, {arguments.report, arguments.record}, terminal)) {
+    return *code;
+  }
   note_idle_flags(arguments, terminal);
   Result<app::LoadedMesh> loaded = app::load_mesh(arguments.mesh);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
@@ -211,7 +234,7 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
 }
 
 int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
-  if (const auto code = refuse_outputs(arguments.output, arguments.report, terminal)) return *code;
+  if (const auto code = refuse_outputs(arguments.output, {arguments.report}, terminal)) return *code;
   if (arguments.profile == "paper" && arguments.budget_us > 0) terminal.note(kNoBudgetAsPaper);
   Result<app::LoadedMesh> loaded = app::load_mesh(arguments.mesh);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
@@ -223,6 +246,41 @@ int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
   const Result<app::JobResult> result = app::run_improve(std::move(loaded).value(), job, !arguments.output.empty());
   if (!result.ok()) return fail(terminal, result.error(), kFailure);
   return finish_job(arguments.output, arguments.report, "improvement", *result, terminal);
+}
+
+namespace {
+
+/// Says where a replay ended, if not where it should.
+void note_end(const app::ReplayResult& result, const std::string& recording, const Terminal& terminal) {
+  const std::string after = recording + ": after " + std::to_string(result.calls) + " calls ";
+  if (result.is_cut_off) terminal.note(after + "the recording is cut off; what was whole has been replayed");
+  if (result.is_in_stroke) terminal.note(after + "a stroke is still under way; the mesh is as its last step left it");
+}
+
+int report_difference(const app::ReplayDifference& d, const std::string& recording, const Terminal& terminal) {
+  return fail(terminal,
+              recording + ":" + std::to_string(d.line) + ": the call \"" + d.call +
+                  "\" came out differently: expected " + d.expected + ", found " + d.found +
+                  "; no mesh was written. Was it another version that recorded?",
+              kCheckFailed);
+}
+
+}  // namespace
+
+int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
+  if (const auto code = refuse_outputs(arguments.output, {}, terminal)) return *code;
+  const app::ReplayJob job{arguments.recording, arguments.verify, !arguments.output.empty(), terminal.log_sink()};
+  const Result<app::ReplayResult> result = app::run_replay(job);
+  if (!result.ok()) return fail(terminal, result.error(), exit_of(result.error()));
+  note_end(*result, arguments.recording, terminal);
+  if (result->difference) return report_difference(*result->difference, arguments.recording, terminal);
+  const WritingZone zone;
+  if (!arguments.output.empty()) {
+    const Status status = io::write_mesh(arguments.output, result->mesh);
+    if (!status.ok()) return fail(terminal, status.error(), kFailure);
+  }
+  if (!terminal.is_quiet) terminal.data(app::to_text(*result));
+  return kDone;
 }
 
 int run_convert(const ConvertArguments& arguments, const Terminal& terminal) {

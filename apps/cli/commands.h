@@ -14,7 +14,7 @@ struct InfoArguments {
 };
 
 struct CutArguments {
-  std::string mesh, blade, plane, output, report;
+  std::string mesh, blade, plane, output, report, record;
   std::string profile = "incise";
   double snap = 0.2;
   bool has_snap = false;
@@ -30,6 +30,11 @@ struct ImproveArguments {
   std::uint64_t budget_us = 0;  // 0: none
 };
 
+struct ReplayArguments {
+  std::string recording, output;
+  bool verify = false;
+};
+
 struct ConvertArguments {
   std::string in, out;
 };
@@ -39,6 +44,7 @@ int run_info(const InfoArguments& arguments, const Terminal& terminal);
 int run_check(const InfoArguments& arguments, const Terminal& terminal);
 int run_cut(const CutArguments& arguments, const Terminal& terminal);
 int run_improve(const ImproveArguments& arguments, const Terminal& terminal);
+int run_replay(const ReplayArguments& arguments, const Terminal& terminal);
 int run_convert(const ConvertArguments& arguments, const Terminal& terminal);
 
 }  // namespace incise_cli

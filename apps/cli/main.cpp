@@ -18,8 +18,9 @@ struct Arguments {
   InfoArguments info, check;
   CutArguments cut;
   ImproveArguments improve;
+  ReplayArguments replay;
   ConvertArguments convert;
-  std::string unbuilt_record, unbuilt_picture;
+  std::string unbuilt_picture;
 };
 
 constexpr const char* kExitCodes =
@@ -59,7 +60,8 @@ void add_cut(CLI::App& root, Arguments& a) {
                               "  incise cut bunny.node --blade scenes/bunny_stroke.json -o cut.vtu --report cut.json\n"
                               "  incise cut bunny.node --plane=-1,0,2,0.3 --profile paper --report -\n"
                               "  incise cut cube.mesh --plane 1,0,0,0.5 --no-merge --no-improve -o raw.vtu\n"
-                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --budget-us 2000 -o cut.vtu");
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --budget-us 2000 -o cut.vtu\n"
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --record cut.jsonl");
   cut->add_option("MESH", a.cut.mesh, "Mesh file; the format is found from its content")->required();
   cut->add_option("--blade", a.cut.blade, "Blade file: JSON of format incise-blade");
   cut->add_option("--plane", a.cut.plane, "nx,ny,nz,d: cut through everything along n.x = d, n of any length");
@@ -73,7 +75,7 @@ void add_cut(CLI::App& root, Arguments& a) {
   cut->add_option("--seed", a.cut.seed, "Seed, repeated in the report");
   cut->add_option("--threads", a.cut.threads, "Worker threads, 1 to 256; the result does not depend on it")
       ->check(CLI::Range(1, 256));
-  cut->add_option("--record", a.unbuilt_record, "Record the cut (not built yet)");
+  cut->add_option("--record", a.cut.record, "Record every step as JSON lines, for incise replay");
   cut->add_option("--picture", a.unbuilt_picture, "Draw the result (not built yet)");
   add_budget(
       *cut, a.cut.budget_us,
@@ -97,6 +99,15 @@ void add_improve(CLI::App& root, Arguments& a) {
       "Microseconds for the work, 1 to 3600000000; the worst tets come first, what is not done is left as it was");
 }
 
+void add_replay(CLI::App& root, Arguments& a) {
+  CLI::App* replay =
+      add_command(root, "replay", "Do again what was recorded with --record; exit 4 where it comes out differently",
+                  "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu");
+  replay->add_option("REC", a.replay.recording, "Recording: JSON lines of format incise-recording")->required();
+  replay->add_flag("--verify", a.replay.verify, "Compare the mesh after every step, not only at the end");
+  replay->add_option("-o,--output", a.replay.output, "Write the mesh at the end; the extension names the format");
+}
+
 void add_convert(CLI::App& root, Arguments& a) {
   CLI::App* convert =
       add_command(root, "convert", "Convert a mesh or surface; a mesh becomes its boundary in .obj .stl .ply .off",
@@ -107,21 +118,13 @@ void add_convert(CLI::App& root, Arguments& a) {
 
 /// Commands of the contract that later versions bring: they are named, and refuse.
 void add_unbuilt(CLI::App& root) {
-  for (const char* name : {"simulate", "replay"}) {
-    root.add_subcommand(name, "(not built yet)")->allow_extras()->prefix_command();
-  }
+  root.add_subcommand("simulate", "(not built yet)")->allow_extras()->prefix_command();
 }
 
 /// The first thing that was asked for but is not built, or nothing.
 std::string find_unbuilt(const CLI::App& root) {
-  for (const char* name : {"simulate", "replay"}) {
-    if (root.got_subcommand(name)) return std::string("the command ") + name;
-  }
-  const CLI::App* cut = root.get_subcommand("cut");
-  for (const char* flag : {"--record", "--picture"}) {
-    if (cut->count(flag) > 0) return flag;
-  }
-  return {};
+  if (root.got_subcommand("simulate")) return "the command simulate";
+  return root.get_subcommand("cut")->count("--picture") > 0 ? "--picture" : "";
 }
 
 int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
@@ -132,6 +135,7 @@ int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
   if (root.got_subcommand("info")) return run_info(a.info, terminal);
   if (root.got_subcommand("check")) return run_check(a.check, terminal);
   if (root.got_subcommand("improve")) return run_improve(a.improve, terminal);
+  if (root.got_subcommand("replay")) return run_replay(a.replay, terminal);
   if (root.got_subcommand("convert")) return run_convert(a.convert, terminal);
   a.cut.has_snap = root.get_subcommand("cut")->count("--snap") > 0;
   return run_cut(a.cut, terminal);
@@ -151,6 +155,7 @@ int run(int argc, char** argv) {
   add_info(root, arguments);
   add_cut(root, arguments);
   add_improve(root, arguments);
+  add_replay(root, arguments);
   add_convert(root, arguments);
   add_unbuilt(root);
   try {

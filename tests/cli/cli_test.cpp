@@ -254,7 +254,7 @@ TEST(Cli, converts_a_mesh_to_its_boundary) {
 
 TEST(Cli, helps_and_tells_its_version) {
   EXPECT_EQ(run({"--version"}).out.substr(0, 9), "incise 0.");
-  for (const std::string command : {"info", "check", "cut", "improve", "convert"}) {
+  for (const std::string command : {"info", "check", "cut", "improve", "replay", "convert"}) {
     const Outcome help = run({command, "-h"});
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.out.find("Examples:"), std::string::npos) << command;

@@ -2,9 +2,10 @@
 // Runs the built command as a user's shell would, without a shell.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "app/folder.h"
 
 namespace incise_test {
 
@@ -17,28 +18,7 @@ struct Outcome {
 Outcome run(const std::vector<std::string>& arguments);
 /// The same, and sends SIGINT after `seconds`.
 Outcome run_interrupted(const std::vector<std::string>& arguments, double seconds);
-
-/// A folder of its own, with a space in its name, removed at the end.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  /// Writes a file and returns its path.
-  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const;
-  /// The names of what is in it, sorted.
-  [[nodiscard]] std::vector<std::string> names() const;
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string read(const std::string& path);
-
-/// The unit cube of 6·n³ tets as a MEDIT file.
-std::string cube_mesh(unsigned n);
+/// The same with SIGKILL, which no program can hear.
+Outcome run_killed(const std::vector<std::string>& arguments, double seconds);
 
 }  // namespace incise_test
