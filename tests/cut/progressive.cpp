@@ -145,6 +145,12 @@ Stroke subdivided(const Stroke& stroke, unsigned parts) {
   return stroke_of(std::move(edges));
 }
 
+std::vector<Vec3> divided_edge(const Vec3& a, const Vec3& b, unsigned parts) {
+  std::vector<Vec3> edge;
+  for (unsigned i = 0; i <= parts; ++i) edge.emplace_back(a + static_cast<double>(i) / parts * (b - a));
+  return edge;
+}
+
 SteppedEngine::SteppedEngine(const TetSoup& soup, SteppedOptions options)
     : engine_(engine_on(soup, options)), input_(build(soup)), body_(input_), volume_(volume_of(input_)) {}
 

@@ -19,6 +19,10 @@ std::vector<BladePose> poses_of(const Stroke& stroke);
 /// The stroke with every step divided into `parts` equal ones.
 Stroke subdivided(const Stroke& stroke, unsigned parts);
 
+/// The straight edge from `a` to `b` in `parts` parts. An edge that twists needs several: between two poses of a long
+/// one the two triangles of its strip stand steeply against each other.
+std::vector<Vec3> divided_edge(const Vec3& a, const Vec3& b, unsigned parts);
+
 struct SteppedOptions {
   double snap = 0;
   bool maintains = false;

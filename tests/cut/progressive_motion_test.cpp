@@ -136,7 +136,7 @@ TEST_P(Motion, that_twists_divides_the_body_along_a_helicoid) {
     const double s = i / 45.0;
     const auto [c, d] = on_circle(0.25 * s);
     const Vec3 along(d, c, 0), centre(0.51, 0.48, kHigh - 1.4 * s);
-    edges.push_back({centre - 1.2 * along, centre + 1.2 * along});
+    edges.push_back(divided_edge(centre - 1.2 * along, centre + 1.2 * along, 24));
   }
   stepped.run(stroke_of(edges));
   expect_whole_pieces(stepped, 2);

@@ -134,7 +134,7 @@ TEST_P(Progressive, twisting_blades_end_where_they_stand) {
     const double s = i / 24.0, turn = 0.25 * s;
     const Vec3 along(turn, 1.0, 0.1 * turn);
     const Vec3 centre(0.49, 0.5, kHigh - 0.75 * s);
-    edges.push_back({centre - 0.8 * along, centre + 0.8 * along});
+    edges.push_back(divided_edge(centre - 0.8 * along, centre + 0.8 * along, 12));
   }
   const Stroke stroke = fitted(stroke_of(edges));
   const std::uint32_t tag = stepped.run(stroke);
