@@ -299,6 +299,7 @@ TEST_F(Replay, leaves_the_figures_of_a_cut_job_alone) {
 // The recordings in tests/recordings replay on every build. After a change that means to change results, and after
 // nothing else, make them anew: INCISE_WRITE_RECORDINGS=1 app_test --gtest_filter=Recordings.*
 void write_recordings(const fs::path& folder) {
+  fs::create_directories(folder);
   const std::string mesh = (folder / "cube.mesh").string();
   ASSERT_TRUE(app::write_text_file(mesh, incise_test::cube_mesh(3, 0.1)).ok());
   app::RecordedEngine everything = record_on(mesh, (folder / "everything.jsonl").string());
@@ -309,20 +310,29 @@ void write_recordings(const fs::path& folder) {
   play_everything(as_paper);
 }
 
-TEST(Recordings, replay_as_they_were_made) {
-  const fs::path folder = INCISE_RECORDINGS;
-  if (std::getenv("INCISE_WRITE_RECORDINGS") != nullptr) write_recordings(folder);
-  std::size_t count = 0;
+/// Every recording of the folder, sorted.
+std::vector<fs::path> recordings_in(const fs::path& folder) {
+  std::vector<fs::path> found;
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder, code)) {
-    if (entry.path().extension() != ".jsonl") continue;
-    ++count;
-    const Result<app::ReplayResult> result = app::run_replay({entry.path(), true});
-    ASSERT_TRUE(result.ok()) << result.error().message;
-    EXPECT_FALSE(result->difference.has_value())
-        << entry.path() << ":" << result->difference->line << " " << result->difference->found;
+    if (entry.path().extension() == ".jsonl") found.push_back(entry.path());
   }
-  if (count == 0) GTEST_SKIP() << "no recordings in " << folder;
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(Recordings, replay_as_they_were_made) {
+  if (std::getenv("INCISE_WRITE_RECORDINGS") != nullptr) write_recordings(INCISE_RECORDINGS);
+  const std::vector<fs::path> recordings = recordings_in(INCISE_RECORDINGS);
+  if (recordings.empty()) GTEST_SKIP() << "no recordings in " << INCISE_RECORDINGS;
+  for (const fs::path& recording : recordings) {
+    for (const unsigned threads : {1U, 2U}) {
+      const Result<app::ReplayResult> result = app::run_replay({recording, true, false, {}, threads});
+      ASSERT_TRUE(result.ok()) << result.error().message;
+      EXPECT_FALSE(result->difference.has_value())
+          << recording << ":" << result->difference->line << " " << result->difference->found;
+    }
+  }
 }
 
 }  // namespace
