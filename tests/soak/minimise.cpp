@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <functional>
@@ -37,6 +38,7 @@ class Minimiser {
  private:
   /// Changes the case; keeps the change if it still fails.
   bool attempt(const std::function<void(MotionCase&)>& change) {
+    if (std::chrono::steady_clock::now() > end_) return false;
     MotionCase smaller = motion_;
     change(smaller);
     if (!(failure_of(smaller) == failure_)) return false;
@@ -102,6 +104,7 @@ class Minimiser {
 
   MotionCase motion_;
   FailureKind failure_;
+  std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + std::chrono::minutes(5);
 };
 
 void write_edge(std::FILE* file, const std::vector<Vec3>& edge, std::size_t time) {

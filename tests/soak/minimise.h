@@ -22,7 +22,8 @@ struct FailureKind {
 /// Runs a case in a process of its own.
 FailureKind failure_of(const MotionCase& motion);
 
-/// Drops strokes, then poses, then shrinks the body and whatever else is not needed, while the case fails as before.
+/// Drops strokes, then poses, then shrinks the body and whatever else is not needed, while the case fails as before;
+/// for five minutes at most.
 MotionCase minimise(MotionCase motion, const FailureKind& failure);
 
 /// All about a case but its poses, in words.
