@@ -12,7 +12,7 @@ namespace incise::test {
 namespace {
 
 constexpr double kPointDistance = 0.23;  // of the spacing
-constexpr double kHalf = 0.5;            // of the way: about the middle of the body
+constexpr double kHalf = 0.5;            // of the way: the middle of the body's rest box
 
 /// Piecewise linear through (time, share of the way), ascending in time from 0 to 1.
 double follow(std::span<const std::pair<double, double>> knots, double time) {
@@ -52,10 +52,9 @@ BladeMotion::BladeMotion(Motion motion, const Box& box, double spacing, std::uin
   across_ = along_.cross(down_);
   length_ = 1.7 * size.y();
   const double reach = std::abs(along_.z()) * 0.5 * length_ + 0.6 * spacing;  // no end of the edge starts inside
-  const Vec3 middle = 0.5 * (box.lo + box.hi) + Vec3(random_.real(-0.1, 0.1) * size.x(), 0, 0);
-  const double above = 0.5 * size.z() + reach, below = 1.1 * size.z() + reach;  // cut bodies sag
-  start_ = middle + above / down_.z() * down_;
-  travel_ = (above + below) / -down_.z();
+  middle_ = 0.5 * (box.lo + box.hi) + Vec3(random_.real(-0.1, 0.1) * size.x(), 0, 0);
+  above_ = (0.5 * size.z() + reach) / -down_.z();
+  below_ = (1.3 * size.z() + reach) / -down_.z();  // cut bodies sag
   if (motion == Motion::kCurve) sway_ = 0.15 * size.x();
 }
 
@@ -65,10 +64,10 @@ const char* BladeMotion::name() const {
   return kNames[static_cast<std::size_t>(motion_)];
 }
 
-/// How far down, of the whole way. Half is in the body's middle for those that turn there.
-double BladeMotion::depth(double time) const {
-  const Knots knots = knots_of(motion_);
-  return follow(knots, time);
+/// How far along `down_` from the body's middle at a share of the way.
+double BladeMotion::depth(double share) const {
+  const double from_half = (share - kHalf) / kHalf;
+  return from_half * (from_half < 0 ? above_ : below_);
 }
 
 double BladeMotion::tremor() const {
@@ -77,16 +76,17 @@ double BladeMotion::tremor() const {
 }
 
 BladePose BladeMotion::pose(double time) {
-  const double share = depth(time), shake = tremor();
+  const Knots knots = knots_of(motion_);
+  const double share = follow(knots, time), shake = tremor();
   const double shaken_down = random_.real(-1, 1) * shake, shaken_across = random_.real(-1, 1) * shake;
   const double sway = sway_ * (4 * share * (1 - share) - 0.5);
-  const Vec3 middle = start_ + (travel_ * share + shaken_down) * down_ + (sway + shaken_across) * across_;
+  const Vec3 middle = middle_ + (depth(share) + shaken_down) * down_ + (sway + shaken_across) * across_;
   const auto pieces = static_cast<unsigned>(std::ceil(length_ / (kPointDistance * spacing_)));
   BladePose pose;
   for (unsigned i = 0; i <= pieces; ++i) {
     pose.edge.emplace_back(middle + length_ * (static_cast<double>(i) / pieces - 0.5) * along_);
   }
-  pose.direction = down_ + 4 * sway_ * (1 - 2 * share) / travel_ * across_;
+  pose.direction = down_ + 4 * sway_ * (1 - 2 * share) / (above_ + below_) * across_;
   return pose;
 }
 

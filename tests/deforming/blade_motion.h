@@ -38,13 +38,14 @@ class BladeMotion {
   [[nodiscard]] const Vec3& direction() const { return down_; }
 
  private:
-  [[nodiscard]] double depth(double time) const;
+  [[nodiscard]] double depth(double share) const;
   [[nodiscard]] double tremor() const;
 
   Motion motion_;
   Random random_;
-  double spacing_, length_, travel_, sway_ = 0;
-  Vec3 start_, along_, down_, across_;  // the middle of the edge at first; unit vectors
+  double spacing_, length_, sway_ = 0;
+  double above_, below_;                 // along down_: from the first place to the body's middle, and on to the last
+  Vec3 middle_, along_, down_, across_;  // where the middle of the edge passes the body's; unit vectors
 };
 
 }  // namespace incise::test

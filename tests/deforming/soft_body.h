@@ -19,7 +19,7 @@ namespace incise::test {
 
 /// What a body is made of and how it is held. Units: the mesh's length unit, seconds, and a mass unit.
 struct SoftBodyOptions {
-  double young = 100;          ///< Young's modulus, mass / (length · s²)
+  double young = 300;          ///< Young's modulus, mass / (length · s²)
   double poisson = 0.4;        ///< in [0, 0.5)
   double density = 1;          ///< at rest
   Vec3 gravity{0, 0, -9.81};   ///< length / s²

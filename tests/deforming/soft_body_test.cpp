@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <vector>
 
 #include "cut/bodies.h"
 #include "cut/random_strokes.h"
+#include "cut/strokes.h"
 #include "cut/support.h"
 #include "deforming/leak_run.h"
 
@@ -54,9 +56,10 @@ TEST(SoftBody, stays_at_rest_where_nothing_pulls) {
 TEST(SoftBody, falls_as_a_whole) {
   SoftBodyOptions options = free_body();
   options.gravity = Vec3(0, 0, -9.81);
+  options.sweeps = 100;  // with few it falls later: each substep starts where the velocity of before leads
   SoftBody body(beam_mesh(), options);
   for (unsigned i = 0; i < 30; ++i) body.step(1.0 / 60);
-  EXPECT_LT((body.momentum() - 0.5 * body.mass() * options.gravity).norm(), 2e-2 * body.mass() * 0.5 * 9.81);
+  EXPECT_LT((body.momentum() - 0.5 * body.mass() * options.gravity).norm(), 1e-3 * body.mass() * 0.5 * 9.81);
   EXPECT_LT(body.elastic_energy(), 1e-3 * body.kinetic_energy());
 }
 
@@ -84,6 +87,7 @@ TEST(SoftBody, hangs_where_many_more_sweeps_leave_it) {
 TEST(SoftBody, sags_as_a_beam_does) {
   SoftBodyOptions options;
   options.stretch = 0;
+  options.young = 100;
   options.gravity = Vec3(0, 0, -0.05);
   SoftBody body(beam_mesh(), options);
   body.settle(4000);
@@ -127,6 +131,29 @@ TEST(SoftBody, comes_apart_where_it_is_cut_and_stays_finite) {
   EXPECT_LT(body.elastic_energy(), 0.7 * report.energy_before);
   ASSERT_TRUE(engine.set_positions(body.positions()).ok());
   EXPECT_EQ(body.mirror().difference(engine.mesh()), "");
+}
+
+TEST(SoftBody, follows_a_wound_that_opens_while_it_is_cut_deeper) {
+  double spacing = 0;
+  Engine engine = make_engine(make_body(BodyKind::kBeam, 6, spacing), 0.0);
+  SoftBody body(engine.mesh(), {});
+  body.settle(600);
+  const double mass = body.mass();
+  double peak = body.elastic_energy();
+  for (unsigned i = 0; i < 5; ++i) {
+    const double from = 0.75 - 0.1 * i, to = from - 0.12;
+    cut(engine, quad_stroke(Vec3(0.97, -1, from), Vec3(1.04, 2, from), Vec3(0.97, -1, to), Vec3(1.04, 2, to)));
+    const FollowReport report = body.follow(engine.journal());
+    EXPECT_NEAR(body.mass(), mass, 1e-12 * mass);
+    EXPECT_LE(report.energy_relaxed, report.energy_before + 0.03 * peak);
+    for (unsigned k = 0; k < 20; ++k) body.step(1.0 / 60);
+    ASSERT_TRUE(body.is_finite());
+    ASSERT_TRUE(engine.set_positions(body.positions()).ok());
+    ASSERT_EQ(body.mirror().difference(engine.mesh()), "");
+    peak = std::max(peak, body.elastic_energy());
+  }
+  EXPECT_GT(engine.journal().position(), 2U);
+  EXPECT_EQ(body.inverted(), 0U);
 }
 
 TEST(SoftBody, goes_back_with_an_undo) {
