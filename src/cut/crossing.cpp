@@ -156,7 +156,7 @@ void collect(const TetMesh& mesh, const std::vector<TetId>& near, Neighbourhood&
 void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out,
                     unsigned threads) {
   collect(mesh, near, out);
-  std::vector<CutEdge>& edges = out.edges.edges();
+  GrowArray<CutEdge>& edges = out.edges.edges();
   if (threads <= 1) {
     SideMemo sides(mesh, sheet, near.size() / 2 + 8);
     for (CutEdge& edge : edges) {
@@ -174,19 +174,6 @@ void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<T
     tet.flagged = flags_of(tet, out.edges);
     tet.is_complete = !has_odd_face(tet.flagged);
   }
-}
-
-bool separates_from_middle(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, TetId tet) {
-  const TetVertices& v = mesh.vertices(tet);
-  const Vec3 middle = 0.25 * (mesh.rest(v[0]) + mesh.rest(v[1]) + mesh.rest(v[2]) + mesh.rest(v[3]));
-  const SosPoint p{mesh.rest(vertex), vertex.value}, q{middle, 2 * kFirstBladeKey + tet.value};
-  bool is_odd = false;
-  sheet.tree().for_each_overlap(
-      {p.position.cwiseMin(middle), p.position.cwiseMax(middle)}, [&](std::uint32_t triangle) {
-        is_odd ^= segment_crosses_triangle(p, q, sheet.point(triangle, 0), sheet.point(triangle, 1),
-                                           sheet.point(triangle, 2));
-      });
-  return is_odd;
 }
 
 std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet& sheet,

@@ -17,9 +17,6 @@ namespace incise::inline v0 {
 void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out,
                     unsigned threads = 1);
 
-/// Whether the sheet passes an odd number of times between a vertex of a tet and the tet's middle. Exact.
-bool separates_from_middle(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, TetId tet);
-
 /// An edge that two parts of a sheet pass through, and a point between them.
 struct DoublyCrossed {
   std::uint32_t edge;  ///< into `Neighbourhood::edges`

@@ -12,8 +12,9 @@ constexpr std::size_t kMaxPieceSearch = 512;
 
 class CrumbFinder {
  public:
-  CrumbFinder(const Transaction& transaction, const Neighbourhood& near, std::vector<IncisionFace>& incision)
-      : transaction_(transaction), mesh_(transaction.mesh()), near_(near), incision_(incision) {
+  CrumbFinder(const TetMesh& mesh, const CrumbLimit& limit, std::vector<IncisionFace>& incision,
+              std::vector<IncisionFace>& dropped)
+      : mesh_(mesh), limit_(limit), incision_(incision), dropped_(dropped) {
     for (std::uint32_t i = 0; i < incision_.size(); ++i) {
       mark(incision_[i].a);
       mark(incision_[i].b);
@@ -46,22 +47,9 @@ class CrumbFinder {
     return ((unsigned{blocked_[side.tet().value]} >> side.side()) & 1U) != 0;
   }
 
-  /// The volume below which a piece around this tet is a crumb, from the edges of the input tet that it lies in.
-  [[nodiscard]] double limit_at(TetId tet) const {
-    const NearTet* parent = near_.find(transaction_.root_parent(tet));
-    if (parent == nullptr) {
-      return 0.0;
-    }
-    double sum = 0;
-    for (const std::uint32_t e : parent->edges) {
-      sum += (mesh_.rest(near_.edges[e].b) - mesh_.rest(near_.edges[e].a)).norm();
-    }
-    const double spacing = sum / 6.0;
-    return kCrumbShare * spacing * spacing * spacing;
-  }
   /// Floods from `seed` until the piece is complete or too large. Leaves its tets in `piece_`.
   bool is_crumb(TetId seed) {
-    const double limit = limit_at(seed);
+    const double limit = limit_(seed);
     double volume = 0;
     piece_.assign(1, seed);
     state_[seed.value] = kCrumb;
@@ -145,17 +133,19 @@ class CrumbFinder {
   void drop_faces() {
     std::size_t kept = 0;
     for (std::uint32_t i = 0; i < incision_.size(); ++i) {
-      if (!is_dropped_[i]) {
+      if (is_dropped_[i]) {
+        dropped_.push_back(incision_[i]);
+      } else {
         incision_[kept++] = incision_[i];
       }
     }
     incision_.resize(kept);
   }
 
-  const Transaction& transaction_;
   const TetMesh& mesh_;
-  const Neighbourhood& near_;
+  const CrumbLimit& limit_;
   std::vector<IncisionFace>& incision_;
+  std::vector<IncisionFace>& dropped_;
   ZeroedArray<std::uint8_t> blocked_, state_;
   std::vector<bool> is_dropped_;
   std::vector<TetId> piece_;
@@ -163,9 +153,9 @@ class CrumbFinder {
 
 }  // namespace
 
-std::uint64_t keep_crumbs(const Transaction& transaction, const Neighbourhood& neighbourhood,
-                          std::vector<IncisionFace>& incision) {
-  return CrumbFinder(transaction, neighbourhood, incision).run();
+std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbLimit& limit, std::vector<IncisionFace>& incision,
+                          std::vector<IncisionFace>& dropped) {
+  return CrumbFinder(mesh, limit, incision, dropped).run();
 }
 
 }  // namespace incise::inline v0

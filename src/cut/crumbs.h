@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cut/subdivide.h"
@@ -10,10 +11,17 @@ namespace incise::inline v0 {
 /// A piece smaller than this share of the cubed edge length is a crumb: debris of a blade that grazes a vertex.
 inline constexpr double kCrumbShare = 0.02;
 
-/// Takes the incision faces of crumbs out of `incision`, so that a crumb stays attached to the piece that it shares
-/// its faces with. Where it touches two pieces it stays with one, and they come apart. Returns how many crumbs.
-/// Cost: O(incision faces) plus a search of a few tets around each small tet beside one.
-std::uint64_t keep_crumbs(const Transaction& transaction, const Neighbourhood& neighbourhood,
-                          std::vector<IncisionFace>& incision);
+/// The volume below which a piece around a tet is a crumb; 0 far from the blade.
+using CrumbLimit = std::function<double(TetId)>;
+/// What `CrumbLimit` is where the input tet around has edges of this mean length.
+inline double crumb_limit(double spacing) {
+  return kCrumbShare * spacing * spacing * spacing;
+}
+
+/// Takes the incision faces of crumbs out of `incision` and adds them to `dropped`, so that a crumb stays attached to
+/// the piece that it shares its faces with. Where it touches two pieces it stays with one, and they come apart. Returns
+/// how many crumbs. Cost: O(incision faces) plus a search of a few tets around each small tet beside one.
+std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbLimit& limit, std::vector<IncisionFace>& incision,
+                          std::vector<IncisionFace>& dropped);
 
 }  // namespace incise::inline v0

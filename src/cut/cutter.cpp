@@ -6,33 +6,19 @@
 #include <new>
 #include <utility>
 
-#include "cut/contact.h"
-#include "cut/crossing.h"
-#include "cut/crumbs.h"
-#include "cut/dividable.h"
-#include "cut/separate.h"
-#include "cut/snap.h"
-#include "cut/subdivide.h"
+#include "cut/blade_motion.h"
+#include "cut/paper_cut.h"
+#include "cut/stroke_cut.h"
 #include "cut/sweep.h"
-#include "incise/mesh/verbs.h"
 
 namespace incise::inline v0 {
 
 namespace {
 
-/// Split points keep this share of their edge on either side, where snapping is on.
-constexpr double kSplitClamp = 0.02;
-/// Two crossings of one edge closer than this share of it are one graze, not two sheets.
-constexpr double kGrazeShare = 0.02;
 /// A blade within this share of the mesh's spacing from what it swept before is in its own slit.
 constexpr double kSlitShare = 0.02;
 /// Consecutive parts of a sweep that meets itself overlap by so many spacings.
 constexpr double kOverlapShare = 3.0;
-/// A tet falls apart into so many children at most.
-constexpr std::size_t kMostChildren = 16;
-/// An edge crossed twice is bisected at most so often.
-constexpr unsigned kMaxBisectionRounds = 8;
-
 /// The mean edge length of a few tets, as a scale for overlaps.
 double typical_spacing(const TetMesh& mesh) {
   double sum = 0;
@@ -70,160 +56,118 @@ CutStatistics& CutStatistics::operator+=(const CutStatistics& other) {
 
 class Cutter::Pipeline {
  public:
-  Pipeline(CutOptions options, unsigned threads) : options_(options), threads_(threads) {}
+  Pipeline(CutOptions options, unsigned threads) : options_(options), paper_cut_(threads), stroke_cut_(options) {}
+
+  void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, std::uint32_t tag) {
+    tag_ = tag;
+    swept_ = {};
+    stroke_cut_.begin(tag);
+    stroke_cut_.prepare(mesh, journal);
+    motion_.begin(row, typical_spacing(mesh));
+  }
+  Result<CutStatistics> step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times) {
+    return guarded(mesh, journal, [&] {
+      statistics_.steps = 1;
+      return follow(mesh, journal, motion_.advance(row, stroke_cut_.sheet(), touches(mesh), false), times);
+    });
+  }
+  Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times) {
+    return guarded(mesh, journal, [&] {
+      Status status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh)), times);
+      if (status) stroke_cut_.finish(mesh, journal, statistics_, times);
+      return status;
+    });
+  }
+  void forget() { stroke_cut_.forget(); }
+  [[nodiscard]] const SweptTriangles& swept() const { return swept_; }
 
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times) {
     if (Status status = check(stroke); !status) {
       return status.error();
     }
-    const std::size_t start = journal.position();
-    statistics_ = {};
-    statistics_.steps = stroke.times.size() - 1;
-    Status status;
-    try {
-      status = cut_parts(mesh, journal, stroke, tag, times);
-    } catch (const std::bad_alloc&) {
-      status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
-    }
-    if (!status) {
-      while (journal.position() > start) {
-        journal.undo(mesh);
-      }
-      return status.error();
-    }
-    return statistics_;
+    return guarded(mesh, journal, [&] {
+      statistics_.steps = stroke.times.size() - 1;
+      return cut_parts(mesh, journal, stroke, tag, times);
+    });
   }
 
  private:
+  /// Runs some work; where it fails, what it did is taken back.
+  template <class Work>
+  Result<CutStatistics> guarded(TetMesh& mesh, Journal& journal, Work&& work) {
+    const std::size_t start = journal.position();
+    statistics_ = {};
+    Status status;
+    try {
+      status = work();
+    } catch (const std::bad_alloc&) {
+      status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
+    }
+    if (status) return statistics_;
+    stroke_cut_.forget();
+    while (journal.position() > start) {
+      journal.undo(mesh);
+    }
+    return status.error();
+  }
+  [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const {
+    return [&](const SweptSurface& surface) { return stroke_cut_.touches(mesh, surface); };
+  }
+  /// Cuts along what the blade's motion asks for.
+  Status follow(TetMesh& mesh, Journal& journal, BladeMotion::Move move, StageTimes& times) {
+    if (move.starts_anew) {
+      stroke_cut_.finish(mesh, journal, statistics_, times);
+      stroke_cut_.begin(tag_);
+    }
+    if (move.strip == nullptr) return {};
+    note_swept(move.strip->surface);
+    return stroke_cut_.advance(mesh, journal, std::move(move.strip), {}, statistics_, times);
+  }
+  void note_swept(const SweptSurface& surface) {
+    const auto first = static_cast<std::uint32_t>(swept_.points.size());
+    for (const SosPoint& point : surface.points) swept_.points.push_back(point.position);
+    for (const SweptTriangle& triangle : surface.triangles) {
+      swept_.triangles.push_back({first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
+    }
+  }
   bool is_paper() const { return options_.profile == Profile::kPaper; }
-  double snap() const { return is_paper() ? 0.0 : options_.snap; }
 
   /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
   Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
     const double spacing = typical_spacing(mesh);
     const SweptSurface surface = sweep(stroke, kSlitShare * spacing);
     for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
-      if (Status status = cut_sheet(mesh, journal, Sheet(surface, part), tag, times); !status) {
+      Status status = is_paper() ? paper_cut_.cut(mesh, journal, Sheet(surface, part), tag, statistics_, times)
+                                 : cut_strip(mesh, journal, part_of(surface, part), tag, times);
+      if (!status) {
         return status;
       }
       ++statistics_.sheets;
     }
     return {};
   }
-  /// One sheet: collision, subdivision, separation.
-  Status cut_sheet(TetMesh& mesh, Journal& journal, const Sheet& sheet, std::uint32_t tag, StageTimes& times) {
-    const std::size_t tets_before = mesh.tet_count();
-    Transaction transaction(mesh);
-    const std::vector<OnVertex> on = find_contact(transaction, sheet, times);
-    if (std::size_t{mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
-      return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
-    }
-    Subdivision subdivision = divide(transaction, sheet, times);
-    separate_parts(transaction, sheet, subdivision, on, tag, times);
-    statistics_.snapped_vertices += on.size();
-    statistics_.new_vertices += transaction.new_vertices().size();
-    append(journal, transaction);
-    if (is_paper()) {
-      part_edges(mesh, journal, subdivision.incision, times);
-    }
-    statistics_.created_tets += mesh.tet_count() - tets_before;
-    return {};
+  /// One part of the sweep as a sheet of its own, in one step.
+  Status cut_strip(TetMesh& mesh, Journal& journal, SweptSurface part, std::uint32_t tag, StageTimes& times) {
+    stroke_cut_.begin(tag);
+    auto strip = std::make_unique<Strip>(std::move(part), std::vector<std::array<std::uint64_t, 2>>());
+    Status status = stroke_cut_.advance(mesh, journal, std::move(strip), {}, statistics_, times);
+    stroke_cut_.finish(mesh, journal, statistics_, times);
+    return status;
   }
-  static void append(Journal& journal, Transaction& transaction) {
-    Step step = transaction.commit();
-    if (!step.is_empty()) {
-      journal.append(std::move(step));
-    }
+  static SweptSurface part_of(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles) {
+    SweptSurface part;
+    part.points = surface.points;
+    for (const std::uint32_t t : triangles) part.triangles.push_back(surface.triangles[t]);
+    return part;
   }
-  std::vector<OnVertex> find_contact(Transaction& transaction, const Sheet& sheet, StageTimes& times) {
-    const StageZone zone(times, Stage::kCollision);
-    collide(transaction, sheet);
-    return choose_on_vertices(transaction.mesh(), sheet, snap(), near_, walker_);
-  }
-  Subdivision divide(Transaction& transaction, const Sheet& sheet, StageTimes& times) {
-    const StageZone zone(times, Stage::kSubdivide);
-    const TetMesh& mesh = transaction.mesh();
-    statistics_.blocked_edges += plan_subdivision(mesh, rules(), templates_, near_);
-    statistics_.cut_tets += count_cut_tets();
-    Subdivision subdivision = subdivide(transaction, sheet, templates_, near_);
-    if (is_paper()) {
-      subdivision.incision = find_paper_incision(mesh, near_, subdivision);
-    }
-    return subdivision;
-  }
-  void separate_parts(Transaction& transaction, const Sheet& sheet, Subdivision& subdivision,
-                      const std::vector<OnVertex>& on, std::uint32_t tag, StageTimes& times) {
-    const StageZone zone(times, Stage::kSeparate);
-    if (snap() > 0) {
-      statistics_.crumbs_kept += keep_crumbs(transaction, near_, subdivision.incision);
-    }
-    const auto move = [&] { statistics_.bent_vertices += move_on_vertices(transaction, sheet, snap(), on, walker_); };
-    const Separation separation = is_paper() ? separate_as_paper(transaction, subdivision.incision, tag, walker_)
-                                             : separate(transaction, std::move(subdivision.incision),
-                                                        subdivision.children, tag, separation_, move);
-    statistics_.incision_faces += separation.opened_faces;
-    statistics_.latent_faces += separation.latent_faces;
-    statistics_.copied_vertices += separation.copied_vertices;
-    statistics_.pinched_edges += separation.pinched_edges;
-  }
-  /// The paper profile's repair; a step of its own.
-  void part_edges(TetMesh& mesh, Journal& journal, const std::vector<IncisionFace>& incision, StageTimes& times) {
-    const StageZone zone(times, Stage::kSeparate);
-    Transaction transaction(mesh);
-    statistics_.pinched_edges += part_pinched_edges(transaction, incision, walker_);
-    statistics_.new_vertices += transaction.new_vertices().size();
-    append(journal, transaction);
-  }
-
-  /// Finds the crossings of the mesh's edges with the sheet; edges crossed twice are bisected in between and retried.
-  void collide(Transaction& transaction, const Sheet& sheet) {
-    const TetMesh& mesh = transaction.mesh();
-    for (unsigned round = 0;; ++round) {
-      find_crossings(mesh, sheet, find_near_tets(mesh, sheet, threads_), near_, threads_);
-      const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet, near_, kGrazeShare);
-      if (twice.empty() || round == kMaxBisectionRounds) {
-        return;
-      }
-      for (const DoublyCrossed& crossed : twice) {
-        bisect(transaction, near_.edges[crossed.edge], crossed.t);
-      }
-    }
-  }
-  void bisect(Transaction& transaction, const CutEdge& edge, double t) {
-    const TetMesh& mesh = transaction.mesh();
-    if (mesh.is_overshared_at_load(edge.a, edge.b)) {
-      return;
-    }
-    for (const TetId tet : walker_.star(mesh, edge.a)) {
-      if (mesh.corner_of(tet, edge.b) < 4) {
-        const SplitEdgePlan plan = plan_split_edge(mesh, edge.a, edge.b, tet, t);
-        if (plan) {
-          apply(transaction, plan);
-        }
-        return;
-      }
-    }
-  }
-  [[nodiscard]] SubdivisionRules rules() const {
-    SubdivisionRules rules;
-    rules.splits_partial_tets = is_paper();
-    rules.clamp = snap() > 0 ? kSplitClamp : 0.0;
-    rules.keeps_shape_floor = snap() > 0;
-    return rules;
-  }
-  [[nodiscard]] std::uint64_t count_cut_tets() const {
-    return static_cast<std::uint64_t>(
-        std::count_if(near_.tets.begin(), near_.tets.end(), [](const NearTet& tet) { return tet.is_cuttable; }));
-  }
-
   CutOptions options_;
-  unsigned threads_;
+  PaperCut paper_cut_;
+  StrokeCut stroke_cut_;
+  BladeMotion motion_;
+  SweptTriangles swept_;
+  std::uint32_t tag_ = 1;
   CutStatistics statistics_;  // of the stroke being cut
-  Neighbourhood near_;
-  SplitTemplates templates_;
-  StarWalker walker_;
-  SeparationScratch separation_;
 };
 
 Cutter::Cutter(CutOptions options, unsigned threads) : pipeline_(std::make_unique<Pipeline>(options, threads)) {}
@@ -234,6 +178,22 @@ Cutter::~Cutter() = default;
 Result<CutStatistics> Cutter::cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                                   StageTimes& times) {
   return pipeline_->cut(mesh, journal, stroke, tag, times);
+}
+
+void Cutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, std::uint32_t tag) {
+  pipeline_->begin(mesh, journal, row, tag);
+}
+Result<CutStatistics> Cutter::step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times) {
+  return pipeline_->step(mesh, journal, row, times);
+}
+Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& times) {
+  return pipeline_->end(mesh, journal, times);
+}
+void Cutter::forget() {
+  pipeline_->forget();
+}
+const SweptTriangles& Cutter::swept() const {
+  return pipeline_->swept();
 }
 
 }  // namespace incise::inline v0

@@ -279,8 +279,11 @@ class PinchedEdges {
       const WallEdge edge = edges[i];
       const std::vector<TetId> fans = fans_around(edge.a, edge.b);
       for (const TetId fan : fans) {
-        if (fans.size() > 1) {
-          apply(transaction_, plan_split_edge(mesh_, edge.a, edge.b, fan, 0.5));
+        if (fans.size() < 2) {
+          continue;
+        }
+        if (const SplitEdgePlan plan = plan_split_edge(mesh_, edge.a, edge.b, fan, 0.5)) {
+          apply(transaction_, plan);
         }
       }
       parted += fans.size() > 1 ? 1U : 0U;

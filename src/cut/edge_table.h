@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "incise/core/grow_array.h"
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise::inline v0 {
@@ -24,23 +27,73 @@ struct CutEdge {
   [[nodiscard]] bool is_flagged() const { return (crossings & 1U) != 0; }
 };
 
-/// The edges of the tets near a blade, each once. Reusable: `clear` keeps the memory.
-class EdgeTable {
+/// Edges with what is known about them, each once, found by their ends. `Edge` has members `a` and `b`.
+/// Reusable: `clear` keeps the memory. Cost: O(1) for a search.
+template <class Edge>
+class BasicEdgeTable {
  public:
-  void clear();
+  void clear() {
+    for (std::uint32_t i = size(); i-- > 0;) {  // last added first, so that no search passes a gap
+      slots_[slot_of(edges_[i].a, edges_[i].b)] = 0;
+    }
+    edges_.clear();
+  }
   /// The index of the edge, added where it is new.
-  std::uint32_t find_or_add(VertexId a, VertexId b);
-  CutEdge& operator[](std::uint32_t index) { return edges_[index]; }
-  const CutEdge& operator[](std::uint32_t index) const { return edges_[index]; }
+  std::uint32_t find_or_add(VertexId a, VertexId b) {
+    if (b < a) {
+      std::swap(a, b);
+    }
+    if (slots_.size() < 2 * (edges_.size() + 8)) {
+      rehash(std::max<std::size_t>(1024, 2 * slots_.size()));
+    }
+    std::uint32_t& slot = slots_[slot_of(a, b)];
+    if (slot == 0) {
+      Edge edge;
+      edge.a = a;
+      edge.b = b;
+      edges_.push_back(edge);
+      slot = size();
+    }
+    return slot - 1;
+  }
+  Edge& operator[](std::uint32_t index) { return edges_[index]; }
+  const Edge& operator[](std::uint32_t index) const { return edges_[index]; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(edges_.size()); }
-  [[nodiscard]] std::vector<CutEdge>& edges() { return edges_; }
-  [[nodiscard]] const std::vector<CutEdge>& edges() const { return edges_; }
+  [[nodiscard]] GrowArray<Edge>& edges() { return edges_; }
+  [[nodiscard]] const GrowArray<Edge>& edges() const { return edges_; }
 
  private:
-  void rehash(std::size_t capacity);
+  /// Edges of vertices with neighbouring slots land on neighbouring lines of the table, 16 vertices at a time: tets are
+  /// visited in slot order. The groups are scattered, so that those a multiple of the table apart do not pile up.
+  static std::size_t hash_of(VertexId a, VertexId b) {
+    const std::uint64_t group = (std::uint64_t{a.value >> 4U} * 0x9E3779B97F4A7C15ULL) >> 32U;
+    return static_cast<std::size_t>(group * 128 + (a.value & 15U) * 8 + ((b.value * 0x9E3779B9U) >> 28U));
+  }
+  /// Where the edge stands, or would stand.
+  [[nodiscard]] std::size_t slot_of(VertexId a, VertexId b) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = hash_of(a, b) & mask;
+    while (slots_[i] != 0 && (edges_[slots_[i] - 1].a != a || edges_[slots_[i] - 1].b != b)) {
+      i = (i + 1) & mask;
+    }
+    return i;
+  }
+  void rehash(std::size_t capacity) {
+    slots_.assign(capacity, 0U);
+    const std::size_t mask = capacity - 1;
+    for (std::uint32_t index = 0; index < size(); ++index) {
+      std::size_t i = hash_of(edges_[index].a, edges_[index].b) & mask;
+      while (slots_[i] != 0) {
+        i = (i + 1) & mask;
+      }
+      slots_[i] = index + 1;
+    }
+  }
 
-  std::vector<CutEdge> edges_;
+  GrowArray<Edge> edges_;
   std::vector<std::uint32_t> slots_;  // 0 empty, 1 + index
 };
+
+using EdgeTable = BasicEdgeTable<CutEdge>;
 
 }  // namespace incise::inline v0

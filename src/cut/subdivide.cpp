@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "cut/crossing.h"
 #include "incise/geom/predicates.h"
-#include "incise/geom/quality.h"
 
 namespace incise::inline v0 {
 
@@ -18,10 +16,6 @@ int orientation(const Corners& p) {
   return orient3d(p[0], p[1], p[2], p[3]);
 }
 
-bool is_sound(const Corners& p, bool keeps_shape_floor) {
-  return orientation(p) > 0 && !(keeps_shape_floor && is_flat(p[0], p[1], p[2], p[3]));
-}
-
 /// Whether a flagged edge needs a split point: neither end takes part in the cut itself.
 bool needs_split(const NearTet& tet, unsigned edge) {
   const auto [a, b] = kEdgeCorners[edge];
@@ -29,12 +23,12 @@ bool needs_split(const NearTet& tet, unsigned edge) {
          ((unsigned{tet.on} >> b) & 1U) == 0;
 }
 
-void place_split_points(const TetMesh& mesh, double clamp, EdgeTable& edges) {
+void place_split_points(const TetMesh& mesh, EdgeTable& edges) {
   for (CutEdge& edge : edges.edges()) {
     if (edge.is_flagged()) {
       edge.is_blocked = mesh.touched_itself_at_load() && mesh.is_overshared_at_load(edge.a, edge.b);
       const double t = edge.crossings > 1 ? 0.5 * (edge.t + edge.t_second) : edge.t;
-      edge.t = std::min(std::max(t, clamp), 1.0 - clamp);
+      edge.t = t;
       edge.position = mesh.rest(edge.a) + edge.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
     }
   }
@@ -82,7 +76,7 @@ class BisectionOrder {
 };
 
 /// Marks the tets that the sheet cuts through and plans the splits that they need.
-void plan_splits(const SubdivisionRules& rules, Neighbourhood& near) {
+void plan_splits(Neighbourhood& near) {
   for (CutEdge& edge : near.edges.edges()) {
     edge.is_planned = false;
   }
@@ -94,7 +88,7 @@ void plan_splits(const SubdivisionRules& rules, Neighbourhood& near) {
     tet.is_cuttable = tet.is_complete && tet.flagged != 0 && is_possible;
     for (unsigned e = 0; e < 6; ++e) {
       CutEdge& edge = near.edges[tet.edges[e]];
-      if (needs_split(tet, e) && !edge.is_blocked && (tet.is_cuttable || rules.splits_partial_tets)) {
+      if (needs_split(tet, e) && !edge.is_blocked) {
         edge.is_planned = true;
       }
     }
@@ -116,24 +110,23 @@ Corners corners_of(const SplitTemplate::Child& child, const TetMesh& mesh, const
 }
 
 /// Whether a tet and all its children are sound.
-bool children_are_sound(const SplitTemplate& split, const TetMesh& mesh, const NearTet& tet, const Neighbourhood& near,
-                        bool keeps_shape_floor) {
+bool children_are_sound(const SplitTemplate& split, const TetMesh& mesh, const NearTet& tet,
+                        const Neighbourhood& near) {
   if (mesh.is_flat_at_load(tet.id)) {
     return false;  // it would become several
   }
   return std::all_of(split.children.begin(), split.children.end(), [&](const SplitTemplate::Child& child) {
-    return is_sound(corners_of(child, mesh, tet, near), keeps_shape_floor);
+    return orientation(corners_of(child, mesh, tet, near)) > 0;
   });
 }
 
 /// Blocks the planned edges of every tet that would get an unsound child. Returns how many.
-std::uint64_t block_unsound(const TetMesh& mesh, const SubdivisionRules& rules, SplitTemplates& templates,
-                            Neighbourhood& near) {
+std::uint64_t block_unsound(const TetMesh& mesh, SplitTemplates& templates, Neighbourhood& near) {
   std::uint64_t blocked = 0;
   BisectionOrder order(mesh, near);
   for (const NearTet& tet : near.tets) {
     const auto planned = order.of(tet);
-    if (planned.empty() || children_are_sound(templates.find(planned), mesh, tet, near, rules.keeps_shape_floor)) {
+    if (planned.empty() || children_are_sound(templates.find(planned), mesh, tet, near)) {
       continue;
     }
     for (const std::uint8_t e : planned) {
@@ -149,8 +142,8 @@ std::uint64_t block_unsound(const TetMesh& mesh, const SubdivisionRules& rules, 
 
 class Subdivider {
  public:
-  Subdivider(Transaction& transaction, const Sheet& sheet, SplitTemplates& templates, Neighbourhood& near)
-      : transaction_(transaction), mesh_(transaction.mesh()), sheet_(sheet), near_(near), templates_(templates) {}
+  Subdivider(Transaction& transaction, SplitTemplates& templates, Neighbourhood& near)
+      : transaction_(transaction), mesh_(transaction.mesh()), near_(near), templates_(templates) {}
 
   Subdivision run() {
     make_split_points();
@@ -161,7 +154,6 @@ class Subdivider {
         link_outer(i, s);
       }
     }
-    find_uncut_incision();
     remove_parents();
     return std::move(result_);
   }
@@ -189,7 +181,6 @@ class Subdivider {
       result_.parents.push_back(near_.tets[n].id);
       result_.first_child.push_back(static_cast<std::uint32_t>(result_.children.size()));
       splits_.push_back(&split);
-      near_index_.push_back(n);
       for (const SplitTemplate::Child& child : split.children) {
         result_.children.push_back(transaction_.add_tet(vertices_of(child, near_.tets[n]), near_.tets[n].id));
         for (const VertexId v : mesh_.vertices(result_.children.back())) {
@@ -210,24 +201,9 @@ class Subdivider {
   [[nodiscard]] Side side_of(std::uint32_t parent, SplitTemplate::ChildSide side) const {
     return {result_.children[result_.first_child[parent] + side / 4U], side & 3U};
   }
-  /// Which side of the sheet a child of a cut tet lies on: the colour of any corner that is not on the sheet.
-  [[nodiscard]] static unsigned colour_of_child(const SplitTemplate::Child& child, const NearTet& tet) {
-    for (const std::uint8_t code : child) {
-      if (code < kFirstSplitCode && ((unsigned{tet.on} >> code) & 1U) == 0) {
-        return colour_of(tet.flagged, code);
-      }
-    }
-    return colour_of(tet.flagged, child[0] < kFirstSplitCode ? child[0] : 0);
-  }
   void link_inner(std::uint32_t parent) {
-    const NearTet& tet = near_.tets[near_index_[parent]];
-    const SplitTemplate& split = *splits_[parent];
-    for (const auto& [a, b] : split.inner) {
+    for (const auto& [a, b] : splits_[parent]->inner) {
       transaction_.join(side_of(parent, a), side_of(parent, b));
-      if (tet.is_cuttable &&
-          colour_of_child(split.children[a / 4U], tet) != colour_of_child(split.children[b / 4U], tet)) {
-        result_.incision.push_back({side_of(parent, a), side_of(parent, b)});
-      }
     }
   }
   void link_outer(std::uint32_t parent, unsigned side) {
@@ -273,43 +249,6 @@ class Subdivider {
     const auto u = mesh_.vertices(a), v = mesh_.vertices(b);
     return std::all_of(u.begin(), u.end(), [&](VertexId x) { return x == v[0] || x == v[1] || x == v[2]; });
   }
-  /// Faces of the input mesh that lie on the sheet: three ON vertices, and the two tets on opposite sides.
-  void find_uncut_incision() {
-    for (std::uint32_t n = 0; n < near_.tets.size(); ++n) {
-      const NearTet& tet = near_.tets[n];
-      for (unsigned apex = 0; apex < 4; ++apex) {
-        const unsigned face = 15U & ~(1U << apex);
-        const Link link = mesh_.links(tet.id)[apex];
-        if ((tet.on & face) != face || link.is_boundary() || subdivided_[n] != kInvalidIndex || !tet.is_complete) {
-          continue;
-        }
-        const std::uint32_t neighbour = near_.index_of_tet[link.side().tet().value];
-        const bool is_first = neighbour == 0 || n < neighbour - 1;
-        if (is_first && lies_across(tet, apex, link.side())) {
-          result_.incision.push_back({Side(tet.id, apex), link.side()});
-        }
-      }
-    }
-  }
-  /// Whether the tet behind a side lies on the other side of the sheet.
-  [[nodiscard]] bool lies_across(const NearTet& tet, unsigned apex, Side behind) const {
-    const NearTet* other = near_.find(behind.tet());
-    if (other != nullptr && !other->is_complete) {
-      return false;
-    }
-    const VertexId common = mesh_.vertices(tet.id)[apex == 0 ? 1 : 0];
-    return is_beyond(common, Side(tet.id, apex), &tet) != is_beyond(common, behind, other);
-  }
-  /// Whether the sheet passes between an ON vertex and the inside of a tet that contains it, seen over one of its
-  /// sides.
-  [[nodiscard]] bool is_beyond(VertexId from, Side side, const NearTet* tet) const {
-    const VertexId apex = mesh_.vertices(side.tet())[side.side()];
-    if (near_.is_on[apex.value] != 0) {  // all four vertices coincide with the sheet: ask for the tet's middle
-      return separates_from_middle(mesh_, sheet_, from, side.tet());
-    }
-    return tet != nullptr &&
-           ((unsigned{tet->flagged} >> kEdgeOfCorners[mesh_.corner_of(side.tet(), from)][side.side()]) & 1U) != 0;
-  }
   void remove_parents() {
     for (const TetId parent : result_.parents) {
       transaction_.remove_tet(parent);
@@ -318,32 +257,28 @@ class Subdivider {
 
   Transaction& transaction_;
   const TetMesh& mesh_;
-  const Sheet& sheet_;
   Neighbourhood& near_;
   SplitTemplates& templates_;
   Subdivision result_;
   std::vector<std::uint32_t> subdivided_;     // by near tet: index into parents
-  std::vector<std::uint32_t> near_index_;     // by parent
   std::vector<const SplitTemplate*> splits_;  // by parent
 };
 
 }  // namespace
 
-std::uint64_t plan_subdivision(const TetMesh& mesh, const SubdivisionRules& rules, SplitTemplates& templates,
-                               Neighbourhood& neighbourhood) {
-  place_split_points(mesh, rules.clamp, neighbourhood.edges);
+std::uint64_t plan_subdivision(const TetMesh& mesh, SplitTemplates& templates, Neighbourhood& neighbourhood) {
+  place_split_points(mesh, neighbourhood.edges);
   std::uint64_t blocked = 0;
-  plan_splits(rules, neighbourhood);
-  while (const std::uint64_t more = block_unsound(mesh, rules, templates, neighbourhood)) {
+  plan_splits(neighbourhood);
+  while (const std::uint64_t more = block_unsound(mesh, templates, neighbourhood)) {
     blocked += more;
-    plan_splits(rules, neighbourhood);
+    plan_splits(neighbourhood);
   }
   return blocked;
 }
 
-Subdivision subdivide(Transaction& transaction, const Sheet& sheet, SplitTemplates& templates,
-                      Neighbourhood& neighbourhood) {
-  return Subdivider(transaction, sheet, templates, neighbourhood).run();
+Subdivision subdivide(Transaction& transaction, SplitTemplates& templates, Neighbourhood& neighbourhood) {
+  return Subdivider(transaction, templates, neighbourhood).run();
 }
 
 std::vector<IncisionFace> find_paper_incision(const TetMesh& mesh, const Neighbourhood& neighbourhood,

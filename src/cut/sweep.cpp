@@ -63,7 +63,9 @@ class PointGrid {
   bool is_closed_ = false;
 };
 
-std::array<SosPoint, 3> corners(const SweptSurface& surface, std::uint32_t triangle) {
+using Corners = std::array<SosPoint, 3>;
+
+Corners corners(const SweptSurface& surface, std::uint32_t triangle) {
   const auto& p = surface.triangles[triangle].points;
   return {surface.points[p[0]], surface.points[p[1]], surface.points[p[2]]};
 }
@@ -148,12 +150,10 @@ class Sweeper {
 
 // --- self-crossing ---------------------------------------------------------------------------------------------------
 
-unsigned shared_points(const SweptTriangle& a, const SweptTriangle& b) {
-  unsigned count = 0;
-  for (const std::uint32_t p : a.points) {
-    count += static_cast<unsigned>(std::count(b.points.begin(), b.points.end(), p));
-  }
-  return count;
+bool share_a_point(const Corners& a, const Corners& b) {
+  return std::any_of(a.begin(), a.end(), [&](const SosPoint& p) {
+    return std::any_of(b.begin(), b.end(), [&](const SosPoint& q) { return p.key == q.key; });
+  });
 }
 
 Vec3 area_vector(const std::array<SosPoint, 3>& t) {
@@ -168,10 +168,9 @@ bool covers(const std::array<SosPoint, 3>& a, const std::array<SosPoint, 3>& b, 
 }
 
 /// Whether two triangles of a sweep meet otherwise than as neighbours on one sheet.
-bool meet(const SweptSurface& surface, std::uint32_t i, std::uint32_t j, double slit) {
-  const std::array<SosPoint, 3> a = corners(surface, i), b = corners(surface, j);
+bool meet(const Corners& a, const Corners& b, double slit) {
   const double reach = std::min(slit, 1e-3 * std::sqrt(std::min(area_vector(a).norm(), area_vector(b).norm())));
-  if (shared_points(surface.triangles[i], surface.triangles[j]) == 0 && triangles_cross(a, b)) {
+  if (!share_a_point(a, b) && triangles_cross(a, b)) {
     return true;
   }
   return covers(a, b, reach) || covers(b, a, reach);
@@ -199,7 +198,7 @@ std::vector<std::uint32_t> last_met(const SweptSurface& surface, double slit) {
   std::vector<std::uint32_t> met(triangles.size(), 0);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     tree.for_each_overlap(box_of(surface, i, slit), [&](std::uint32_t j) {
-      if (j < i && j + 1 > met[i] && meet(surface, i, j, slit)) {
+      if (j < i && j + 1 > met[i] && meet(corners(surface, i), corners(surface, j), slit)) {
         met[i] = j + 1;
       }
     });
@@ -287,6 +286,36 @@ std::vector<std::vector<std::uint32_t>> split_at_self_crossings(const SweptSurfa
     first = i < count ? overlap_start(surface, travel, start, met[i], overlap) : end;
   }
   return parts;
+}
+
+bool strips_meet(const SweptSurface& strip, const SweptSurface& earlier, const Sheet& sheet, double slit) {
+  bool do_meet = false;
+  for (std::uint32_t i = 0; i < strip.triangles.size() && !do_meet; ++i) {
+    const Box box = box_of(strip, i, slit);
+    if (!box.overlaps(sheet.bounds())) continue;
+    sheet.tree().for_each_overlap(
+        box, [&](std::uint32_t j) { do_meet = do_meet || meet(corners(strip, i), corners(earlier, j), slit); });
+  }
+  return do_meet;
+}
+
+double travel_of(const SweptSurface& surface) {
+  const std::vector<double> travel = travel_of_steps(surface);
+  return std::accumulate(travel.begin(), travel.end(), 0.0);
+}
+
+void append(SweptSurface& surface, const SweptSurface& more) {
+  std::vector<std::uint32_t> index;
+  for (const SosPoint& point : more.points) {
+    const auto known = std::find_if(surface.points.begin(), surface.points.end(),
+                                    [&](const SosPoint& p) { return p.key == point.key; });
+    index.push_back(static_cast<std::uint32_t>(known - surface.points.begin()));
+    if (known == surface.points.end()) surface.points.push_back(point);
+  }
+  for (SweptTriangle triangle : more.triangles) {
+    for (std::uint32_t& p : triangle.points) p = index[p];
+    surface.triangles.push_back(triangle);
+  }
 }
 
 Sheet::Sheet(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles) : surface_(&surface) {

@@ -46,6 +46,16 @@ SweptSurface sweep(const Stroke& stroke, double slit = 0.0);
 std::vector<std::vector<std::uint32_t>> split_at_self_crossings(const SweptSurface& surface, double overlap,
                                                                 double slit);
 
+class Sheet;
+
+/// Whether a strip meets an earlier one, given with its sheet, otherwise than as its neighbour on one sheet: their
+/// triangles cross, or one lies on the other within `slit`. Cost: O(n log n) in their triangles.
+bool strips_meet(const SweptSurface& strip, const SweptSurface& earlier, const Sheet& sheet, double slit);
+/// How far the blade travels over a surface at the point that travels furthest, step by step.
+double travel_of(const SweptSurface& surface);
+/// Adds the triangles of another surface; points with equal keys are one.
+void append(SweptSurface& surface, const SweptSurface& more);
+
 /// A part of a surface with a search tree: what one cut is made with.
 class Sheet {
  public:

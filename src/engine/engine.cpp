@@ -24,6 +24,10 @@ void tell(const LogSink& log, const CutStatistics& cut) {
   }
 }
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
 Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
@@ -47,6 +51,9 @@ Engine::Engine(TetMesh mesh, EngineOptions options)
       maintainer_(options_.maintain) {}
 
 Result<StrokeReport> Engine::cut(const Stroke& stroke) {
+  if (is_in_stroke_) {
+    return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
+  }
   StrokeReport report;
   report.stroke = stroke_count() + 1;
   const auto start = std::chrono::steady_clock::now();
@@ -57,48 +64,121 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   }
   report.cut = *cut;
   tell(options_.log, *cut);
-  take_up(stroke, report.stroke, first_step);
+  take_up(swept_triangles(stroke), report.stroke, first_step);
   report.maintain = maintain(options_.maintain.work_units, report.times, {});
-  report.step_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  report.step_ms.push_back(milliseconds_since(start));
   push_operation(true);
   return report;
 }
+
+namespace {
+
+/// A stroke of one or two poses, to be checked like any other.
+Stroke stroke_of(const BladePose& first, const BladePose* second) {
+  Stroke stroke;
+  stroke.times = {0.0};
+  stroke.edges = {first.edge};
+  if (second != nullptr) {
+    stroke.times.push_back(1.0);
+    stroke.edges.push_back(second->edge);
+  }
+  return stroke;
+}
+
+Error no_stroke() {
+  return {ErrorCode::kBadArgument, "no stroke is under way; begin one first", {}};
+}
+
+}  // namespace
 
 Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
   if (is_in_stroke_) {
     return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
   }
-  Stroke stroke;
-  stroke.times = {0.0};
-  stroke.edges = {pose.edge};
-  if (Status status = check(stroke); !status) {
+  if (Status status = check(stroke_of(pose, nullptr)); !status) {
     return status.error();
   }
-  open_stroke_ = std::move(stroke);
+  open_ = {};
+  open_.report.stroke = stroke_count() + 1;
+  open_.first_step = journal_.position();
+  open_.poses = {pose};
+  if (!is_paper()) {
+    cutter_.begin(mesh_, journal_, pose.edge, open_.report.stroke);
+  }
   is_in_stroke_ = true;
-  return stroke_count() + 1;
+  return open_.report.stroke;
 }
 
 Result<StepReport> Engine::step(const BladePose& pose) {
   if (!is_in_stroke_) {
-    return Error{ErrorCode::kBadArgument, "no stroke is under way; begin one first", {}};
+    return no_stroke();
   }
-  Stroke stroke = open_stroke_;
-  stroke.times.push_back(stroke.times.back() + 1.0);
-  stroke.edges.push_back(pose.edge);
-  if (Status status = check(stroke); !status) {
+  if (Status status = check(stroke_of(open_.poses.front(), &pose)); !status) {
     return status.error();
   }
-  open_stroke_ = std::move(stroke);
-  return StepReport{};
+  if (is_paper()) {
+    open_.poses.push_back(pose);
+    return StepReport{};
+  }
+  const auto start = std::chrono::steady_clock::now();
+  StepReport report;
+  Result<CutStatistics> cut = cutter_.step(mesh_, journal_, pose.edge, report.times);
+  if (!cut) {
+    return abort_stroke(cut.error());
+  }
+  report.cut = *cut;
+  open_.report.cut += *cut;
+  open_.report.times += report.times;
+  open_.report.step_ms.push_back(milliseconds_since(start));
+  return report;
+}
+
+/// A step that failed leaves the stroke as it was before; what it had found out about the mesh is lost, so that the
+/// stroke ends there.
+Error Engine::abort_stroke(Error error) {
+  is_in_stroke_ = false;
+  push_operation(true);
+  return error;
 }
 
 Result<StrokeReport> Engine::end_stroke() {
   if (!is_in_stroke_) {
-    return Error{ErrorCode::kBadArgument, "no stroke is under way; begin one first", {}};
+    return no_stroke();
   }
+  if (is_paper()) {
+    return end_stroke_as_paper();
+  }
+  if (Status status = close_stroke(); !status) {
+    return status.error();
+  }
+  take_up(cutter_.swept(), open_.report.stroke, open_.first_step);
+  open_.report.maintain = maintain(options_.maintain.work_units, open_.report.times, {});
+  operations_.back().end = journal_.position();
+  tell(options_.log, open_.report.cut);
+  return std::move(open_.report);
+}
+
+/// The stroke becomes an operation, cut to where the blade was last.
+Status Engine::close_stroke() {
   is_in_stroke_ = false;
-  return cut(open_stroke_);
+  Result<CutStatistics> cut = cutter_.end(mesh_, journal_, open_.report.times);
+  push_operation(true);
+  if (!cut) {
+    return cut.error();
+  }
+  open_.report.cut += *cut;
+  return {};
+}
+
+/// The paper's profile cuts a stroke as a whole, once its sweep is known.
+Result<StrokeReport> Engine::end_stroke_as_paper() {
+  is_in_stroke_ = false;
+  Stroke stroke;
+  for (const BladePose& pose : open_.poses) {
+    stroke.times.push_back(static_cast<double>(stroke.times.size()));
+    stroke.edges.push_back(pose.edge);
+  }
+  return cut(stroke);
 }
 
 Status Engine::set_positions(std::span<const Vec3> positions) {
@@ -117,7 +197,7 @@ Status Engine::set_positions(std::span<const Vec3> positions) {
 }
 
 /// Hands the surroundings of a fresh cut to whoever maintains the mesh.
-void Engine::take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_step) {
+void Engine::take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step) {
   if (!maintains()) {
     return;
   }
@@ -125,7 +205,6 @@ void Engine::take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_
     paper_first_step_ = std::min(paper_first_step_, first_step);
     return;
   }
-  const SweptTriangles sweep = swept_triangles(stroke);
   maintainer_.set_reference(tag, TriangleTree(sweep.points, sweep.triangles));
   maintainer_.take_up(mesh_, journal_, first_step);
 }
@@ -147,6 +226,9 @@ MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times,
 
 MaintainReport Engine::maintain(std::uint64_t work_units, const ShouldStop& should_stop) {
   MaintainReport report;
+  if (is_in_stroke_) {
+    return report;
+  }
   report.maintain = maintain(work_units, report.times, should_stop);
   if (!operations_.empty()) {
     operations_.back().end = journal_.position();
@@ -160,6 +242,9 @@ bool Engine::has_maintenance() const {
 
 MaintainReport Engine::improve(const ShouldStop& should_stop) {
   MaintainReport report;
+  if (is_in_stroke_) {
+    return report;
+  }
   if (maintains() && is_paper()) {
     report.maintain = maintain_all_as_paper(mesh_, journal_, options_.maintain, report.times);
   } else if (maintains()) {
@@ -177,6 +262,11 @@ void Engine::push_operation(bool is_stroke) {
 }
 
 bool Engine::undo() {
+  if (is_in_stroke_) {  // what is cut so far becomes an operation, as it stands
+    is_in_stroke_ = false;
+    cutter_.forget();
+    push_operation(true);
+  }
   if (operations_.empty()) {
     return false;
   }
@@ -193,7 +283,7 @@ bool Engine::undo() {
 }
 
 bool Engine::redo() {
-  if (undone_.empty()) {
+  if (is_in_stroke_ || undone_.empty()) {
     return false;
   }
   operations_.push_back(undone_.back());

@@ -3,6 +3,7 @@
 #include "incise/improve/maintainer.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "improve/care.h"
@@ -42,6 +43,15 @@ struct Crowded {
 
 }  // namespace
 
+namespace {
+
+/// Whether a side still stands for what a step opened: later steps of a stroke make tets around the blade anew.
+bool is_wall(const TetMesh& mesh, Side side, std::uint32_t tag) {
+  return mesh.is_live(side.tet()) && mesh.link(side) == Link::boundary(tag);
+}
+
+}  // namespace
+
 class Maintainer::Queue {
  public:
   explicit Queue(MaintainOptions options) : options_(options) {}
@@ -56,7 +66,9 @@ class Maintainer::Queue {
     std::vector<OpenedFace> opened;
     for (std::size_t i = first_step; i < journal.position(); ++i) {
       const Step& step = journal.step(i);
-      opened.insert(opened.end(), step.opened.begin(), step.opened.end());
+      std::copy_if(step.opened.begin(), step.opened.end(), std::back_inserter(opened), [&](const OpenedFace& face) {
+        return is_wall(mesh, face.a, face.tag) && is_wall(mesh, face.b, face.tag);
+      });
       for (const BornVertex& v : step.born) touched.push_back(v.id);
       for (const MovedVertex& v : step.moved) touched.push_back(v.id);
       for (const CopiedVertex& v : step.copied) touched.insert(touched.end(), {v.id, v.source});

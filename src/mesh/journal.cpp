@@ -59,6 +59,7 @@ bool Journal::undo(TetMesh& mesh) {
   if (position_ == 0) {
     return false;
   }
+  ++rewinds_;
   Step& step = steps_[--position_];
   step.after = image_of(mesh, step, mesh.free_tets_, mesh.free_vertices_);
   for (const TetId id : step.new_tets) {
@@ -83,6 +84,7 @@ bool Journal::redo(TetMesh& mesh) {
   if (position_ == steps_.size()) {
     return false;
   }
+  ++rewinds_;
   Step& step = steps_[position_++];
   restore(mesh, step, step.after);
   return true;

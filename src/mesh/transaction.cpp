@@ -189,6 +189,11 @@ void Transaction::set_shape(VertexId vertex, std::uint8_t bits) {
   mesh_.vertex_shape_[vertex] = bits;
 }
 
+void Transaction::set_origin(VertexId vertex, VertexId origin) {
+  assert(vertex_mark_[vertex.value] >= kFirstNew);
+  mesh_.vertex_origin_[vertex] = origin;
+}
+
 Vec3 current_after_move(const TetMesh& mesh, VertexId vertex, const Vec3& rest, const TetVertices& basis,
                         const std::array<double, 4>& weights) {
   bool is_at_rest = mesh.current(vertex) == mesh.rest(vertex);

@@ -15,7 +15,6 @@
 #include "cut/contact.h"
 #include "cut/crossing.h"
 #include "cut/dividable.h"
-#include "cut/snap.h"
 #include "cut/strokes.h"
 #include "cut/support.h"
 
@@ -390,8 +389,9 @@ Subdivided subdivide_along(TetSoup soup, const Stroke& stroke) {
   Neighbourhood near;
   find_crossings(result.mesh, sheet, find_near_tets(result.mesh, sheet), near);
   SplitTemplates templates;
-  plan_subdivision(result.mesh, {.keeps_shape_floor = false}, templates, near);
-  result.incision = subdivide(transaction, sheet, templates, near).incision;
+  plan_subdivision(result.mesh, templates, near);
+  const Subdivision subdivision = subdivide(transaction, templates, near);
+  result.incision = find_paper_incision(result.mesh, near, subdivision);
   transaction.commit();
   return result;
 }

@@ -235,7 +235,7 @@ TetMesh cut_body(TetSoup soup, double snap, const std::vector<Stroke>& strokes, 
   for (const Stroke& stroke : strokes) {
     EXPECT_TRUE(cutter.cut(mesh, journal, stroke, ++tag, times).ok());
   }
-  EXPECT_EQ(journal.size(), strokes.size()) << "every stroke must cut";
+  EXPECT_GE(journal.size(), strokes.size()) << "every stroke must cut";
   return mesh;
 }
 

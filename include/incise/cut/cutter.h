@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "incise/core/profile.h"
 #include "incise/core/result.h"
@@ -22,14 +23,27 @@ class Cutter {
   Cutter& operator=(Cutter&&) noexcept;
   ~Cutter();
 
-  /// Cuts along the whole stroke and appends one journal step per part of the sweep that does not meet itself.
+  /// Cuts along the whole stroke and appends the journal steps of each part of the sweep that does not meet itself.
   ///
-  /// Where the blade stops inside the body the cut ends at the last tets that it has crossed completely. Walls get
-  /// `tag`, which must be in [1, 2^31). Appends nothing where the blade misses.
+  /// The profile incise cuts up to where the blade stops, inside elements; the paper's ends at the last tets that it
+  /// has crossed completely. Walls get `tag`, which must be in [1, 2^31). Appends nothing where the blade misses.
   /// Errors: kBadArgument for a malformed stroke, kOutOfMemory where the mesh would exceed its id range; the mesh is
-  /// then as before. Cost: one pass over the mesh per part, then O(cut tets).
+  /// then as before. Cost: one pass over the mesh at first, then O(cut tets).
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times);
+
+  /// Puts the blade in place for a stroke that is cut step by step (profile incise). `row`: its edge at rest, at least
+  /// two finite points. Cost: one pass over the mesh at first, to find its surface.
+  void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, std::uint32_t tag);
+  /// Cuts on to where the blade is now; `row` has as many points as the first. Appends to the journal what changed.
+  /// Errors: kOutOfMemory where ids run out; the mesh is then as before the step. Cost: O(tets that the blade touches).
+  Result<CutStatistics> step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times);
+  /// Ends the stroke where the blade was last. Errors: as `step`.
+  Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times);
+  /// Forgets a stroke whose steps were taken back.
+  void forget();
+  /// What the stroke has swept at rest, so far.
+  [[nodiscard]] const SweptTriangles& swept() const;
 
  private:
   class Pipeline;

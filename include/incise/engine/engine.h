@@ -29,7 +29,7 @@ struct StrokeReport {
   CutStatistics cut;
   MaintainStatistics maintain;
   StageTimes times;             ///< summed over the stroke
-  std::vector<double> step_ms;  ///< one entry: a stroke is cut as a whole once its sweep is known
+  std::vector<double> step_ms;  ///< one entry for each step; one for a stroke that was cut as a whole
   std::uint32_t stroke = 0;     ///< its number, from 1: the tag of the walls that it made
 };
 
@@ -79,7 +79,8 @@ class Engine {
   /// have the same number of points. Errors: kBadArgument without a stroke or for a malformed pose; kOutOfMemory where
   /// ids run out; the mesh is then as before the step. Cost: O(tets that the blade touches), whatever the mesh's size.
   Result<StepReport> step(const BladePose& pose);
-  /// Lifts the blade off: what it cut stays, and is maintained within the budget. Errors: kBadArgument without a stroke.
+  /// Lifts the blade off: what it cut stays, and is maintained within the budget. Errors: kBadArgument without a
+  /// stroke.
   Result<StrokeReport> end_stroke();
   [[nodiscard]] bool is_in_stroke() const { return is_in_stroke_; }
 
@@ -99,7 +100,8 @@ class Engine {
   MaintainReport improve(const ShouldStop& should_stop = {});
 
   /// Takes the last stroke (or `improve`) back, bit for bit, its maintenance included; maintenance that waits is
-  /// dropped. Returns false where there is none. Cost: O(its edits).
+  /// dropped, and a stroke under way is ended where the blade is, and taken back. Returns false where there is none.
+  /// Cost: O(its edits).
   bool undo();
   /// Applies what was last taken back. Returns false where there is none.
   bool redo();
@@ -111,11 +113,21 @@ class Engine {
     bool is_stroke = true;
   };
 
+  /// The stroke under way.
+  struct OpenStroke {
+    StrokeReport report;
+    std::size_t first_step = 0;
+    std::vector<BladePose> poses;  ///< the first; for the paper's profile all
+  };
+
   Engine(TetMesh mesh, EngineOptions options);
 
   [[nodiscard]] bool is_paper() const { return options_.cut.profile == Profile::kPaper; }
   [[nodiscard]] bool maintains() const;
-  void take_up(const Stroke& stroke, std::uint32_t tag, std::size_t first_step);
+  void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step);
+  Status close_stroke();
+  Error abort_stroke(Error error);
+  Result<StrokeReport> end_stroke_as_paper();
   MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop);
   void push_operation(bool is_stroke);
 
@@ -128,7 +140,7 @@ class Engine {
   std::vector<Operation> operations_;
   std::vector<Operation> undone_;  // what redo would apply, last first
   std::uint32_t stroke_count_ = 0;
-  Stroke open_stroke_;  // poses so far
+  OpenStroke open_;
   bool is_in_stroke_ = false;
 
   static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);

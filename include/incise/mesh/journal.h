@@ -137,6 +137,9 @@ class Journal {
   /// Applies the next undone step again. Returns false where there is none. Cost: O(step).
   bool redo(TetMesh& mesh);
   void clear();
+  /// How often undo and redo have moved the position: a follower that finds another number than before cannot just go
+  /// on with the steps that it has not seen.
+  [[nodiscard]] std::uint64_t rewinds() const { return rewinds_; }
 
  private:
   static void restore(TetMesh& mesh, const Step& step, const StepImage& image);
@@ -144,6 +147,7 @@ class Journal {
 
   std::vector<Step> steps_;
   std::size_t position_ = 0;
+  std::uint64_t rewinds_ = 0;
 };
 
 }  // namespace incise::inline v0

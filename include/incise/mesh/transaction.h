@@ -51,6 +51,8 @@ class Transaction {
   void set_corner(TetId tet, unsigned corner, VertexId vertex);
   void set_tet_of(VertexId vertex, TetId tet);
   void set_shape(VertexId vertex, std::uint8_t bits);
+  /// Of a vertex made in this transaction.
+  void set_origin(VertexId vertex, VertexId origin);
   /// Moves a vertex to the place with the barycentric coordinates `weights` in `basis`, a tet around it: the current
   /// position and followers' values are sampled there. `rest` is that place, given exactly.
   void move(VertexId vertex, const Vec3& rest, const TetVertices& basis, const std::array<double, 4>& weights);

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/closed_complex.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace incise::inline v0 {
+
+void ClosedComplex::clear() {
+  for (const Master& master : masters_) {
+    if (master.split == nullptr) continue;  // released
+    for (const TetId child : children(master)) master_of_[child.value] = 0;
+  }
+  for (std::uint32_t i = 0; i < copied_.size(); ++i) {
+    if (copied_[i].is_valid()) drop_copies(copied_[i]);
+  }
+  for (const VertexId vertex : on_) is_on_[vertex.value] = 0;
+  for (const ClosedEdge& edge : edges_.edges()) {
+    if (edge.is_flagged()) count_flag(edge, false);
+  }
+  masters_.clear();
+  children_.clear();
+  for (auto& blocks : free_blocks_) blocks.clear();
+  points_.clear();
+  free_points_.clear();
+  edges_.clear();
+  on_.clear();
+  dirty_.clear();
+  retired_.clear();
+  scope_ = {};
+  mark_ = 0;
+}
+
+std::uint32_t ClosedComplex::adopt(const TetMesh& mesh, TetId tet) {
+  if (const std::uint32_t known = find(tet); known != Master::kNone) {
+    return known;
+  }
+  const auto index = static_cast<std::uint32_t>(masters_.size());
+  Master master;
+  master.vertices = mesh.vertices(tet);
+  master.behind.fill(Master::kNone);
+  master.points.fill(Master::kNone);
+  master.split = &whole_;
+  for (unsigned e = 0; e < 6; ++e) {
+    const auto [a, b] = kEdgeCorners[e];
+    master.edges[e] = edges_.find_or_add(master.vertices[a], master.vertices[b]);
+    ClosedEdge& edge = edges_[master.edges[e]];
+    master.next_use[e] = edge.first_use;
+    edge.first_use = index * 6 + e;
+    master.flagged |= static_cast<std::uint8_t>(static_cast<unsigned>(edge.is_flagged()) << e);
+  }
+  for (unsigned c = 0; c < 4; ++c) {
+    master.on |= static_cast<std::uint8_t>(static_cast<unsigned>(is_on(master.vertices[c])) << c);
+  }
+  master.first_child = static_cast<std::uint32_t>(children_.size());
+  children_.push_back(tet);
+  masters_.push_back(master);
+  master_of_.ensure(std::size_t{tet.value} + 1);
+  master_of_[tet.value] = index + 1;
+  for (unsigned s = 0; s < 4; ++s) {
+    link(index, s, mesh);
+  }
+  return index;
+}
+
+void ClosedComplex::link(std::uint32_t master, unsigned side, const TetMesh& mesh) {
+  const Link behind = outside(mesh, masters_[master], side);
+  if (behind.is_boundary()) return;
+  const std::uint32_t other = find(behind.side().tet());
+  if (other == Master::kNone) return;
+  const unsigned other_side = side_with(masters_[other], mesh, behind.side());
+  masters_[master].behind[side] = other;
+  masters_[other].behind[other_side] = master;
+}
+
+unsigned ClosedComplex::side_with(const Master& master, const TetMesh& mesh, Side facet) const {
+  const auto face = mesh.vertices(facet);
+  unsigned side = 0;
+  while (side < 3 && std::any_of(face.begin(), face.end(), [&](VertexId v) { return v == master.vertices[side]; })) {
+    ++side;
+  }
+  return side;
+}
+
+void ClosedComplex::release(std::uint32_t index) {
+  Master& master = masters_[index];
+  for (const std::uint32_t other : master.behind) {
+    if (other == Master::kNone) continue;
+    std::replace(masters_[other].behind.begin(), masters_[other].behind.end(), index, Master::kNone);
+  }
+  for (const TetId child : children(master)) master_of_[child.value] = 0;
+  master.split = nullptr;
+}
+
+void ClosedComplex::set_children(std::uint32_t index, const SplitTemplate& split, std::span<const TetId> tets) {
+  Master& master = masters_[index];
+  for (const TetId child : children(master)) master_of_[child.value] = 0;
+  if (master.split->children.size() != tets.size()) {
+    free_blocks_[master.split->children.size()].push_back(master.first_child);
+    auto& blocks = free_blocks_[tets.size()];
+    if (blocks.empty()) {
+      master.first_child = static_cast<std::uint32_t>(children_.size());
+      for (std::size_t i = 0; i < tets.size(); ++i) children_.push_back({});
+    } else {
+      master.first_child = blocks.back();
+      blocks.pop_back();
+    }
+  }
+  master.split = &split;
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    children_[master.first_child + i] = tets[i];
+    master_of_.ensure(std::size_t{tets[i].value} + 1);
+    master_of_[tets[i].value] = index + 1;
+  }
+}
+
+void ClosedComplex::count_flag(const ClosedEdge& edge, bool is_flagged) {
+  for (const VertexId v : {edge.a, edge.b}) {
+    flagged_at_.ensure(std::size_t{v.value} + 1);
+    flagged_at_[v.value] += is_flagged ? 1U : ~0U;
+  }
+}
+
+void ClosedComplex::toggle(std::uint32_t index) {
+  ClosedEdge& edge = edges_[index];
+  edge.is_crossed = !edge.is_crossed;
+  if (!edge.is_blocked) count_flag(edge, edge.is_crossed);
+}
+
+void ClosedComplex::block(std::uint32_t index) {
+  ClosedEdge& edge = edges_[index];
+  if (edge.is_flagged()) count_flag(edge, false);
+  edge.is_blocked = true;
+}
+
+void ClosedComplex::refresh_flags(std::uint32_t master) {
+  unsigned flags = 0;
+  for (unsigned e = 0; e < 6; ++e) {
+    flags |= static_cast<unsigned>(edges_[masters_[master].edges[e]].is_flagged()) << e;
+  }
+  masters_[master].flagged = static_cast<std::uint8_t>(flags);
+}
+
+std::uint32_t ClosedComplex::add_point(const FrontPoint& point) {
+  if (free_points_.empty()) {
+    points_.push_back(point);
+    return static_cast<std::uint32_t>(points_.size() - 1);
+  }
+  const std::uint32_t index = free_points_.back();
+  free_points_.pop_back();
+  points_[index] = point;
+  return index;
+}
+
+void ClosedComplex::remove_point(std::uint32_t index) {
+  for (const std::uint32_t master : points_[index].masters) {
+    if (master == Master::kNone) continue;
+    std::replace(masters_[master].points.begin(), masters_[master].points.end(), index, Master::kNone);
+  }
+  if (points_[index].vertex.is_valid()) retire(points_[index].vertex);
+  points_[index] = {};
+  free_points_.push_back(index);
+}
+
+std::vector<VertexId>& ClosedComplex::copies_of(VertexId vertex) {
+  copies_.ensure(std::size_t{vertex.value} + 1);
+  std::uint32_t& index = copies_[vertex.value];
+  if (index == 0) {
+    if (free_lists_.empty()) {
+      free_lists_.push_back(static_cast<std::uint32_t>(copy_lists_.size()));
+      copy_lists_.emplace_back();
+      copied_.emplace_back();
+    }
+    index = free_lists_.back() + 1;
+    free_lists_.pop_back();
+    copied_[index - 1] = vertex;
+  }
+  return copy_lists_[index - 1];
+}
+
+void ClosedComplex::add_copy(VertexId vertex, VertexId copy) {
+  copies_of(vertex).push_back(copy);
+  closed_.ensure(std::size_t{copy.value} + 1);
+  closed_[copy.value] = vertex.value + 1;
+}
+
+void ClosedComplex::drop_copies(VertexId vertex) {
+  if (!has_copies(vertex)) return;
+  const std::uint32_t index = copies_[vertex.value] - 1;
+  for (const VertexId copy : copy_lists_[index]) closed_[copy.value] = 0;
+  copy_lists_[index].clear();
+  copied_[index] = {};
+  copies_[vertex.value] = 0;
+  free_lists_.push_back(index);
+}
+
+void ClosedComplex::set_on(VertexId vertex) {
+  is_on_.ensure(std::size_t{vertex.value} + 1);
+  is_on_[vertex.value] = 1;
+  on_.push_back(vertex);
+}
+
+const std::vector<std::uint32_t>& ClosedComplex::star(const TetMesh& mesh, std::uint32_t master, VertexId vertex) {
+  star_.assign(1, master);
+  masters_[master].mark = ++mark_;
+  flood_star(mesh, vertex, 0);
+  if ((mesh.shape_of(vertex) & shape::kPinched) == 0) return star_;
+  for (const std::uint32_t other : scope_) {
+    const auto& corners = masters_[other].vertices;
+    if (masters_[other].mark == mark_ || masters_[other].split == nullptr ||
+        std::find(corners.begin(), corners.end(), vertex) == corners.end()) {
+      continue;
+    }
+    masters_[other].mark = mark_;
+    star_.push_back(other);
+    flood_star(mesh, vertex, star_.size() - 1);
+  }
+  return star_;
+}
+
+void ClosedComplex::flood_star(const TetMesh& mesh, VertexId vertex, std::size_t from) {
+  for (std::size_t i = from; i < star_.size(); ++i) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const std::uint32_t at = star_[i];
+      if (masters_[at].vertices[s] == vertex) continue;
+      std::uint32_t next = masters_[at].behind[s];
+      if (next == Master::kNone) {
+        const Link behind = outside(mesh, masters_[at], s);
+        if (behind.is_boundary()) continue;
+        next = adopt(mesh, behind.side().tet());
+      }
+      if (masters_[next].mark != mark_) {
+        masters_[next].mark = mark_;
+        star_.push_back(next);
+      }
+    }
+  }
+}
+
+}  // namespace incise::inline v0

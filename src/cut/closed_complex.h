@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cut/edge_table.h"
+#include "cut/split_template.h"
+#include "incise/mesh/tet_mesh.h"
+
+namespace incise::inline v0 {
+
+/// An edge of the closed complex, with what the blade did to it. `a` has the lower slot.
+struct ClosedEdge {
+  VertexId a, b;
+  double t = 0.5;                           ///< where the blade's sheet crosses it, from a to b
+  Vec3 position = Vec3::Zero();             ///< of that place
+  Vec3 normal = Vec3::Zero();               ///< unit, of the sheet there
+  VertexId split;                           ///< the vertex that splits it, while there is one
+  std::array<VertexId, 2> halves;           ///< its copies towards a and towards b
+  std::uint32_t first_use = kInvalidIndex;  ///< master · 6 + edge number: the masters that have it, as a list
+  std::uint32_t tested = 0;                 ///< the step that last looked at it
+  bool is_crossed = false;                  ///< an odd number of times
+  bool is_blocked = false;                  ///< dividing it would make a tet that is not sound: counts as not crossed
+
+  [[nodiscard]] bool is_flagged() const { return is_crossed && !is_blocked; }
+};
+
+/// Where the border of the blade's sheet pierces a face: the cut ends there.
+struct FrontPoint {
+  Vec3 position = Vec3::Zero();
+  std::array<double, 3> weights{};  ///< of the vertices of `face`: where the border pierces it, before any rounding off
+  std::array<VertexId, 3> face;
+  VertexId vertex;                                                     ///< once made
+  std::uint32_t tested = 0;                                            ///< the step that last looked at it
+  bool is_explained = false;                                           ///< pierced, not guessed
+  std::array<std::uint32_t, 2> masters{kInvalidIndex, kInvalidIndex};  ///< on either side of the face
+};
+
+/// A tet of the closed complex: as it was before the blade came.
+struct Master {
+  static constexpr std::uint32_t kNone = kInvalidIndex;
+
+  TetVertices vertices;                   ///< closed
+  std::array<std::uint32_t, 6> edges;     ///< by edge number
+  std::array<std::uint32_t, 6> next_use;  ///< by edge number: the next master that has it, see `first_use`
+  std::array<std::uint32_t, 4> behind;    ///< the master behind each side, where there is one
+  std::array<std::uint32_t, 4> points;    ///< the front point in each side, where there is one
+  VertexId middle;                        ///< the front point inside, once made
+  Vec3 corner = Vec3::Zero();             ///< where the border of the sheet turns inside, if it does
+  std::uint64_t corner_key = 0;           ///< of that point; 0 for none
+  const SplitTemplate* split = nullptr;   ///< how it is divided now
+  std::uint32_t first_child = 0;          ///< into `ClosedComplex::children`
+  std::uint32_t mark = 0;                 ///< scratch of one stage at a time
+  std::uint32_t seen = 0;                 ///< the step in which the blade last met it
+  std::uint8_t flagged = 0;               ///< bit e: edge e is flagged
+  std::uint8_t on = 0;                    ///< bit c: corner c takes part in the cut itself
+  std::uint32_t entry = 0;                ///< its number among the dirty ones while a rebuild runs
+  bool is_dirty = false;                  ///< its children must be made anew
+  bool is_kept = false;                   ///< a rebuild found nothing to change about its children
+  bool is_cut = false;                    ///< the blade has crossed an edge of it
+  bool is_pinched = false;                ///< has incision faces that were left joined beside an edge
+
+  [[nodiscard]] bool is_divided() const { return split->children.size() > 1; }
+};
+
+/// The rest shape around a blade as if it were not cut yet, tet by tet, with the tets of the mesh that stand for it.
+///
+/// A master is a tet that was whole when the blade reached it; its children are the live tets that it is divided into,
+/// at first itself. A closed vertex is one whose copies count as one: the mesh's own vertices before the stroke, split
+/// points of edges and front points. The blade's doings are kept on the edges of masters, where neighbours agree by
+/// construction; children are made from them. Whatever the mesh does physically, this complex stays closed.
+/// Lives as long as one stroke stays clear of itself; `clear` forgets it, and children become ordinary tets.
+class ClosedComplex {
+ public:
+  /// `templates` must outlive the complex.
+  explicit ClosedComplex(SplitTemplates& templates) : whole_(templates.find({})) {}
+
+  void clear();
+
+  /// The master that a live tet belongs to, or `Master::kNone`.
+  [[nodiscard]] std::uint32_t find(TetId tet) const {
+    const std::uint32_t index = tet.value < master_of_.capacity() ? master_of_[tet.value] : 0;
+    return index - 1;
+  }
+  /// The master of a live tet; where there is none, the tet becomes one.
+  std::uint32_t adopt(const TetMesh& mesh, TetId tet);
+  /// Lets go of a master that is whole.
+  void release(std::uint32_t master);
+
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(masters_.size()); }
+  Master& operator[](std::uint32_t index) { return masters_[index]; }
+  const Master& operator[](std::uint32_t index) const { return masters_[index]; }
+  [[nodiscard]] std::span<const TetId> children(const Master& master) const {
+    return {children_.data() + master.first_child, master.split->children.size()};
+  }
+  /// Divides a master anew: `tets` are its children, one for each of the template's.
+  void set_children(std::uint32_t master, const SplitTemplate& split, std::span<const TetId> tets);
+  /// The mesh's side that stands for the k-th facet of a side of a master.
+  [[nodiscard]] Side facet(const Master& master, unsigned side, std::size_t k) const {
+    return facet(master, master.split->outer[side][k]);
+  }
+  [[nodiscard]] Side facet(const Master& master, SplitTemplate::ChildSide side) const {
+    return {children_[master.first_child + side / 4U], side & 3U};
+  }
+
+  BasicEdgeTable<ClosedEdge>& edges() { return edges_; }
+  [[nodiscard]] const BasicEdgeTable<ClosedEdge>& edges() const { return edges_; }
+  [[nodiscard]] const ClosedEdge& edge(const Master& master, unsigned a, unsigned b) const {
+    return edges_[master.edges[kEdgeOfCorners[a][b]]];
+  }
+
+  std::uint32_t add_point(const FrontPoint& point);
+  FrontPoint& point(std::uint32_t index) { return points_[index]; }
+  [[nodiscard]] const FrontPoint& point(std::uint32_t index) const { return points_[index]; }
+  void remove_point(std::uint32_t index);
+
+  /// Has a closed vertex, which nothing needs any more, die with the next rebuild.
+  void retire(VertexId vertex) { retired_.push_back(vertex); }
+  [[nodiscard]] std::vector<VertexId>& retired() { return retired_; }
+
+  /// The closed vertex that a vertex is a copy of, or itself.
+  [[nodiscard]] VertexId closed(VertexId vertex) const {
+    const std::uint32_t original = vertex.value < closed_.capacity() ? closed_[vertex.value] : 0;
+    return original == 0 ? vertex : VertexId(original - 1);
+  }
+  [[nodiscard]] unsigned closed_corner(const TetMesh& mesh, TetId tet, VertexId vertex) const {
+    const TetVertices& corners = mesh.vertices(tet);
+    unsigned corner = 0;
+    while (corner < 4 && closed(corners[corner]) != vertex) {
+      ++corner;
+    }
+    return corner;
+  }
+  /// The copies of a closed vertex, itself not among them.
+  [[nodiscard]] std::vector<VertexId>& copies_of(VertexId vertex);
+  [[nodiscard]] bool has_copies(VertexId vertex) const {
+    return vertex.value < copies_.capacity() && copies_[vertex.value] != 0;
+  }
+  void add_copy(VertexId vertex, VertexId copy);
+  /// Blocks an edge: it counts as not crossed from now on.
+  void block(std::uint32_t edge);
+  /// Forgets the copies of a closed vertex.
+  void drop_copies(VertexId vertex);
+
+  /// Has a master's children made anew by the next rebuild.
+  void mark_dirty(std::uint32_t master) {
+    if (masters_[master].is_dirty) return;
+    masters_[master].is_dirty = true;
+    dirty_.push_back(master);
+  }
+  /// The masters to be rebuilt, each once.
+  [[nodiscard]] std::vector<std::uint32_t>& dirty() { return dirty_; }
+  /// Notes that the sheet crosses an edge once more, or takes it back.
+  void toggle(std::uint32_t edge);
+  /// Makes a master's flags those of its edges.
+  void refresh_flags(std::uint32_t master);
+  /// How many flagged edges a closed vertex has.
+  [[nodiscard]] std::uint32_t flagged_at(VertexId vertex) const {
+    return vertex.value < flagged_at_.capacity() ? flagged_at_[vertex.value] : 0;
+  }
+
+  [[nodiscard]] bool is_on(VertexId vertex) const {
+    return vertex.value < is_on_.capacity() && is_on_[vertex.value] != 0;
+  }
+  void set_on(VertexId vertex);
+
+  /// Calls `visit(master index)` for the masters that have an edge, whether or not they share faces around it.
+  template <class Visit>
+  void for_each_around(std::uint32_t edge, Visit&& visit) const;
+
+  /// All masters around a vertex; live tets there that are none yet become masters. `master` has the vertex. Where the
+  /// input's tets touched at the vertex without sharing faces, those of `set_scope` are looked at too. Valid until the
+  /// next call.
+  const std::vector<std::uint32_t>& star(const TetMesh& mesh, std::uint32_t master, VertexId vertex);
+
+  /// The masters that the blade is busy with.
+  void set_scope(std::span<const std::uint32_t> masters) { scope_ = masters; }
+
+  /// The live tet behind a side of a master that has no master behind it, or the boundary.
+  [[nodiscard]] Link outside(const TetMesh& mesh, const Master& master, unsigned side) const {
+    return mesh.link(facet(master, side, 0));
+  }
+
+ private:
+  void flood_star(const TetMesh& mesh, VertexId vertex, std::size_t from);
+  void count_flag(const ClosedEdge& edge, bool is_flagged);
+  void link(std::uint32_t master, unsigned side, const TetMesh& mesh);
+  [[nodiscard]] unsigned side_with(const Master& master, const TetMesh& mesh, Side facet) const;
+
+  const SplitTemplate& whole_;
+  GrowArray<Master> masters_;
+  GrowArray<TetId> children_;
+  std::array<std::vector<std::uint32_t>, 32> free_blocks_;  // of `children_`, by size
+  GrowArray<FrontPoint> points_;
+  std::vector<std::uint32_t> free_points_;
+  BasicEdgeTable<ClosedEdge> edges_;
+  ZeroedArray<std::uint32_t> master_of_;  // by tet slot: 1 + master
+  ZeroedArray<std::uint32_t> closed_;     // by vertex slot: 1 + the closed vertex that it is a copy of
+  ZeroedArray<std::uint32_t> copies_;     // by vertex slot: 1 + index into `copy_lists_`
+  std::vector<std::vector<VertexId>> copy_lists_;
+  std::vector<VertexId> copied_;  // the closed vertex of each list
+  std::vector<std::uint32_t> free_lists_;
+  ZeroedArray<std::uint32_t> flagged_at_;  // by vertex slot
+  ZeroedArray<std::uint8_t> is_on_;
+  std::vector<VertexId> on_, retired_;
+  std::vector<std::uint32_t> star_, dirty_;
+  std::span<const std::uint32_t> scope_;
+  std::uint32_t mark_ = 0;
+};
+
+template <class Visit>
+void ClosedComplex::for_each_around(std::uint32_t edge, Visit&& visit) const {
+  for (std::uint32_t use = edges_[edge].first_use; use != kInvalidIndex; use = masters_[use / 6].next_use[use % 6]) {
+    if (masters_[use / 6].split != nullptr) visit(use / 6);
+  }
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/contact_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Strips of more triangles are searched by their tree.
+constexpr std::size_t kFewTriangles = 4;
+/// Coordinates are rounded to this share of their magnitude, with room to spare.
+constexpr double kRounding = 1e-12;
+
+Box box_of(const std::array<Vec3, 4>& p) {
+  return {p[0].cwiseMin(p[1]).cwiseMin(p[2]).cwiseMin(p[3]), p[0].cwiseMax(p[1]).cwiseMax(p[2]).cwiseMax(p[3])};
+}
+
+/// The way from a point out of the body.
+struct Ray {
+  SosPoint from, to;
+
+  [[nodiscard]] bool crosses(const TetMesh& mesh, Side side) const {
+    const auto v = mesh.vertices(side);
+    return segment_crosses_triangle(from, to, {mesh.rest(v[0]), v[0].value}, {mesh.rest(v[1]), v[1].value},
+                                    {mesh.rest(v[2]), v[2].value});
+  }
+  /// How far along it passes the plane of a side.
+  [[nodiscard]] double distance_to(const TetMesh& mesh, Side side) const {
+    const auto v = mesh.vertices(side);
+    const Vec3 normal = (mesh.rest(v[1]) - mesh.rest(v[0])).cross(mesh.rest(v[2]) - mesh.rest(v[0]));
+    const double slope = normal.dot(to.position - from.position);
+    return slope == 0 ? 0.0 : normal.dot(mesh.rest(v[0]) - from.position) / slope;
+  }
+};
+
+/// The boundary side that a ray leaves the body through first, and whether it starts inside.
+struct Exit {
+  Side side;
+  bool starts_inside = false;
+};
+
+Exit find_exit(const TetMesh& mesh, const SurfaceIndex& surface, const Ray& ray) {
+  std::vector<Side> crossed;
+  const Box box{ray.from.position.cwiseMin(ray.to.position), ray.from.position.cwiseMax(ray.to.position)};
+  surface.for_each_near(mesh, box, [&](Side side) {
+    if (ray.crosses(mesh, side)) crossed.push_back(side);
+  });
+  std::sort(crossed.begin(), crossed.end());
+  crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
+  Exit exit;
+  double nearest = 2.0;
+  for (const Side side : crossed) {
+    exit.starts_inside = !exit.starts_inside;
+    const double distance = ray.distance_to(mesh, side);
+    if (distance < nearest) {
+      nearest = distance;
+      exit.side = side;
+    }
+  }
+  return exit;
+}
+
+constexpr std::uint64_t kRayKey = ~std::uint64_t{0};
+
+}  // namespace
+
+TetId locate(const TetMesh& mesh, const SurfaceIndex& surface, const SosPoint& point) {
+  const Box& bounds = surface.bounds();
+  if (bounds.is_empty() || bounds.distance2(point.position) > 0) return {};
+  const Vec3 extent = bounds.hi - bounds.lo;
+  const Vec3 beyond = point.position +
+                      Vec3(bounds.hi.x() - point.position.x() + 0.5 * extent.x(), 1e-3 * extent.y(), 1e-3 * extent.z());
+  const Ray ray{point, {beyond, kRayKey}};
+  const Exit exit = find_exit(mesh, surface, ray);
+  if (!exit.starts_inside) return {};
+  Side entered = exit.side;
+  for (std::size_t steps = 0; steps < mesh.tet_count(); ++steps) {
+    unsigned out = 4;
+    for (unsigned s = 0; s < 4; ++s) {
+      if (s != entered.side() && ray.crosses(mesh, Side(entered.tet(), s))) out = s;
+    }
+    if (out == 4) return entered.tet();
+    const Link link = mesh.link(Side(entered.tet(), out));
+    if (link.is_boundary()) return {};
+    entered = link.side();
+  }
+  return {};
+}
+
+ContactWalk::Prism ContactWalk::prism_of(const Strip& strip, std::uint32_t triangle) const {
+  std::array<Vec3, 3> p;
+  double size = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    p[k] = strip.sheet.point(triangle, k).position;
+    size = std::max(size, p[k].cwiseAbs().maxCoeff());
+  }
+  const auto plane = [&](const Vec3& normal, const Vec3& through) {
+    return Plane{normal, normal.dot(through), kRounding * size * normal.norm()};
+  };
+  Prism prism;
+  const Vec3 normal = strip.sheet.normal(triangle);
+  prism.face = plane(normal, p[0]);
+  for (unsigned k = 0; k < 3; ++k) {
+    prism.walls[k] = plane((p[(k + 1) % 3] - p[k]).cross(normal), p[k]);
+  }
+  return prism;
+}
+
+void ContactWalk::prepare(const Strip& strip) {
+  prisms_.clear();
+  for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) {
+    prisms_.push_back(prism_of(strip, t));
+  }
+}
+
+bool ContactWalk::meets(const std::array<Vec3, 4>& corners) const {
+  if (prisms_.size() <= kFewTriangles) {
+    return meets_some(corners);
+  }
+  const Box box = box_of(corners);
+  bool meets = false;
+  strip_->sheet.tree().for_each_overlap(box, [&](std::uint32_t) { meets = true; });
+  return meets;
+}
+
+bool ContactWalk::meets_some(const std::array<Vec3, 4>& corners) const {
+  const auto is_beyond = [&](const Plane& plane) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Vec3& p) { return plane.normal.dot(p) - plane.offset > plane.margin; });
+  };
+  const auto is_before = [&](const Plane& plane) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Vec3& p) { return plane.normal.dot(p) - plane.offset < -plane.margin; });
+  };
+  return std::any_of(prisms_.begin(), prisms_.end(), [&](const Prism& prism) {
+    return !is_beyond(prism.face) && !is_before(prism.face) &&
+           std::none_of(prism.walls.begin(), prism.walls.end(), is_beyond);
+  });
+}
+
+void ContactWalk::visit(std::uint32_t master) {
+  Master& m = (*complex_)[master];
+  if (m.seen == step_ || m.split == nullptr) return;
+  const std::array<Vec3, 4> corners = {mesh_->rest(m.vertices[0]), mesh_->rest(m.vertices[1]),
+                                       mesh_->rest(m.vertices[2]), mesh_->rest(m.vertices[3])};
+  if (meets(corners)) {
+    m.seen = step_;
+    met_.push_back(master);
+  }
+}
+
+void ContactWalk::visit(const TetMesh& mesh, TetId tet) {
+  if (const std::uint32_t master = complex_->find(tet); master != Master::kNone) {
+    visit(master);
+    return;
+  }
+  rejected_.ensure(std::size_t{tet.value} + 1);
+  if (rejected_[tet.value] == walk_) return;
+  const TetVertices& v = mesh.vertices(tet);
+  if (meets({mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])})) {
+    const std::uint32_t master = complex_->adopt(mesh, tet);
+    (*complex_)[master].seen = step_;
+    met_.push_back(master);
+  } else {
+    rejected_[tet.value] = walk_;
+  }
+}
+
+void ContactWalk::walk_on(const TetMesh& mesh, std::uint32_t master) {
+  for (unsigned s = 0; s < 4; ++s) {
+    const std::uint32_t behind = (*complex_)[master].behind[s];
+    if (behind != Master::kNone) {
+      visit(behind);
+      continue;
+    }
+    const Link link = complex_->outside(mesh, (*complex_)[master], s);
+    if (!link.is_boundary()) visit(mesh, link.side().tet());
+  }
+}
+
+const std::vector<std::uint32_t>& ContactWalk::find(const TetMesh& mesh, const Strip& strip,
+                                                    const SurfaceIndex& surface, ClosedComplex& complex,
+                                                    std::uint32_t step) {
+  strip_ = &strip;
+  complex_ = &complex;
+  mesh_ = &mesh;
+  step_ = step;
+  ++walk_;
+  prepare(strip);
+  std::swap(met_, last_);
+  met_.clear();
+  for (const std::uint32_t master : last_) {
+    if (master < complex.size()) visit(master);
+  }
+  for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) {
+    for_each_side_near(
+        mesh, surface,
+        {strip.sheet.point(t, 0).position, strip.sheet.point(t, 1).position, strip.sheet.point(t, 2).position},
+        [&](Side side) { visit(mesh, side.tet()); });
+  }
+  if (last_.empty()) {  // a sheet that starts inside the body
+    const TetId tet = locate(mesh, surface, strip.sheet.point(0, 0));
+    if (tet.is_valid()) visit(mesh, tet);
+  }
+  for (std::size_t i = 0; i < met_.size(); ++i) {
+    walk_on(mesh, met_[i]);
+  }
+  return met_;
+}
+
+}  // namespace incise::inline v0

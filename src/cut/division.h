@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "cut/closed_complex.h"
+
+namespace incise::inline v0 {
+
+/// Whether an edge of a master is to be split: flagged, and neither end takes part in the cut itself.
+[[nodiscard]] bool needs_split(const Master& master, unsigned edge);
+/// Whether the cut ends in a side of a master, and something is split there: the side gets a front point.
+[[nodiscard]] bool needs_point(const Master& master, unsigned side);
+
+/// Finds how masters are to be divided, from their flags, ON vertices and front points.
+class Divider {
+ public:
+  Divider(const TetMesh& mesh, SplitTemplates& templates, const ClosedComplex& complex)
+      : mesh_(mesh), templates_(templates), complex_(complex) {}
+
+  /// The template for a master as it is flagged now. Complete ones are bisected in one order of all edges (longest
+  /// first, then by ends), so that neighbours agree; those that the blade is still in are coned. Paper §2.2, Figure 2.
+  [[nodiscard]] const SplitTemplate& find(const Master& master);
+  /// Whether the blade is still in a master and something in it is split: it is coned.
+  [[nodiscard]] static bool is_cone(const Master& master);
+  /// Where the front point inside a coned master belongs: amid those in its sides.
+  [[nodiscard]] Vec3 middle_of(const Master& master) const;
+  /// The rest position of a vertex of a template.
+  [[nodiscard]] Vec3 position_of(const Master& master, std::uint8_t code) const;
+  /// Whether all children would be positive (and, where asked, not flat).
+  [[nodiscard]] bool is_sound(const Master& master, const SplitTemplate& split, bool keeps_shape_floor) const;
+
+ private:
+  struct Item {
+    double length2;
+    VertexId a, b;
+    std::uint8_t number;
+    bool operator<(const Item& other) const;
+  };
+  [[nodiscard]] std::span<const std::uint8_t> order_of(const Master& master);
+
+  const TetMesh& mesh_;
+  SplitTemplates& templates_;
+  const ClosedComplex& complex_;
+  std::array<Item, 6> items_;
+  std::array<std::uint8_t, 6> order_{};
+};
+
+/// Blocks the flagged edges of every master in the list that would get an unsound child, or was flat at load. Returns
+/// the edges that were not blocked before.
+std::vector<std::uint32_t> block_unsound(const TetMesh& mesh, std::span<const std::uint32_t> masters,
+                                         bool keeps_shape_floor, SplitTemplates& templates, ClosedComplex& complex);
+
+}  // namespace incise::inline v0

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/old_children.h"
+
+#include <algorithm>
+
+#include "incise/geom/quality.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+std::array<double, 4> weights_in(const std::array<Vec3, 4>& p, const Vec3& x) {
+  std::array<double, 4> weights = {signed_volume6(x, p[1], p[2], p[3]), signed_volume6(p[0], x, p[2], p[3]),
+                                   signed_volume6(p[0], p[1], x, p[3]), 0.0};
+  const double whole = signed_volume6(p[0], p[1], p[2], p[3]);
+  double rest = 1.0;
+  for (unsigned c = 0; c < 3; ++c) {
+    weights[c] /= whole;
+    rest -= weights[c];
+  }
+  weights[3] = rest;
+  return weights;
+}
+
+}  // namespace
+
+OldChildren::OldTet OldChildren::image_of(const TetMesh& mesh, TetId tet) {
+  OldTet old{tet, mesh.vertices(tet), {}, {}};
+  for (unsigned c = 0; c < 4; ++c) {
+    old.rest[c] = mesh.rest(old.vertices[c]);
+    old.current[c] = mesh.current(old.vertices[c]);
+  }
+  return old;
+}
+
+void OldChildren::add(const TetMesh& mesh, TetId tet) {
+  tets_.push_back(image_of(mesh, tet));
+}
+
+std::uint32_t OldChildren::holding(const Vec3& rest, std::uint32_t first, std::uint32_t last) const {
+  std::uint32_t best = first;
+  double inside = -1e300;
+  for (std::uint32_t i = first; last - first > 1 && i < last && inside < 0; ++i) {
+    const auto weights = weights_in(tets_[i].rest, rest);
+    const double least = *std::min_element(weights.begin(), weights.end());
+    if (least > inside) {
+      inside = least;
+      best = i;
+    }
+  }
+  return best;
+}
+
+MaterialPlace OldChildren::place_in(std::uint32_t index, const Vec3& rest) const {
+  return place_in(tets_[index], rest);
+}
+
+MaterialPlace place_in(const TetMesh& mesh, TetId tet, const Vec3& rest) {
+  return OldChildren::place_in(OldChildren::image_of(mesh, tet), rest);
+}
+
+MaterialPlace OldChildren::place_in(const OldTet& tet, const Vec3& rest) {
+  MaterialPlace place;
+  place.basis = tet.vertices;
+  place.weights = weights_in(tet.rest, rest);
+  place.inside = *std::min_element(place.weights.begin(), place.weights.end());
+  bool is_at_rest = true;
+  for (unsigned c = 0; c < 4; ++c) {
+    is_at_rest = is_at_rest && tet.current[c] == tet.rest[c];
+    place.current += place.weights[c] * tet.current[c];
+  }
+  if (is_at_rest) place.current = rest;
+  return place;
+}
+
+VertexId add_vertex_at(Transaction& transaction, const Vec3& rest, const MaterialPlace& place) {
+  return transaction.add_vertex(place.basis, place.weights, rest, place.current);
+}
+
+}  // namespace incise::inline v0

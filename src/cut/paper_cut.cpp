@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/paper_cut.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "cut/coincidence.h"
+#include "cut/contact.h"
+#include "cut/crossing.h"
+#include "incise/mesh/verbs.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Two crossings of one edge closer than this share of it are one graze, not two sheets.
+constexpr double kGrazeShare = 0.02;
+/// A tet falls apart into so many children at most.
+constexpr std::size_t kMostChildren = 16;
+/// An edge crossed twice is bisected at most so often.
+constexpr unsigned kMaxBisectionRounds = 8;
+
+void append(Journal& journal, Transaction& transaction) {
+  Step step = transaction.commit();
+  if (!step.is_empty()) {
+    journal.append(std::move(step));
+  }
+}
+
+}  // namespace
+
+Status PaperCut::cut(TetMesh& mesh, Journal& journal, const Sheet& sheet, std::uint32_t tag, CutStatistics& statistics,
+                     StageTimes& times) {
+  const std::size_t tets_before = mesh.tet_count();
+  Transaction transaction(mesh);
+  find_contact(transaction, sheet, times);
+  if (std::size_t{mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
+    return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
+  }
+  const std::size_t coincident = near_.on.size();
+  const Subdivision subdivision = divide(transaction, statistics, times);
+  separate(transaction, subdivision, tag, statistics, times);
+  statistics.snapped_vertices += coincident;
+  statistics.new_vertices += transaction.new_vertices().size();
+  append(journal, transaction);
+  part_edges(mesh, journal, subdivision, statistics, times);
+  statistics.created_tets += mesh.tet_count() - tets_before;
+  return {};
+}
+
+void PaperCut::find_contact(Transaction& transaction, const Sheet& sheet, StageTimes& times) {
+  const StageZone zone(times, Stage::kCollision);
+  collide(transaction, sheet);
+  mark_coincident(transaction.mesh(), sheet, near_, walker_);
+}
+
+Subdivision PaperCut::divide(Transaction& transaction, CutStatistics& statistics, StageTimes& times) {
+  const StageZone zone(times, Stage::kSubdivide);
+  statistics.blocked_edges += plan_subdivision(transaction.mesh(), templates_, near_);
+  statistics.cut_tets += static_cast<std::uint64_t>(
+      std::count_if(near_.tets.begin(), near_.tets.end(), [](const NearTet& tet) { return tet.is_cuttable; }));
+  Subdivision subdivision = subdivide(transaction, templates_, near_);
+  subdivision.incision = find_paper_incision(transaction.mesh(), near_, subdivision);
+  return subdivision;
+}
+
+void PaperCut::separate(Transaction& transaction, const Subdivision& subdivision, std::uint32_t tag,
+                        CutStatistics& statistics, StageTimes& times) {
+  const StageZone zone(times, Stage::kSeparate);
+  const Separation separation = separate_as_paper(transaction, subdivision.incision, tag, walker_);
+  statistics.incision_faces += separation.opened_faces;
+  statistics.latent_faces += separation.latent_faces;
+  statistics.copied_vertices += separation.copied_vertices;
+  statistics.pinched_edges += separation.pinched_edges;
+}
+
+void PaperCut::part_edges(TetMesh& mesh, Journal& journal, const Subdivision& subdivision, CutStatistics& statistics,
+                          StageTimes& times) {
+  const StageZone zone(times, Stage::kSeparate);
+  Transaction transaction(mesh);
+  statistics.pinched_edges += part_pinched_edges(transaction, subdivision.incision, walker_);
+  statistics.new_vertices += transaction.new_vertices().size();
+  append(journal, transaction);
+}
+
+/// Finds the crossings of the mesh's edges with the sheet; edges crossed twice are bisected in between and retried.
+void PaperCut::collide(Transaction& transaction, const Sheet& sheet) {
+  const TetMesh& mesh = transaction.mesh();
+  for (unsigned round = 0;; ++round) {
+    find_crossings(mesh, sheet, find_near_tets(mesh, sheet, threads_), near_, threads_);
+    const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet, near_, kGrazeShare);
+    if (twice.empty() || round == kMaxBisectionRounds) {
+      return;
+    }
+    for (const DoublyCrossed& crossed : twice) {
+      bisect(transaction, near_.edges[crossed.edge], crossed.t);
+    }
+  }
+}
+void PaperCut::bisect(Transaction& transaction, const CutEdge& edge, double t) {
+  const TetMesh& mesh = transaction.mesh();
+  if (mesh.is_overshared_at_load(edge.a, edge.b)) {
+    return;
+  }
+  for (const TetId tet : walker_.star(mesh, edge.a)) {
+    if (mesh.corner_of(tet, edge.b) < 4) {
+      const SplitEdgePlan plan = plan_split_edge(mesh, edge.a, edge.b, tet, t);
+      if (plan) {
+        apply(transaction, plan);
+      }
+      return;
+    }
+  }
+}
+}  // namespace incise::inline v0

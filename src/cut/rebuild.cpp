@@ -1,0 +1,652 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/rebuild.h"
+
+#include <algorithm>
+#include <array>
+
+#include "cut/neighbourhood.h"
+#include "incise/mesh/star.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+constexpr unsigned kMaxPinchRounds = 4;
+
+/// Which side of the sheet a child of a complete master lies on: the colour of any corner that is not on the sheet.
+unsigned colour_of_child(const SplitTemplate::Child& child, const Master& master) {
+  for (const std::uint8_t code : child) {
+    if (code < SplitTemplate::kFirstSplit && ((unsigned{master.on} >> code) & 1U) == 0) {
+      return colour_of(master.flagged, code);
+    }
+  }
+  return colour_of(master.flagged, child[0] < SplitTemplate::kFirstSplit ? child[0] : 0);
+}
+
+/// The lines in which the cut meets the sides of a master that the blade is still in: pairs of template codes.
+class IncisionLines {
+ public:
+  explicit IncisionLines(const Master& master) : master_(master) {
+    for (unsigned s = 0; s < 4; ++s) add_side(s);
+  }
+  [[nodiscard]] bool contains(std::uint8_t a, std::uint8_t b) const {
+    const std::array<std::uint8_t, 2> line = {std::min(a, b), std::max(a, b)};
+    return std::find(lines_.begin(), lines_.begin() + count_, line) != lines_.begin() + count_;
+  }
+
+ private:
+  /// What stands for the crossing of a flagged edge: its split point, or the end that takes part in the cut.
+  [[nodiscard]] std::uint8_t crossing_of(unsigned edge) const {
+    for (const std::uint8_t c : kEdgeCorners[edge]) {
+      if (((unsigned{master_.on} >> c) & 1U) != 0) return c;
+    }
+    return static_cast<std::uint8_t>(SplitTemplate::kFirstSplit + edge);
+  }
+  void add_side(unsigned side) {
+    std::array<std::uint8_t, 3> crossings{};
+    unsigned count = 0;
+    for (const unsigned edge : kSideEdges[side]) {
+      if (((unsigned{master_.flagged} >> edge) & 1U) != 0) crossings[count++] = crossing_of(edge);
+    }
+    if (count == 2) {
+      toggle(crossings[0], crossings[1]);
+    } else if (master_.points[side] != Master::kNone) {
+      const auto point = static_cast<std::uint8_t>(SplitTemplate::kFirstPoint + side);
+      for (unsigned k = 0; k < count; ++k) toggle(crossings[k], point);
+    }
+  }
+  void toggle(std::uint8_t a, std::uint8_t b) {
+    if (a == b) return;
+    const std::array<std::uint8_t, 2> line = {std::min(a, b), std::max(a, b)};
+    const auto end = lines_.begin() + count_;
+    const auto at = std::find(lines_.begin(), end, line);
+    if (at == end) {
+      lines_[count_++] = line;
+    } else {
+      *at = lines_[--count_];
+    }
+  }
+
+  const Master& master_;
+  std::array<std::array<std::uint8_t, 2>, 16> lines_{};
+  std::uint8_t count_ = 0;
+};
+
+bool is_same_face(const TetMesh& mesh, const ClosedComplex& complex, Side a, Side b) {
+  const auto u = mesh.vertices(a), v = mesh.vertices(b);
+  const std::array<VertexId, 3> w = {complex.closed(v[0]), complex.closed(v[1]), complex.closed(v[2])};
+  return std::all_of(u.begin(), u.end(), [&](VertexId x) {
+    const VertexId y = complex.closed(x);
+    return y == w[0] || y == w[1] || y == w[2];
+  });
+}
+
+/// Whether a segment passes through a sheet an odd number of times. Exact.
+bool crosses(const OwnSheet& sheet, const SosPoint& p, const SosPoint& q) {
+  const Box box{p.position.cwiseMin(q.position), p.position.cwiseMax(q.position)};
+  bool is_odd = false;
+  for (const auto& strip : sheet.strips()) {
+    const Sheet& part = strip->sheet;
+    part.tree().for_each_overlap(box, [&](std::uint32_t t) {
+      is_odd ^= segment_crosses_triangle(p, q, part.point(t, 0), part.point(t, 1), part.point(t, 2));
+    });
+  }
+  return is_odd;
+}
+
+}  // namespace
+
+class Rebuild::Run {
+ public:
+  Run(Rebuild& owner, Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet, const Settings& settings)
+      : owner_(owner),
+        transaction_(transaction),
+        mesh_(transaction.mesh()),
+        complex_(complex),
+        sheet_(sheet),
+        dirty_(complex.dirty()),
+        settings_(settings),
+        divider_(mesh_, owner.templates_, complex),
+        old_(owner.old_),
+        incision_(owner.incision_) {
+    old_.clear();
+    incision_.clear();
+  }
+
+  RebuildStatistics run(const std::vector<OnVertex>& on) {
+    keep_old();
+    make_vertices();
+    for (std::uint32_t i = 0; i < dirty_.size(); ++i) make_children(i);
+    remove_old();
+    for (std::uint32_t i = 0; i < dirty_.size(); ++i) link(i);
+    keep_crumbs();
+    move_on_vertices(on);
+    separate();
+    for (unsigned round = 0; round < kMaxPinchRounds && close_pinched_faces(); ++round) separate();
+    open_faces();
+    bury_retired();
+    for (const std::uint32_t index : dirty_) complex_[index].is_dirty = false;
+    dirty_.clear();
+    return result_;
+  }
+
+ private:
+  struct OldRange {
+    std::uint32_t first, last;
+    std::array<Link, 4> outside;
+  };
+
+  // --- before --------------------------------------------------------------------------------------------------------
+
+  void keep_old() {
+    ranges_.reserve(dirty_.size());
+    for (std::uint32_t i = 0; i < dirty_.size(); ++i) {
+      Master& master = complex_[dirty_[i]];
+      OldRange range{old_.size(), 0, {}};
+      for (const TetId child : complex_.children(master)) {
+        old_.add(mesh_, child);
+        for (const Link link : mesh_.links(child)) {
+          result_.closed_sides += link.is_boundary() && link.tag() == settings_.tag ? 1U : 0U;
+        }
+      }
+      range.last = old_.size();
+      for (unsigned s = 0; s < 4; ++s) {
+        if (master.behind[s] == Master::kNone) range.outside[s] = complex_.outside(mesh_, master, s);
+      }
+      ranges_.push_back(range);
+      master.entry = i;
+      master.is_pinched = false;
+    }
+  }
+  /// What a dirty master was made of; null for others.
+  [[nodiscard]] const OldRange* range_of(std::uint32_t master) const {
+    return complex_[master].is_dirty ? &ranges_[complex_[master].entry] : nullptr;
+  }
+
+  // --- vertices ------------------------------------------------------------------------------------------------------
+
+  void make_vertices() {
+    for (const std::uint32_t index : dirty_) {
+      Master& master = complex_[index];
+      for (unsigned e = 0; e < 6; ++e) update_split_point(index, e);
+      for (const std::uint32_t point : master.points) {
+        if (point != Master::kNone) update_front_point(complex_.point(point));
+      }
+      if (divider_.is_cone(master)) {
+        update_middle(index);
+      } else if (master.middle.is_valid()) {
+        retire(master.middle);
+        master.middle = {};
+      }
+    }
+  }
+  void retire(VertexId vertex) { complex_.retire(vertex); }
+  void update_split_point(std::uint32_t master, unsigned e) {
+    ClosedEdge& edge = complex_.edges()[complex_[master].edges[e]];
+    if (!needs_split(complex_[master], e)) {
+      if (edge.split.is_valid()) {
+        retire(edge.split);
+        edge.split = {};
+        edge.halves = {};
+      }
+      return;
+    }
+    if (edge.split.is_valid()) return;
+    const bool is_whole = !complex_.has_copies(edge.a) && !complex_.has_copies(edge.b);
+    edge.split = is_whole ? transaction_.add_vertex_on_edge(edge.a, edge.b, edge.t)
+                          : add_vertex_at(transaction_, edge.position, place_of(edge.position, {master, master}));
+    const unsigned at_front = mesh_.shape_of(edge.a) & mesh_.shape_of(edge.b) & shape::kFront;
+    if (at_front != 0) transaction_.set_shape(edge.split, shape::kFront);
+  }
+  void update_front_point(FrontPoint& point) {
+    if (point.vertex.is_valid() && mesh_.rest(point.vertex) == point.position) return;
+    if (point.vertex.is_valid()) retire(point.vertex);
+    point.vertex = add_vertex_at(transaction_, point.position, place_of(point.position, point.masters));
+  }
+  void update_middle(std::uint32_t index) {
+    Master& master = complex_[index];
+    const Vec3 place = divider_.middle_of(master);
+    if (master.middle.is_valid() && mesh_.rest(master.middle) == place) return;
+    if (master.middle.is_valid()) retire(master.middle);
+    master.middle = add_vertex_at(transaction_, place, place_of(place, {index, index}));
+  }
+  /// Where a rest point stood in the old children of one or the other master.
+  [[nodiscard]] MaterialPlace place_of(const Vec3& rest, const std::array<std::uint32_t, 2>& masters) const {
+    MaterialPlace best;
+    for (const std::uint32_t master : masters) {
+      const OldRange* range = master == Master::kNone ? nullptr : range_of(master);
+      if (range == nullptr) continue;
+      const MaterialPlace place = old_.place_in(old_.holding(rest, range->first, range->last), rest);
+      if (place.inside > best.inside) best = place;
+    }
+    return best;
+  }
+
+  // --- children ------------------------------------------------------------------------------------------------------
+
+  [[nodiscard]] VertexId vertex_of(const Master& master, std::uint8_t code) const {
+    if (code < SplitTemplate::kFirstSplit) return master.vertices[code];
+    if (code < SplitTemplate::kFirstPoint) {
+      return complex_.edges()[master.edges[code - SplitTemplate::kFirstSplit]].split;
+    }
+    if (code < SplitTemplate::kMiddle) return complex_.point(master.points[code - SplitTemplate::kFirstPoint]).vertex;
+    return master.middle;
+  }
+  void make_children(std::uint32_t i) {
+    const std::uint32_t index = dirty_[i];
+    const Master& master = complex_[index];
+    const SplitTemplate& split = divider_.find(master);
+    complex_[index].is_kept = is_divided_so(master, split);
+    if (master.is_kept) {
+      for (std::uint32_t old = ranges_[i].first; old < ranges_[i].last; ++old) note_old(old_.id(old), old);
+      return;
+    }
+    children_.clear();
+    for (const SplitTemplate::Child& child : split.children) {
+      TetVertices v;
+      Vec3 middle = Vec3::Zero();
+      for (unsigned c = 0; c < 4; ++c) {
+        v[c] = vertex_of(master, child[c]);
+        middle += 0.25 * mesh_.rest(v[c]);
+      }
+      const std::uint32_t old = old_.holding(middle, ranges_[i].first, ranges_[i].last);
+      const TetId tet = transaction_.add_tet(v, old_.id(old));
+      for (const VertexId vertex : v) transaction_.set_tet_of(vertex, tet);
+      children_.push_back(tet);
+      note_old(tet, old);
+    }
+    complex_.set_children(index, split, children_);
+  }
+
+  void note_old(TetId tet, std::uint32_t old) {
+    owner_.old_of_.ensure(std::size_t{tet.value} + 1);
+    owner_.old_of_[tet.value] = old;
+  }
+  /// Whether a master's children are those of a template already, down to the vertices.
+  [[nodiscard]] bool is_divided_so(const Master& master, const SplitTemplate& split) const {
+    if (master.split != &split) return false;
+    const auto children = complex_.children(master);
+    for (std::size_t k = 0; k < children.size(); ++k) {
+      for (unsigned c = 0; c < 4; ++c) {
+        if (complex_.closed(mesh_.vertices(children[k])[c]) != vertex_of(master, split.children[k][c])) return false;
+      }
+    }
+    return true;
+  }
+  void remove_old() {
+    for (std::uint32_t i = 0; i < dirty_.size(); ++i) {
+      if (complex_[dirty_[i]].is_kept) continue;
+      for (std::uint32_t k = ranges_[i].first; k < ranges_[i].last; ++k) transaction_.remove_tet(old_.id(k));
+    }
+  }
+
+  // --- links ---------------------------------------------------------------------------------------------------------
+
+  void link(std::uint32_t i) {
+    link_inner(dirty_[i]);
+    for (unsigned s = 0; s < 4; ++s) {
+      const std::uint32_t behind = complex_[dirty_[i]].behind[s];
+      if (behind == Master::kNone) {
+        link_outside(dirty_[i], s, ranges_[i].outside[s]);
+      } else if (!complex_[behind].is_dirty || i < complex_[behind].entry) {
+        link_masters(dirty_[i], s, behind);
+      }
+    }
+  }
+  void link_inner(std::uint32_t index) {
+    const Master& master = complex_[index];
+    const SplitTemplate& split = *master.split;
+    if (split.inner.empty()) return;
+    const bool is_cone = divider_.is_cone(master);
+    const IncisionLines lines(master);
+    for (const auto& [a, b] : split.inner) {
+      const auto &first = split.children[a / 4U], &second = split.children[b / 4U];
+      const bool is_incision = is_cone ? lies_on_line(lines, first, a & 3U)
+                                       : colour_of_child(first, master) != colour_of_child(second, master);
+      meet(complex_.facet(master, a), complex_.facet(master, b), is_incision);
+    }
+  }
+  /// Whether a face of a cone stands on a line of the incision.
+  [[nodiscard]] static bool lies_on_line(const IncisionLines& lines, const SplitTemplate::Child& child, unsigned side) {
+    std::array<std::uint8_t, 2> foot{};
+    unsigned count = 0;
+    for (const unsigned c : kSideCorners[side]) {
+      if (child[c] != SplitTemplate::kMiddle) foot[count++] = child[c];
+    }
+    return lines.contains(foot[0], foot[1]);
+  }
+  void meet(Side a, Side b, bool is_incision) {
+    set_link(a, is_incision ? Link::boundary(settings_.tag) : Link(b));
+    set_link(b, is_incision ? Link::boundary(settings_.tag) : Link(a));
+    if (is_incision) incision_.push_back({a, b});
+  }
+  void set_link(Side side, Link link) {
+    if (mesh_.link(side) != link) transaction_.set_link(side, link);
+  }
+  void link_outside(std::uint32_t index, unsigned side, Link outside) {
+    const Master& master = complex_[index];
+    for (const auto child_side : master.split->outer[side]) {
+      const Side facet = complex_.facet(master, child_side);
+      if (outside.is_boundary()) {
+        set_link(facet, outside);
+        note_surface(facet, outside.tag() == 0 ? shape::kSkin : shape::kWall);
+      } else {
+        set_link(facet, outside);
+        set_link(outside.side(), Link(facet));
+      }
+    }
+  }
+  /// The vertices of a boundary side lie on its surface.
+  void note_surface(Side side, std::uint8_t bit) {
+    for (const VertexId v : mesh_.vertices(side)) {
+      if ((mesh_.shape_of(v) & bit) == 0) {
+        transaction_.set_shape(v, static_cast<std::uint8_t>(mesh_.shape_of(v) | bit));
+      }
+    }
+  }
+  void link_masters(std::uint32_t index, unsigned side, std::uint32_t behind) {
+    const Master &master = complex_[index], &other = complex_[behind];
+    const auto& sides = other.behind;
+    const auto other_side = static_cast<unsigned>(std::find(sides.begin(), sides.end(), index) - sides.begin());
+    const auto &outer = master.split->outer[side], &facing = other.split->outer[other_side];
+    const bool is_incision = outer.size() == 1 && lies_across(master, side, other, other_side);
+    for (const auto a : outer) {
+      for (const auto b : facing) {
+        const Side here = complex_.facet(master, a), there = complex_.facet(other, b);
+        if (outer.size() == 1 || is_same_face(mesh_, complex_, here, there)) meet(here, there, is_incision);
+      }
+    }
+  }
+  /// Whether an undivided face lies on the sheet: three ON vertices, and the two masters on opposite sides.
+  [[nodiscard]] bool lies_across(const Master& master, unsigned side, const Master& other, unsigned other_side) const {
+    const unsigned face = 15U & ~(1U << side), other_face = 15U & ~(1U << other_side);
+    if ((master.on & face) != face || (other.on & other_face) != other_face || has_odd_face(master.flagged) ||
+        has_odd_face(other.flagged)) {
+      return false;
+    }
+    const VertexId common = master.vertices[side == 0 ? 1 : 0];
+    return is_beyond(common, master, side) != is_beyond(common, other, other_side);
+  }
+  /// Whether the sheet passes between an ON vertex and the inside of a master that has it, seen over one of its sides.
+  [[nodiscard]] bool is_beyond(VertexId from, const Master& master, unsigned side) const {
+    if (((unsigned{master.on} >> side) & 1U) != 0) {  // all four vertices coincide with the sheet: ask for the middle
+      Vec3 middle = Vec3::Zero();
+      for (const VertexId v : master.vertices) middle += 0.25 * mesh_.rest(v);
+      const std::uint64_t key = 2 * kFirstBladeKey + complex_.children(master)[0].value;
+      return crosses(sheet_, {mesh_.rest(from), from.value}, {middle, key});
+    }
+    const auto corner = static_cast<unsigned>(std::find(master.vertices.begin(), master.vertices.end(), from) -
+                                              master.vertices.begin());
+    return ((unsigned{master.flagged} >> kEdgeOfCorners[corner][side]) & 1U) != 0;
+  }
+
+  // --- separation ----------------------------------------------------------------------------------------------------
+
+  void keep_crumbs() {
+    if (!settings_.keeps_crumbs) return;
+    const CrumbLimit limit = [&](TetId tet) {
+      const std::uint32_t index = complex_.find(tet);
+      if (index == Master::kNone) return 0.0;
+      double sum = 0;
+      for (const std::uint32_t e : complex_[index].edges) {
+        sum += (mesh_.rest(complex_.edges()[e].b) - mesh_.rest(complex_.edges()[e].a)).norm();
+      }
+      return crumb_limit(sum / 6.0);
+    };
+    dropped_.clear();
+    result_.crumbs_kept += incise::keep_crumbs(mesh_, limit, incision_, dropped_);
+    for (const IncisionFace& face : dropped_) close(face);
+  }
+  /// Leaves the material joined at an incision face.
+  void close(const IncisionFace& face) { transaction_.join(face.a, face.b); }
+  void move_on_vertices(const std::vector<OnVertex>& on) {
+    for (const OnVertex& vertex : on) {
+      if (vertex.distance <= kCoincident * vertex.spacing) continue;
+      gather(complex_.star(mesh_, vertex.master, vertex.vertex), vertex.vertex);
+      star_tets_.clear();
+      for (const StarTet& tet : star_) star_tets_.push_back(tet.tet);
+      const auto landing = find_landing(mesh_, sheet_, settings_.snap, vertex, complex_, star_tets_);
+      if (!landing) {
+        ++result_.bent_vertices;
+        continue;
+      }
+      const MaterialPlace place = home_place(vertex.vertex, *landing);
+      transaction_.move(vertex.vertex, *landing, place.basis, place.weights);
+    }
+  }
+  /// A rest point in the coordinates of the new tet around a vertex that holds it best, on the side where it stood.
+  [[nodiscard]] MaterialPlace home_place(VertexId vertex, const Vec3& rest) const {
+    MaterialPlace best;
+    for (const StarTet& tet : star_) {
+      if (!was_home(tet, vertex)) continue;
+      const MaterialPlace place = incise::place_in(mesh_, tet.tet, rest);
+      if (place.inside > best.inside) best = place;
+      if (best.inside >= 0) break;
+    }
+    return best;
+  }
+  /// Whether the material of a new tet had the vertex before.
+  [[nodiscard]] bool was_home(const StarTet& tet, VertexId vertex) const {
+    if (tet.old == kInvalidIndex) return false;
+    const TetVertices& corners = old_.vertices(tet.old);
+    return std::find(corners.begin(), corners.end(), vertex) != corners.end();
+  }
+  /// The live tets of some masters around a closed vertex, into `star_`.
+  template <class Masters>
+  void gather(const Masters& masters, VertexId vertex) {
+    star_.clear();
+    for (const std::uint32_t index : masters) {
+      for (const TetId tet : complex_.children(complex_[index])) {
+        const unsigned corner = complex_.closed_corner(mesh_, tet, vertex);
+        if (corner == 4) continue;
+        const bool is_dirty = complex_[index].is_dirty;
+        const std::uint32_t old = is_dirty ? owner_.old_of_[tet.value] : kInvalidIndex;
+        star_.push_back({tet, corner, is_dirty && !complex_[index].is_kept, old, 0});
+      }
+    }
+  }
+  [[nodiscard]] bool is_first(VertexId vertex) {
+    owner_.visited_.ensure(std::size_t{vertex.value} + 1);
+    if (owner_.visited_[vertex.value] == owner_.round_) return false;
+    owner_.visited_[vertex.value] = owner_.round_;
+    return true;
+  }
+  /// Every vertex of the cut around the dirty masters gets one copy per part of its star.
+  void separate() {
+    ++owner_.round_;
+    for (const std::uint32_t index : dirty_) {
+      if (!complex_[index].is_divided() && complex_[index].on == 0) continue;
+      for (unsigned c = 0; c < 4; ++c) {
+        if (((unsigned{complex_[index].on} >> c) & 1U) != 0) divide_corner(index, complex_[index].vertices[c]);
+      }
+      for (unsigned e = 0; e < 6; ++e) {
+        if (complex_.edges()[complex_[index].edges[e]].split.is_valid()) divide_split_point(index, e);
+      }
+      for (const std::uint32_t point : complex_[index].points) {
+        if (point != Master::kNone) divide_front_point(complex_.point(point));
+      }
+      if (complex_[index].middle.is_valid()) divide_middle(index);
+    }
+  }
+  void divide(VertexId vertex, const StarParts::Home& home, bool makes_twins) {
+    result_.copied_vertices +=
+        owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, {settings_.tag, makes_twins});
+  }
+  void divide_corner(std::uint32_t master, VertexId vertex) {
+    if (!is_first(vertex)) return;
+    gather(complex_.star(mesh_, master, vertex), vertex);
+    divide(
+        vertex, [&](std::span<const StarTet> part) { return home_of_corner(vertex, part); }, false);
+  }
+  /// The part in whose material the vertex stood keeps it.
+  [[nodiscard]] VertexId home_of_corner(VertexId vertex, std::span<const StarTet> part) const {
+    const bool is_home = std::any_of(part.begin(), part.end(), [&](const StarTet& t) { return was_home(t, vertex); });
+    return is_home ? vertex : VertexId();
+  }
+  void divide_split_point(std::uint32_t master, unsigned e) {
+    const std::uint32_t at = complex_[master].edges[e];
+    const VertexId vertex = complex_.edges()[at].split;
+    if (!is_first(vertex)) return;
+    ring_.clear();
+    complex_.for_each_around(at, [&](std::uint32_t m) { ring_.push_back(m); });
+    gather(ring_, vertex);
+    const auto half_of = [&](std::span<const StarTet> part) { return half_at(complex_.edges()[at], part); };
+    divide(
+        vertex,
+        [&](std::span<const StarTet> part) {
+          const unsigned half = half_of(part);
+          return half < 2 ? complex_.edges()[at].halves[half] : VertexId();
+        },
+        true);
+    note_halves(complex_.edges()[at]);
+  }
+  /// Which end of its edge a part of a split point's star contains: 0 for a, 1 for b, 2 for both or neither.
+  [[nodiscard]] unsigned half_at(const ClosedEdge& edge, std::span<const StarTet> part) const {
+    bool has_a = false, has_b = false;
+    for (const StarTet& tet : part) {
+      has_a |= complex_.closed_corner(mesh_, tet.tet, edge.a) < 4;
+      has_b |= complex_.closed_corner(mesh_, tet.tet, edge.b) < 4;
+    }
+    return has_a == has_b ? 2 : (has_a ? 0 : 1);
+  }
+  void note_halves(ClosedEdge& edge) {
+    edge.halves = {};
+    for (const StarTet& tet : star_) {
+      for (const unsigned half : {0U, 1U}) {
+        if (complex_.closed_corner(mesh_, tet.tet, half == 0 ? edge.a : edge.b) < 4) {
+          edge.halves[half] = mesh_.vertices(tet.tet)[tet.corner];
+        }
+      }
+    }
+  }
+  void divide_front_point(const FrontPoint& point) {
+    if (!is_first(point.vertex)) return;
+    ring_.clear();
+    for (const std::uint32_t master : point.masters) {
+      if (master != Master::kNone) ring_.push_back(master);
+    }
+    gather(ring_, point.vertex);
+    divide(
+        point.vertex, [](std::span<const StarTet>) { return VertexId(); }, false);
+  }
+  void divide_middle(std::uint32_t master) {
+    if (!is_first(complex_[master].middle)) return;
+    ring_.assign(1, master);
+    gather(ring_, complex_[master].middle);
+    divide(
+        complex_[master].middle, [](std::span<const StarTet>) { return VertexId(); }, false);
+  }
+
+  // --- after ---------------------------------------------------------------------------------------------------------
+
+  /// One edge of one side of an incision face, as it stands now.
+  struct WallEdge {
+    VertexId a, b;
+    Side side;
+    std::uint32_t face;
+    bool operator<(const WallEdge& o) const { return a != o.a ? a < o.a : (b != o.b ? b < o.b : side < o.side); }
+  };
+  /// Closes faces beside edges along which two fans of tets touch: the incision leaves them out until the blade has
+  /// passed. Returns whether there were any.
+  bool close_pinched_faces() {
+    if (!settings_.closes_pinched) return false;
+    std::vector<bool> is_closed(incision_.size(), false);
+    bool has_closed = false;
+    const std::vector<WallEdge> edges = wall_edges();
+    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+      while (j < edges.size() && edges[j].a == edges[i].a && edges[j].b == edges[i].b) ++j;
+      if (j - i < 2 || (j - i == 2 && are_one_fan(edges[i], edges[i + 1]))) continue;
+      is_closed[edges[i].face] = true;
+      has_closed = true;
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < incision_.size(); ++i) {
+      if (is_closed[i]) {
+        close(incision_[i]);
+        for (const Side side : {incision_[i].a, incision_[i].b}) complex_[complex_.find(side.tet())].is_pinched = true;
+      } else {
+        incision_[kept++] = incision_[i];
+      }
+    }
+    incision_.resize(kept);
+    return has_closed;
+  }
+  [[nodiscard]] std::vector<WallEdge> wall_edges() const {
+    std::vector<WallEdge> edges;
+    for (std::uint32_t f = 0; f < incision_.size(); ++f) {
+      if (is_latent(incision_[f])) continue;
+      for (const Side side : {incision_[f].a, incision_[f].b}) {
+        const auto v = mesh_.vertices(side);
+        for (unsigned k = 0; k < 3; ++k) {
+          edges.push_back({std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3]), side, f});
+        }
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+  }
+  /// Whether two wall sides are the two ends of one fan of tets around an edge.
+  [[nodiscard]] bool are_one_fan(const WallEdge& first, const WallEdge& second) const {
+    bool is_one = false;
+    walk_edge_ring(
+        mesh_, first.a, first.b, first.side.tet(), [](Side) { return false; },
+        [&](TetId tet) { is_one |= tet == second.side.tet(); });
+    return is_one;
+  }
+  [[nodiscard]] bool is_latent(const IncisionFace& face) const {
+    const auto u = mesh_.vertices(face.a), v = mesh_.vertices(face.b);
+    return std::all_of(u.begin(), u.end(), [&](VertexId x) { return x == v[0] || x == v[1] || x == v[2]; });
+  }
+  void open_faces() {
+    std::size_t kept = 0;
+    for (const IncisionFace& face : incision_) {
+      if (is_latent(face)) {
+        close(face);
+        ++result_.latent_faces;
+      } else {
+        transaction_.open(face.a, face.b, settings_.tag);
+        for (const Side side : {face.a, face.b}) result_.opened_sides += is_dirty(side.tet()) ? 1U : 0U;
+        incision_[kept++] = face;
+      }
+    }
+    incision_.resize(kept);
+  }
+  [[nodiscard]] bool is_dirty(TetId tet) const {
+    const std::uint32_t master = complex_.find(tet);
+    return master != Master::kNone && complex_[master].is_dirty;
+  }
+  void bury_retired() {
+    for (const VertexId vertex : complex_.retired()) {
+      if (complex_.has_copies(vertex)) {
+        for (const VertexId copy : complex_.copies_of(vertex)) transaction_.remove_vertex(copy);
+        complex_.drop_copies(vertex);
+      }
+      transaction_.remove_vertex(vertex);
+    }
+    complex_.retired().clear();
+  }
+
+  Rebuild& owner_;
+  Transaction& transaction_;
+  const TetMesh& mesh_;
+  ClosedComplex& complex_;
+  const OwnSheet& sheet_;
+  std::vector<std::uint32_t>& dirty_;
+  const Settings& settings_;
+  Divider divider_;
+  OldChildren& old_;
+  std::vector<IncisionFace>& incision_;
+  std::vector<IncisionFace> dropped_;
+  std::vector<OldRange> ranges_;
+  std::vector<TetId> children_, star_tets_;
+  std::vector<StarTet> star_;
+  std::vector<std::uint32_t> ring_;
+  RebuildStatistics result_;
+};
+
+RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,
+                               const std::vector<OnVertex>& on, const Settings& settings) {
+  return Run(*this, transaction, complex, sheet, settings).run(on);
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cut/closed_complex.h"
+#include "cut/crumbs.h"
+#include "cut/division.h"
+#include "cut/old_children.h"
+#include "cut/snapping.h"
+#include "cut/star_parts.h"
+#include "incise/mesh/transaction.h"
+
+namespace incise::inline v0 {
+
+/// What a rebuild did.
+struct RebuildStatistics {
+  std::uint64_t opened_sides = 0, closed_sides = 0;  ///< of incision faces, made and unmade
+  std::uint64_t copied_vertices = 0;
+  std::uint64_t crumbs_kept = 0;
+  std::uint64_t latent_faces = 0;
+  std::uint64_t bent_vertices = 0;
+};
+
+/// Makes the children of masters anew and separates them along the cut.
+///
+/// The wound may stand open: vertices that stay keep their slots and positions; new ones start where the old children
+/// had their place, each on its own side of the cut. Everything else stays as it is: only the masters given change, and
+/// the corners of tets around them whose vertex came apart.
+/// Paper §2.2 to §2.4. Source of the cone for masters that the blade is still in: docs/internals.md (exact front).
+class Rebuild {
+ public:
+  struct Settings {
+    std::uint32_t tag = 1;
+    double snap = 0.2;
+    bool keeps_crumbs = true;
+    bool closes_pinched = true;  ///< leaves faces joined where two fans of tets would touch along an edge
+  };
+
+  explicit Rebuild(SplitTemplates& templates) : templates_(templates) {}
+
+  /// Rebuilds the dirty masters. `on`: the vertices that snapped in this step; their masters are dirty.
+  /// Cost: O(dirty masters).
+  RebuildStatistics run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,
+                        const std::vector<OnVertex>& on, const Settings& settings);
+
+  /// The incision faces that the last run opened.
+  [[nodiscard]] const std::vector<IncisionFace>& opened() const { return incision_; }
+
+ private:
+  class Run;
+
+  SplitTemplates& templates_;
+  OldChildren old_;
+  StarParts parts_;
+  std::vector<IncisionFace> incision_;
+  ZeroedArray<std::uint32_t> old_of_;   // by tet slot: the old child that holds the middle of a child
+  ZeroedArray<std::uint32_t> visited_;  // by vertex slot: the round that divided its star
+  std::uint32_t round_ = 0;
+};
+
+}  // namespace incise::inline v0

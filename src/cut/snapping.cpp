@@ -1,0 +1,464 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/snapping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cut/neighbourhood.h"
+#include "incise/geom/quality.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// How a neighbour is joined to the centre of a link.
+enum class Joint : std::uint8_t {
+  kPlain,    ///< by an edge that is not flagged
+  kFlagged,  ///< by a flagged edge
+  kClose,    ///< whichever: the neighbour is close to the sheet itself, and decides nothing
+};
+
+/// A vertex of a link, for a small union-find.
+struct LinkVertex {
+  VertexId vertex;
+  Joint joint;
+  std::uint32_t parent;
+};
+
+/// The mean distance of a vertex from its neighbours. `scratch` is overwritten.
+double mean_edge_length(const TetMesh& mesh, const ClosedComplex& complex, VertexId centre,
+                        std::span<const std::uint32_t> star, std::vector<VertexId>& scratch) {
+  scratch.clear();
+  double sum = 0;
+  for (const std::uint32_t master : star) {
+    for (const VertexId v : complex[master].vertices) {
+      if (v != centre && std::find(scratch.begin(), scratch.end(), v) == scratch.end()) {
+        scratch.push_back(v);
+        sum += (mesh.rest(v) - mesh.rest(centre)).norm();
+      }
+    }
+  }
+  return sum / static_cast<double>(scratch.size());
+}
+
+unsigned corner_of(const Master& master, VertexId vertex) {
+  return static_cast<unsigned>(std::find(master.vertices.begin(), master.vertices.end(), vertex) -
+                               master.vertices.begin());
+}
+
+/// The link of a vertex: its neighbours, joined where a tet of the star joins them.
+class LinkGraph {
+ public:
+  /// `is_close(VertexId)` tells which neighbours are close to the sheet.
+  template <class IsClose>
+  void build(const ClosedComplex& complex, VertexId centre, std::span<const std::uint32_t> star, IsClose&& is_close) {
+    vertices_.clear();
+    for (const std::uint32_t index : star) {
+      const Master& master = complex[index];
+      const unsigned c = corner_of(master, centre);
+      std::array<std::uint32_t, 3> joined{};
+      for (unsigned k = 0; k < 3; ++k) {
+        const unsigned other = kSideCorners[c][k];
+        const VertexId v = master.vertices[other];
+        const bool is_flagged = ((unsigned{master.flagged} >> kEdgeOfCorners[c][other]) & 1U) != 0;
+        joined[k] = find_or_add(v, is_close(v) ? Joint::kClose : (is_flagged ? Joint::kFlagged : Joint::kPlain));
+      }
+      for (unsigned k = 0; k < 3; ++k) {
+        const std::uint32_t a = joined[k], b = joined[(k + 1) % 3];
+        if (vertices_[a].joint == vertices_[b].joint) {
+          unite(a, b);
+        }
+      }
+    }
+  }
+  /// Whether the neighbours on either side of the sheet form at most one connected part each.
+  [[nodiscard]] bool has_two_parts_at_most() {
+    std::array<unsigned, 3> parts{};
+    for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
+      parts[static_cast<std::size_t>(vertices_[i].joint)] += root(i) == i ? 1U : 0U;
+    }
+    return parts[0] <= 1 && parts[1] <= 1;
+  }
+
+ private:
+  std::uint32_t find_or_add(VertexId vertex, Joint joint) {
+    for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
+      if (vertices_[i].vertex == vertex) {
+        return i;
+      }
+    }
+    const auto index = static_cast<std::uint32_t>(vertices_.size());
+    vertices_.push_back({vertex, joint, index});
+    return index;
+  }
+  std::uint32_t root(std::uint32_t i) {
+    while (vertices_[i].parent != i) {
+      i = vertices_[i].parent = vertices_[vertices_[i].parent].parent;
+    }
+    return i;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) { vertices_[root(a)].parent = root(b); }
+
+  std::vector<LinkVertex> vertices_;
+};
+
+// --- where a vertex may go
+// ---------------------------------------------------------------------------------------------
+
+/// What holds a vertex in place: the planes of the surfaces and material borders that it lies on.
+struct Constraint {
+  unsigned planes = 0;                               ///< 0 free, 1 within a plane, 2 along a line, 3 not at all
+  Vec3 first = Vec3::Zero(), second = Vec3::Zero();  ///< unit normals
+};
+
+/// Normals this close are one plane; a vertex that slides in it changes no volume beyond rounding.
+constexpr double kFlat = 1e-9;
+
+void add_plane(Constraint& constraint, const Vec3& normal) {
+  const auto is_same = [&](const Vec3& n) { return n.cross(normal).squaredNorm() <= kFlat * kFlat; };
+  if (constraint.planes >= 1 && is_same(constraint.first)) return;
+  if (constraint.planes >= 2 && is_same(constraint.second)) return;
+  if (constraint.planes == 0) constraint.first = normal;
+  if (constraint.planes == 1) constraint.second = normal;
+  constraint.planes = std::min(3U, constraint.planes + 1);
+}
+
+/// The unit normal of a side of a master, or zero for one without area.
+Vec3 unit_normal_of(const TetMesh& mesh, const Master& master, unsigned side) {
+  const auto& k = kSideCorners[side];
+  const Vec3& a = mesh.rest(master.vertices[k[0]]);
+  const Vec3 normal = (mesh.rest(master.vertices[k[1]]) - a).cross(mesh.rest(master.vertices[k[2]]) - a);
+  const double length = normal.norm();
+  return length > 0 ? Vec3(normal / length) : Vec3(Vec3::Zero());
+}
+
+/// Calls `visit(normal, tag)` for the surfaces and material borders that a vertex lies on, side by side; the tag is
+/// that of a boundary side, 0 for a border.
+template <class Visit>
+void for_each_surface(const TetMesh& mesh, const ClosedComplex& complex, VertexId vertex,
+                      std::span<const std::uint32_t> star, Visit&& visit) {
+  for (const std::uint32_t index : star) {
+    const Master& master = complex[index];
+    for (unsigned s = 0; s < 4; ++s) {
+      if (master.vertices[s] == vertex) continue;
+      const std::uint32_t behind = master.behind[s];
+      if (behind == Master::kNone) {
+        const Link link = complex.outside(mesh, master, s);
+        if (link.is_boundary()) visit(unit_normal_of(mesh, master, s), link.tag());
+      } else if (mesh.has_regions() &&
+                 mesh.region(complex.children(complex[behind])[0]) != mesh.region(complex.children(master)[0])) {
+        visit(unit_normal_of(mesh, master, s), 0U);
+      }
+    }
+  }
+}
+
+Constraint constraint_of(const TetMesh& mesh, const ClosedComplex& complex, VertexId vertex,
+                         std::span<const std::uint32_t> star) {
+  Constraint constraint;
+  if ((mesh.shape_of(vertex) & shape::kPinched) != 0) {
+    constraint.planes = 3;
+  }
+  for_each_surface(mesh, complex, vertex, star, [&](const Vec3& normal, std::uint32_t) {
+    if (!normal.isZero(0.0) && constraint.planes < 3) add_plane(constraint, normal);
+  });
+  return constraint;
+}
+
+/// The direction in which a constrained vertex may approach a plane with the given normal; zero for none.
+Vec3 direction_towards(const Vec3& normal, const Constraint& constraint) {
+  switch (constraint.planes) {
+    case 0:
+      return normal;
+    case 1:
+      return normal - constraint.first.dot(normal) * constraint.first;
+    case 2:
+      return constraint.first.cross(constraint.second);
+    default:
+      return Vec3::Zero();
+  }
+}
+
+struct Landing {
+  Vec3 point;
+  double distance;  ///< left between the point and the sheet
+};
+
+bool has_landed(const Landing& landing, const OnVertex& on) {
+  return landing.distance <= 1e-9 * on.spacing;
+}
+
+/// Newton steps from the vertex to the sheet within its constraint; one step lands exactly on a plane.
+Landing land_on_sheet(const Vec3& start, const OnVertex& on, const OwnSheet& sheet, const Constraint& constraint) {
+  if (constraint.planes == 0) {
+    return {on.target, 0.0};
+  }
+  Landing landing{start, on.distance};
+  Vec3 target = on.target, normal = on.normal;
+  for (unsigned round = 0; round < 4 && landing.distance > 1e-13 * on.spacing; ++round) {
+    const Vec3 direction = direction_towards(normal, constraint);
+    const double slope = direction.dot(normal);
+    if (!(std::abs(slope) > 0.1)) {
+      break;
+    }
+    const Vec3 next = landing.point + (normal.dot(target - landing.point) / slope) * direction;
+    const SheetPlace hit = sheet.closest(next, on.spacing);
+    if (!hit.is_valid() || !(hit.distance2 < landing.distance * landing.distance)) {
+      break;
+    }
+    landing = {next, std::sqrt(hit.distance2)};
+    target = hit.point;
+    normal = hit.normal;
+  }
+  return landing;
+}
+
+// --- which vertices are close ----------------------------------------------------------------------------------------
+
+struct Candidate {
+  OnVertex on;
+  std::uint32_t master;  ///< one that has the vertex
+  bool is_coincident;
+  [[nodiscard]] double rank() const { return on.distance / on.spacing; }
+  bool operator<(const Candidate& other) const {
+    return rank() != other.rank() ? rank() < other.rank() : on.vertex < other.on.vertex;
+  }
+};
+
+/// Snapping reaches a little further along a wall that an earlier cut left at the same place: it may have bent to a
+/// vertex by `snap` of edges that have become shorter since.
+constexpr double kWallReach = 1.75;
+/// It reaches less far for vertices that cannot be moved onto the sheet, since the wall then bends to them.
+constexpr double kBentReach = 0.5;
+/// A wall whose normal has this cosine with the sheet's lies along it.
+constexpr double kAlong = 0.9;
+/// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
+bool is_on_same_part(const OnVertex& on, const Vec3& place, const Vec3& normal) {
+  return on.normal.dot(normal) > 0.3 && std::abs(on.normal.dot(place - on.target)) <= 0.3 * on.spacing;
+}
+
+/// Whether every flagged edge of a vertex crosses the part of the sheet that the vertex would snap to.
+bool crosses_one_part(const ClosedComplex& complex, const OnVertex& on, std::span<const std::uint32_t> star) {
+  for (const std::uint32_t index : star) {
+    const Master& master = complex[index];
+    const unsigned c = corner_of(master, on.vertex);
+    for (unsigned other = 0; other < 4; ++other) {
+      if (other == c) continue;
+      const ClosedEdge& edge = complex.edge(master, c, other);
+      if (edge.is_flagged() && !is_on_same_part(on, edge.position, edge.normal)) return false;
+    }
+  }
+  return true;
+}
+
+/// The vertices that snapping considers in one step.
+class CloseVertices {
+ public:
+  CloseVertices(const TetMesh& mesh, const OwnSheet& sheet, double snap, ClosedComplex& complex, SnapScratch& scratch)
+      : mesh_(mesh), sheet_(sheet), snap_(snap), complex_(complex), scratch_(scratch) {}
+  CloseVertices(const CloseVertices&) = delete;
+  CloseVertices& operator=(const CloseVertices&) = delete;
+  ~CloseVertices() {
+    for (const Noted& noted : noted_) scratch_.index_of_vertex[noted.vertex.value] = 0;
+  }
+
+  void find(std::span<const std::uint32_t> masters) {
+    scratch_.index_of_vertex.ensure(mesh_.vertex_slots());
+    for (const std::uint32_t index : masters) note(index);
+    for (std::uint32_t i = 0; i < noted_.size(); ++i) consider(i);
+  }
+  [[nodiscard]] const std::vector<Candidate>& all() const { return close_; }
+  [[nodiscard]] const Candidate* find(VertexId vertex) const {
+    const std::uint32_t index = scratch_.index_of_vertex[vertex.value];
+    return index == 0 || noted_[index - 1].close == 0 ? nullptr : &close_[noted_[index - 1].close - 1];
+  }
+
+ private:
+  struct Noted {
+    VertexId vertex;
+    std::uint32_t master;
+    double longest2 = 0;        ///< squared length of the longest edge near the sheet: a bound of the mean of all
+    bool has_odd_face = false;  ///< the front is still in its star
+    std::uint32_t close = 0;    ///< 1 + index into `close_`
+  };
+  void note(std::uint32_t index) {
+    const Master& master = complex_[index];
+    const bool is_open = has_odd_face(master.flagged);
+    for (unsigned c = 0; c < 4; ++c) {
+      const VertexId v = master.vertices[c];
+      if (complex_.flagged_at(v) == 0 || complex_.is_on(v)) continue;
+      std::uint32_t& at = scratch_.index_of_vertex[v.value];
+      if (at == 0) {
+        noted_.push_back({v, index});
+        at = static_cast<std::uint32_t>(noted_.size());
+      }
+      Noted& noted = noted_[at - 1];
+      noted.has_odd_face |= is_open;
+      for (unsigned other = 0; other < 4; ++other) {
+        noted.longest2 = std::max(noted.longest2, (mesh_.rest(master.vertices[other]) - mesh_.rest(v)).squaredNorm());
+      }
+    }
+  }
+  /// Most vertices are too far away whatever their mean edge, which takes a walk around the vertex: asked only then.
+  void consider(std::uint32_t i) {
+    const Noted noted = noted_[i];
+    const VertexId v = noted.vertex;
+    const double snap = noted.has_odd_face ? 0.0 : snap_;
+    const bool is_on_wall = (mesh_.shape_of(v) & shape::kWall) != 0;
+    const double share = std::max(kCoincident, is_on_wall ? kWallReach * snap : snap);
+    const SheetPlace hit = sheet_.closest(mesh_.rest(v), share * std::sqrt(noted.longest2));
+    if (!hit.is_valid()) return;
+    const std::vector<std::uint32_t>& star = complex_.star(mesh_, noted.master, v);
+    const double spacing = mean_edge_length(mesh_, complex_, v, star, neighbours_);
+    const OnVertex on{v, spacing, std::sqrt(hit.distance2), hit.point, hit.normal};
+    const bool is_coincident = on.distance <= kCoincident * spacing;
+    if (!is_coincident &&
+        (on.distance > share * spacing || on.distance > snap * reach_of(on, star) * spacing || is_at_front(star))) {
+      return;
+    }
+    close_.push_back({on, noted.master, is_coincident});
+    noted_[i].close = static_cast<std::uint32_t>(close_.size());
+  }
+  [[nodiscard]] bool is_at_front(std::span<const std::uint32_t> star) const {
+    return std::any_of(star.begin(), star.end(), [&](std::uint32_t m) { return has_odd_face(complex_[m].flagged); });
+  }
+  /// How far snapping reaches for a vertex, as a multiple of `snap`.
+  [[nodiscard]] double reach_of(const OnVertex& on, std::span<const std::uint32_t> star) const {
+    if (on.distance <= kBentReach * snap_ * on.spacing) {
+      return 1.0;
+    }
+    const Constraint constraint = constraint_of(mesh_, complex_, on.vertex, star);
+    if (has_landed(land_on_sheet(mesh_.rest(on.vertex), on, sheet_, constraint), on)) {
+      return 1.0;
+    }
+    return lies_along_wall(on, star) ? kWallReach : kBentReach;
+  }
+  [[nodiscard]] bool lies_along_wall(const OnVertex& on, std::span<const std::uint32_t> star) const {
+    bool lies_along = false;
+    for_each_surface(mesh_, complex_, on.vertex, star, [&](const Vec3& normal, std::uint32_t tag) {
+      lies_along |= tag != 0 && std::abs(normal.dot(on.normal)) > kAlong;
+    });
+    return lies_along;
+  }
+
+  const TetMesh& mesh_;
+  const OwnSheet& sheet_;
+  double snap_;
+  ClosedComplex& complex_;
+  SnapScratch& scratch_;
+  std::vector<VertexId> neighbours_;
+  std::vector<Noted> noted_;
+  std::vector<Candidate> close_;
+};
+
+/// Those of the close vertices that may take part in the cut, nearest first.
+std::vector<Candidate> find_candidates(const TetMesh& mesh, const CloseVertices& close, ClosedComplex& complex) {
+  std::vector<Candidate> candidates;
+  LinkGraph link;
+  for (const Candidate& candidate : close.all()) {
+    const VertexId v = candidate.on.vertex;
+    const auto is_close = [&](VertexId neighbour) {
+      if (complex.is_on(neighbour)) return true;
+      const Candidate* other = close.find(neighbour);
+      return other != nullptr && is_on_same_part(candidate.on, other->on.target, other->on.normal);
+    };
+    const auto is_sound = [&] {
+      const std::vector<std::uint32_t>& star = complex.star(mesh, candidate.master, v);
+      link.build(complex, v, star, is_close);
+      return (mesh.shape_of(v) & shape::kPinched) == 0 && link.has_two_parts_at_most() &&
+             crosses_one_part(complex, candidate.on, star);
+    };
+    if (candidate.is_coincident || is_sound()) {
+      candidates.push_back(candidate);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
+}
+
+/// Whether a fourth ON vertex would leave a tet without a side. A tet between two sheets, all of whose vertices
+/// coincide with one or the other, keeps its own.
+bool would_flatten_a_tet(const TetMesh& mesh, const Candidate& candidate, ClosedComplex& complex,
+                         const std::vector<VertexId>& coincident) {
+  for (const std::uint32_t index : complex.star(mesh, candidate.master, candidate.on.vertex)) {
+    unsigned on = 0;
+    bool are_coincident = candidate.is_coincident;
+    for (const VertexId v : complex[index].vertices) {
+      on += complex.is_on(v) ? 1U : 0U;
+      are_coincident &= v == candidate.on.vertex || std::binary_search(coincident.begin(), coincident.end(), v);
+    }
+    if (on == 3 && !are_coincident) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// --- moving ----------------------------------------------------------------------------------------------------------
+
+double volume6(const std::array<Vec3, 4>& p) {
+  return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+}
+
+/// A move changes the volume of a star by rounding alone, or not at all: overlapping input tets would not obey.
+constexpr double kVolumeTolerance = 1e-11;
+
+/// Whether every tet of the star keeps a quarter of its volume with the vertex moved, and the star all of it.
+bool keeps_volumes(const TetMesh& mesh, VertexId vertex, const Vec3& moved, std::span<const TetId> star) {
+  double before = 0, after = 0;
+  for (const TetId tet : star) {
+    std::array<Vec3, 4> p;
+    for (unsigned c = 0; c < 4; ++c) {
+      const VertexId v = mesh.vertices(tet)[c];
+      p[c] = v == vertex ? moved : mesh.rest(v);
+    }
+    const double volume = volume6(p), old_volume = mesh.rest_volume6(tet);
+    if (!(volume >= 0.25 * old_volume) || is_flat(p[0], p[1], p[2], p[3])) {
+      return false;
+    }
+    before += old_volume;
+    after += volume;
+  }
+  return std::abs(after - before) <= kVolumeTolerance * before;
+}
+
+}  // namespace
+
+std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sheet, double snap,
+                                         std::span<const std::uint32_t> masters, ClosedComplex& complex,
+                                         SnapScratch& scratch) {
+  CloseVertices close(mesh, sheet, snap, complex, scratch);
+  close.find(masters);
+  const std::vector<Candidate> candidates = find_candidates(mesh, close, complex);
+  for (const Candidate& candidate : candidates) {
+    if (candidate.is_coincident) scratch.coincident.push_back(candidate.on.vertex);
+  }
+  std::sort(scratch.coincident.begin(), scratch.coincident.end());
+  std::vector<OnVertex> chosen;
+  for (const Candidate& candidate : candidates) {
+    if (would_flatten_a_tet(mesh, candidate, complex, scratch.coincident)) continue;
+    const VertexId v = candidate.on.vertex;
+    complex.set_on(v);
+    for (const std::uint32_t index : complex.star(mesh, candidate.master, v)) {
+      Master& master = complex[index];
+      master.on = static_cast<std::uint8_t>(master.on | 1U << corner_of(master, v));
+    }
+    chosen.push_back(candidate.on);
+    chosen.back().master = candidate.master;
+  }
+  return chosen;
+}
+
+std::optional<Vec3> find_landing(const TetMesh& mesh, const OwnSheet& sheet, double snap, const OnVertex& on,
+                                 ClosedComplex& complex, std::span<const TetId> star) {
+  const Vec3 start = mesh.rest(on.vertex);
+  const Constraint constraint = constraint_of(mesh, complex, on.vertex, complex.star(mesh, on.master, on.vertex));
+  const Landing landing = land_on_sheet(start, on, sheet, constraint);
+  const bool is_short = (landing.point - start).norm() <= 1.5 * snap * on.spacing;
+  if (has_landed(landing, on) && is_short && keeps_volumes(mesh, on.vertex, landing.point, star)) {
+    return landing.point;
+  }
+  return std::nullopt;
+}
+
+}  // namespace incise::inline v0

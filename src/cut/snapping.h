@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cut/closed_complex.h"
+#include "cut/strip.h"
+
+namespace incise::inline v0 {
+
+/// A vertex that takes part in a cut, with its place on the sheet.
+struct OnVertex {
+  VertexId vertex;
+  double spacing = 0;          ///< mean length of its edges at rest
+  double distance = 0;         ///< to the sheet
+  Vec3 target = Vec3::Zero();  ///< nearest point of the sheet
+  Vec3 normal = Vec3::Zero();  ///< of the sheet there
+  std::uint32_t master = 0;    ///< one that has the vertex
+};
+
+/// Memory that snapping keeps between the steps of a stroke.
+struct SnapScratch {
+  ZeroedArray<std::uint32_t> index_of_vertex;  ///< all zero between steps
+  std::vector<VertexId> coincident;            ///< with the sheet, ascending
+};
+
+/// Chooses the vertices that take part in the cut themselves, instead of being split beside, among those of `masters`.
+///
+/// A vertex with a flagged edge, around which the blade has passed (no face of its star is pierced by the border of
+/// the sheet), is chosen where its distance to the sheet is at most `snap` times its mean edge length (half of that
+/// where it cannot be moved onto the sheet), nearest first, unless (i) a tet would get four such vertices, (ii) its
+/// flagged or unflagged neighbours are not connected in its link (two sheets pass near it, or a bubble), or its star
+/// was not face-connected at load. Vertices within `kCoincident` are chosen regardless of (ii), and at once.
+/// Marks them in the complex. Source: snapping before splitting as in Labelle & Shewchuk 2007 and level-set
+/// discretisation in Mmg; not in the paper, whose edge merging (§2.5) repairs afterwards what this avoids. Cost: one
+/// star per vertex close to the sheet.
+std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sheet, double snap,
+                                         std::span<const std::uint32_t> masters, ClosedComplex& complex,
+                                         SnapScratch& scratch);
+
+/// Where a chosen vertex may move onto the sheet while the body keeps its shape: an interior one freely, one on a flat
+/// part of a surface within it, one on a straight feature along it, others not at all (the wall then bends to them).
+/// A move that would leave a tet of `star` less than a quarter of its volume or flat, change the volume of the star, or
+/// be longer than 1.5·snap·spacing, is refused. `star`: the live tets around the vertex, on all sides of the cut.
+std::optional<Vec3> find_landing(const TetMesh& mesh, const OwnSheet& sheet, double snap, const OnVertex& on,
+                                 ClosedComplex& complex, std::span<const TetId> star);
+
+}  // namespace incise::inline v0

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/star_parts.h"
+
+#include <algorithm>
+
+namespace incise::inline v0 {
+
+void StarParts::find_parts(const TetMesh& mesh, std::vector<StarTet>& star) {
+  for (std::uint32_t i = 0; i < star.size(); ++i) {
+    index_of_tet_.ensure(std::size_t{star[i].tet.value} + 1);
+    index_of_tet_[star[i].tet.value] = i + 1;
+    star[i].part = 0;
+  }
+  sorted_.clear();
+  parts_.clear();
+  for (std::uint32_t seed = 0; seed < star.size(); ++seed) {
+    if (star[seed].part != 0) continue;
+    const auto part = static_cast<std::uint32_t>(parts_.size() + 1);
+    parts_.push_back({static_cast<std::uint32_t>(sorted_.size()), 0, {}});
+    queue_.assign(1, seed);
+    star[seed].part = part;
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+      const StarTet at = star[queue_[i]];
+      sorted_.push_back(at);
+      for (unsigned s = 0; s < 4; ++s) {
+        const Link link = mesh.links(at.tet)[s];
+        if (s == at.corner || link.is_boundary()) continue;
+        const std::size_t slot = link.side().tet().value;
+        const std::uint32_t next = slot < index_of_tet_.capacity() ? index_of_tet_[slot] : 0;
+        if (next != 0 && star[next - 1].part == 0) {
+          star[next - 1].part = part;
+          queue_.push_back(next - 1);
+        }
+      }
+    }
+    parts_.back().last = static_cast<std::uint32_t>(sorted_.size());
+  }
+  for (const StarTet& tet : star) index_of_tet_[tet.tet.value] = 0;
+}
+
+bool StarParts::is_taken(VertexId copy) const {
+  return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.copy == copy; });
+}
+
+void StarParts::keep_copies(const TetMesh& mesh, std::span<const StarTet> star) {
+  for (Part& part : parts_) {
+    for (std::uint32_t i = part.first; i < part.last && !part.copy.is_valid(); ++i) {
+      if (star[i].is_new) continue;
+      const VertexId copy = mesh.vertices(star[i].tet)[star[i].corner];
+      if (!is_taken(copy)) part.copy = copy;
+    }
+  }
+}
+
+/// A copy with the values that the part's side of the cut had there: from the old child that reaches least beyond
+/// itself.
+VertexId StarParts::make_copy(Transaction& transaction, const OldChildren& old, VertexId vertex,
+                              std::span<const StarTet> part) {
+  const TetMesh& mesh = transaction.mesh();
+  MaterialPlace best;
+  for (const StarTet& tet : part) {
+    if (tet.old == kInvalidIndex) continue;
+    const TetVertices& corners = old.vertices(tet.old);
+    if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) {
+      return transaction.copy_vertex(vertex);
+    }
+    const MaterialPlace place = old.place_in(tet.old, mesh.rest(vertex));
+    if (place.inside > best.inside) best = place;
+  }
+  if (best.inside <= -1e300) return transaction.copy_vertex(vertex);
+  const VertexId copy = add_vertex_at(transaction, mesh.rest(vertex), best);
+  transaction.set_origin(copy, mesh.origin(vertex));
+  return copy;
+}
+
+void StarParts::write_corners(Transaction& transaction, std::span<const StarTet> star) {
+  const TetMesh& mesh = transaction.mesh();
+  for (const Part& part : parts_) {
+    for (std::uint32_t i = part.first; i < part.last; ++i) {
+      if (mesh.vertices(star[i].tet)[star[i].corner] != part.copy) {
+        transaction.set_corner(star[i].tet, star[i].corner, part.copy);
+      }
+    }
+  }
+  for (const Part& part : parts_) {
+    const TetId known = mesh.tet_of(part.copy);
+    if (!known.is_valid() || !mesh.is_live(known) || mesh.corner_of(known, part.copy) == 4) {
+      transaction.set_tet_of(part.copy, star[part.first].tet);
+    }
+  }
+}
+
+void StarParts::set_shapes(Transaction& transaction, VertexId vertex, std::span<const StarTet> star,
+                           std::uint32_t tag) {
+  const TetMesh& mesh = transaction.mesh();
+  const unsigned kept = mesh.shape_of(vertex) & (shape::kPinched | (parts_.size() == 1 ? shape::kFront : 0U));
+  for (const Part& part : parts_) {
+    unsigned bits = kept;
+    for (std::uint32_t i = part.first; i < part.last; ++i) {
+      for (unsigned s = 0; s < 4; ++s) {
+        const Link link = mesh.links(star[i].tet)[s];
+        if (s == star[i].corner || !link.is_boundary()) continue;
+        bits |= link.tag() == 0 ? shape::kSkin : shape::kWall;
+        bits |= link.tag() == tag && parts_.size() == 1 ? shape::kFront : 0U;
+      }
+    }
+    if (bits != mesh.shape_of(part.copy)) transaction.set_shape(part.copy, static_cast<std::uint8_t>(bits));
+  }
+}
+
+void StarParts::bury(Transaction& transaction, ClosedComplex& complex, VertexId vertex) {
+  if (complex.has_copies(vertex)) {
+    for (const VertexId copy : complex.copies_of(vertex)) {
+      if (!is_taken(copy)) transaction.remove_vertex(copy);
+    }
+    complex.drop_copies(vertex);
+  }
+  for (const Part& part : parts_) {
+    if (part.copy != vertex) complex.add_copy(vertex, part.copy);
+  }
+}
+
+std::uint64_t StarParts::divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old,
+                                VertexId vertex, std::vector<StarTet>& star, const Home& home,
+                                const Settings& settings) {
+  const TetMesh& mesh = transaction.mesh();
+  find_parts(mesh, star);
+  std::swap(star, sorted_);
+  keep_copies(mesh, star);
+  const auto tets_of = [&](const Part& part) { return std::span(star).subspan(part.first, part.last - part.first); };
+  for (Part& part : parts_) {
+    if (part.copy.is_valid()) continue;
+    const VertexId copy = home(tets_of(part));
+    if (copy.is_valid() && !is_taken(copy)) part.copy = copy;
+  }
+  std::uint64_t made = 0;
+  for (Part& part : parts_) {
+    if (part.copy.is_valid()) continue;
+    if (!is_taken(vertex)) {
+      part.copy = vertex;
+      continue;
+    }
+    part.copy =
+        settings.makes_twins ? transaction.copy_vertex(vertex) : make_copy(transaction, old, vertex, tets_of(part));
+    ++made;
+  }
+  if (!parts_.empty() && !is_taken(vertex)) {  // the closed vertex itself lives on, in place of one of its copies
+    const VertexId kept = parts_.front().copy;
+    if (mesh.current(kept) != mesh.current(vertex)) {
+      transaction.move(vertex, mesh.rest(vertex), {kept, kept, kept, kept}, {1.0, 0.0, 0.0, 0.0});
+    }
+    parts_.front().copy = vertex;
+  }
+  write_corners(transaction, star);
+  set_shapes(transaction, vertex, star, settings.tag);
+  bury(transaction, complex, vertex);
+  return made;
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "cut/closed_complex.h"
+#include "cut/old_children.h"
+
+namespace incise::inline v0 {
+
+/// One live tet around a closed vertex.
+struct StarTet {
+  TetId tet;
+  std::uint32_t corner;
+  bool is_new = false;                ///< made in this rebuild
+  std::uint32_t old = kInvalidIndex;  ///< the old child that holds its middle, where its master is rebuilt
+  std::uint32_t part = 0;             ///< 1 + its part of the star; set by `divide`
+};
+
+/// The copies of the vertices of a cut: one per face-connected part of the star, as long as it stays cut.
+///
+/// Paper §2.3 and §2.4 (dividable and singleton vertices), in their common terminal state; docs/internals.md has the
+/// proof. Differs: works on a wound that is open, where copies that stay keep their slots and positions.
+class StarParts {
+ public:
+  /// Divides the star of `vertex`, gives every part its own copy, and writes the copies into the corners of the tets.
+  ///
+  /// A part that has tets from before keeps their copy. `home(tets of a part)` names the copy that a part made of new
+  /// tets alone should have, if any. Copies beyond those start as the old child of one of their tets has it.
+  /// Copies that no part needs any more die. Returns how many copies were made. Cost: O(star).
+  /// With `makes_twins` they start as `vertex` stands instead. The shape bits of each part are set from its surfaces; a
+  /// star that stays whole beside walls of `tag` is at the front.
+  using Home = std::function<VertexId(std::span<const StarTet>)>;
+  struct Settings {
+    std::uint32_t tag = 0;
+    bool makes_twins = false;
+  };
+  std::uint64_t divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old, VertexId vertex,
+                       std::vector<StarTet>& star, const Home& home, const Settings& settings);
+
+ private:
+  struct Part {
+    std::uint32_t first = 0, last = 0;  ///< into the star, sorted by part
+    VertexId copy;
+  };
+  void find_parts(const TetMesh& mesh, std::vector<StarTet>& star);
+  void keep_copies(const TetMesh& mesh, std::span<const StarTet> star);
+  [[nodiscard]] bool is_taken(VertexId copy) const;
+  VertexId make_copy(Transaction& transaction, const OldChildren& old, VertexId vertex, std::span<const StarTet> part);
+  void write_corners(Transaction& transaction, std::span<const StarTet> star);
+  void set_shapes(Transaction& transaction, VertexId vertex, std::span<const StarTet> star, std::uint32_t tag);
+  void bury(Transaction& transaction, ClosedComplex& complex, VertexId vertex);
+
+  std::vector<Part> parts_;
+  std::vector<std::uint32_t> queue_;
+  std::vector<StarTet> sorted_;
+  ZeroedArray<std::uint32_t> index_of_tet_;  // 1 + index into the star; all zero between calls
+};
+
+}  // namespace incise::inline v0

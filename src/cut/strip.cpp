@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/strip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace incise::inline v0 {
+
+namespace {
+
+using Keys = std::array<std::uint64_t, 2>;
+
+Keys keys_of(const SosPoint& a, const SosPoint& b) {
+  return {std::min(a.key, b.key), std::max(a.key, b.key)};
+}
+
+std::vector<std::uint32_t> all_triangles(const SweptSurface& surface) {
+  std::vector<std::uint32_t> all(surface.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+/// The edges that an odd number of triangles use, without `inner`; ascending by keys.
+std::vector<Strip::Segment> border_of(const SweptSurface& surface, const std::vector<Keys>& inner) {
+  std::vector<Strip::Segment> edges;
+  for (const SweptTriangle& triangle : surface.triangles) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const SosPoint& a = surface.points[triangle.points[k]];
+      const SosPoint& b = surface.points[triangle.points[(k + 1) % 3]];
+      edges.push_back(a.key < b.key ? Strip::Segment{a, b} : Strip::Segment{b, a});
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const auto& x, const auto& y) { return keys_of(x[0], x[1]) < keys_of(y[0], y[1]); });
+  std::vector<Strip::Segment> border;
+  for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+    const Keys keys = keys_of(edges[i][0], edges[i][1]);
+    while (j < edges.size() && keys_of(edges[j][0], edges[j][1]) == keys) ++j;
+    if ((j - i) % 2 == 1 && std::find(inner.begin(), inner.end(), keys) == inner.end()) {
+      border.push_back(edges[i]);
+    }
+  }
+  return border;
+}
+
+}  // namespace
+
+Strip::Strip(SweptSurface swept, const std::vector<Keys>& shared)
+    : surface(std::move(swept)),
+      sheet(surface, all_triangles(surface)),
+      border(border_of(surface, shared)),
+      inner(shared) {}
+
+void OwnSheet::clear() {
+  strips_.clear();
+  border_.clear();
+  first_border_ = last_border_ = 0;
+}
+
+const Strip& OwnSheet::add(std::unique_ptr<Strip> strip) {
+  const auto is_inner = [&](const Strip::Segment& segment) {
+    const Keys keys = keys_of(segment[0], segment[1]);
+    return std::find(strip->inner.begin(), strip->inner.end(), keys) != strip->inner.end();
+  };
+  const auto forget_inner = [&](std::size_t from, std::size_t to) {
+    const auto begin = border_.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto end = border_.begin() + static_cast<std::ptrdiff_t>(to);
+    border_.erase(std::remove_if(begin, end, is_inner), end);
+  };
+  forget_inner(last_border_, border_.size());
+  forget_inner(0, std::min(first_border_, border_.size()));
+  last_border_ = border_.size();
+  border_.insert(border_.end(), strip->border.begin(), strip->border.end());
+  if (strips_.empty()) first_border_ = border_.size();
+  strips_.push_back(std::move(strip));
+  return *strips_.back();
+}
+
+SheetPlace OwnSheet::closest(const Vec3& point, double max_distance) const {
+  SheetPlace best;
+  double reach = max_distance;
+  for (auto strip = strips_.rbegin(); strip != strips_.rend(); ++strip) {
+    const Sheet& sheet = (*strip)->sheet;
+    const Vec3 outside = (sheet.bounds().lo - point).cwiseMax(point - sheet.bounds().hi).cwiseMax(0.0);
+    if (outside.squaredNorm() > reach * reach) {
+      continue;
+    }
+    const auto hit = sheet.tree().closest(point, reach);
+    if (hit.is_valid() && hit.distance2 < best.distance2) {
+      best = {hit.point, sheet.normal(hit.triangle).normalized(), hit.distance2};
+      reach = std::sqrt(hit.distance2);
+    }
+  }
+  return best;
+}
+
+}  // namespace incise::inline v0

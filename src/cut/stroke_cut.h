@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cut/closed_complex.h"
+#include "cut/contact_walk.h"
+#include "cut/front_points.h"
+#include "cut/rebuild.h"
+#include "cut/snapping.h"
+#include "cut/strip.h"
+#include "cut/strip_crossing.h"
+#include "cut/surface_index.h"
+#include "incise/core/profile.h"
+#include "incise/cut/options.h"
+#include "incise/mesh/journal.h"
+#include "incise/mesh/star.h"
+
+namespace incise::inline v0 {
+
+/// The cut of one stroke, strip by strip: collision → subdivision → separation (paper, Figure 1, first four boxes).
+///
+/// After each strip the mesh is cut up to where the strip ends, inside elements; those that the blade is still in are
+/// made anew by the next one. Source: docs/internals.md (exact front). Differs from the paper, which cuts whole
+/// elements after the fact (its §4.5).
+class StrokeCut {
+ public:
+  explicit StrokeCut(CutOptions options) : options_(options), complex_(templates_), rebuild_(templates_) {}
+
+  /// Starts afresh: the next strip is the first of a sheet. Walls get `tag`.
+  void begin(std::uint32_t tag);
+  /// Finds the mesh's surface ahead of the first touch. Cost: O(tets) once, then O(edits since).
+  void prepare(const TetMesh& mesh, const Journal& journal) { surface_.follow(mesh, journal); }
+  /// Cuts along one more strip, and appends what changed to the journal: at most one step, and one for each round of
+  /// bisections of edges that the strip passes through twice. Adds to `statistics`.
+  /// Errors: kOutOfMemory where ids would run out; the last strip is then not cut.
+  /// Cost: O(tets that the strip meets).
+  Status advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> strip, const FrontRules& rules,
+                 CutStatistics& statistics, StageTimes& times);
+  /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
+  void finish(TetMesh& mesh, Journal& journal, CutStatistics& statistics, StageTimes& times);
+  /// Forgets a sheet whose cut was taken back.
+  void forget();
+
+  /// Whether a surface meets the body at rest. Cost: the cells of the surface index that it passes through.
+  [[nodiscard]] bool touches(const TetMesh& mesh, const SweptSurface& surface) const;
+  [[nodiscard]] const OwnSheet& sheet() const { return sheet_; }
+  [[nodiscard]] const ClosedComplex& complex() const { return complex_; }
+
+ private:
+  void collide(TetMesh& mesh, Journal& journal, const Strip& strip);
+  bool bisect(TetMesh& mesh, Journal& journal, const std::vector<BetweenCrossings>& between);
+  void flag(const TetMesh& mesh, const Strip& strip);
+  void refresh_around(std::uint32_t edge);
+  void place_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
+  void count_cut(CutStatistics& statistics);
+  void rebuild(TetMesh& mesh, Journal& journal, const std::vector<OnVertex>& on, bool closes_pinched,
+               CutStatistics& statistics);
+  void part_edges(TetMesh& mesh, Journal& journal, CutStatistics& statistics);
+  [[nodiscard]] double snap() const { return options_.snap; }
+
+  CutOptions options_;
+  SplitTemplates templates_;
+  ClosedComplex complex_;
+  OwnSheet sheet_;
+  SurfaceIndex surface_;
+  ContactWalk walk_;
+  StripCrossings crossings_;
+  SnapScratch snapping_;
+  Rebuild rebuild_;
+  StarWalker walker_;
+  const std::vector<StripCrossing>* crossed_ = nullptr;  // of the current strip
+  const std::vector<std::uint32_t>* met_ = nullptr;      // likewise
+  std::uint32_t tag_ = 1, step_ = 0;
+};
+
+}  // namespace incise::inline v0

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/surface_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "incise/mesh/bounds.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+constexpr double kMaxCells = 4e6;
+/// A cell is so many mean edges of the surface wide.
+constexpr double kCellEdges = 2.0;
+
+Box box_of(const TetMesh& mesh, Side side) {
+  const auto v = mesh.vertices(side);
+  return {mesh.rest(v[0]).cwiseMin(mesh.rest(v[1])).cwiseMin(mesh.rest(v[2])),
+          mesh.rest(v[0]).cwiseMax(mesh.rest(v[1])).cwiseMax(mesh.rest(v[2]))};
+}
+
+}  // namespace
+
+void SurfaceIndex::follow(const TetMesh& mesh, const Journal& journal) {
+  const bool has_grown_much = entries_.size() > 4 * built_entries_ + 100000;
+  if (!is_built_ || journal.rewinds() != rewinds_ || journal.position() < position_ || has_grown_much) {
+    build(mesh);
+  } else {
+    for (std::size_t i = position_; i < journal.position(); ++i) {
+      const Step& step = journal.step(i);
+      for (const ProducedTet& tet : step.produced) add(mesh, tet.id);
+      for (const OpenedFace& face : step.opened) {
+        add(mesh, face.a.tet());
+        add(mesh, face.b.tet());
+      }
+      for (const MovedVertex& vertex : step.moved)
+        add(mesh, mesh.is_live(vertex.id) ? mesh.tet_of(vertex.id) : TetId());
+    }
+  }
+  position_ = journal.position();
+  rewinds_ = journal.rewinds();
+}
+
+void SurfaceIndex::build(const TetMesh& mesh) {
+  std::vector<Side> sides;
+  double length = 0;
+  mesh.for_each_tet([&](TetId tet) {
+    for (unsigned s = 0; s < 4; ++s) {
+      if (!mesh.links(tet)[s].is_boundary()) continue;
+      sides.emplace_back(tet, s);
+      const auto v = mesh.vertices(sides.back());
+      length += (mesh.rest(v[0]) - mesh.rest(v[1])).norm();
+    }
+  });
+  is_built_ = true;
+  entries_.clear();
+  heads_.clear();
+  built_entries_ = sides.size();
+  if (sides.empty()) return;
+  bounds_ = rest_bounds(mesh);
+  const Vec3 extent = (bounds_.hi - bounds_.lo).cwiseMax(1e-12 * (bounds_.hi - bounds_.lo).norm());
+  double size = kCellEdges * length / static_cast<double>(sides.size());
+  size = std::max(size, 1e-6 * extent.maxCoeff());
+  const auto cells_at = [&](double s) { return (extent.x() / s + 1) * (extent.y() / s + 1) * (extent.z() / s + 1); };
+  while (cells_at(size) > kMaxCells) size *= 1.25;
+  inverse_size_ = 1.0 / size;
+  for (int k = 0; k < 3; ++k) {
+    counts_[static_cast<std::size_t>(k)] = std::max(1, static_cast<int>(extent[k] * inverse_size_) + 1);
+  }
+  heads_.assign(index_of(0, 0, counts_[2]), 0U);
+  for (const Side side : sides) insert(box_of(mesh, side), side);
+}
+
+void SurfaceIndex::add(const TetMesh& mesh, TetId tet) {
+  if (!tet.is_valid() || !mesh.is_live(tet)) return;
+  for (unsigned s = 0; s < 4; ++s) {
+    if (mesh.links(tet)[s].is_boundary()) insert(box_of(mesh, Side(tet, s)), Side(tet, s));
+  }
+}
+
+SurfaceIndex::Cell SurfaceIndex::cell_of(const Vec3& point) const {
+  Cell cell{};
+  for (int k = 0; k < 3; ++k) {
+    const double at = (point[k] - bounds_.lo[k]) * inverse_size_;
+    const int last = counts_[static_cast<std::size_t>(k)] - 1;
+    cell[static_cast<std::size_t>(k)] = at > 0 ? (at < last ? static_cast<int>(at) : last) : 0;
+  }
+  return cell;
+}
+
+bool SurfaceIndex::is_small(const Box& box) const {
+  if (heads_.empty()) return true;
+  const Cell lo = cell_of(box.lo), hi = cell_of(box.hi);
+  return (hi[0] - lo[0] + 1) * (hi[1] - lo[1] + 1) * (hi[2] - lo[2] + 1) <= 8;
+}
+
+void SurfaceIndex::insert(const Box& box, Side side) {
+  const Cell lo = cell_of(box.lo), hi = cell_of(box.hi);
+  for (int z = lo[2]; z <= hi[2]; ++z) {
+    for (int y = lo[1]; y <= hi[1]; ++y) {
+      for (int x = lo[0]; x <= hi[0]; ++x) {
+        std::uint32_t& head = heads_[index_of(x, y, z)];
+        entries_.push_back({side, head});
+        head = static_cast<std::uint32_t>(entries_.size());
+      }
+    }
+  }
+}
+
+}  // namespace incise::inline v0
