@@ -341,6 +341,19 @@ class PinchedEdges {
 
 }  // namespace
 
+void mark_wall(Transaction& transaction, const IncisionFace& face) {
+  const TetMesh& mesh = transaction.mesh();
+  const auto a = mesh.vertices(face.a), b = mesh.vertices(face.b);
+  const auto mark = [&](VertexId v, bool is_shared) {
+    const unsigned bits = mesh.shape_of(v) | shape::kWall | (is_shared ? shape::kFront : 0U);
+    if (bits != mesh.shape_of(v)) {
+      transaction.set_shape(v, static_cast<std::uint8_t>(bits));
+    }
+  };
+  for (const VertexId v : a) mark(v, std::find(b.begin(), b.end(), v) != b.end());
+  for (const VertexId v : b) mark(v, std::find(a.begin(), a.end(), v) != a.end());
+}
+
 Separation separate_as_paper(Transaction& transaction, std::vector<IncisionFace> incision, std::uint32_t tag,
                              StarWalker& walker) {
   return PaperSeparator(transaction, std::move(incision), tag, walker).run();

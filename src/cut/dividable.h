@@ -3,9 +3,23 @@
 
 #include <vector>
 
-#include "cut/separate.h"
+#include "cut/subdivide.h"
+#include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
+
+/// What separation did.
+struct Separation {
+  std::uint64_t opened_faces = 0;
+  std::uint64_t latent_faces = 0;  ///< incision faces none of whose vertices came apart: still joined
+  std::uint64_t copied_vertices = 0;
+  std::uint64_t pinched_edges = 0;       ///< bisected
+  std::uint64_t singleton_vertices = 0;  ///< divided by Algorithm 2 (paper profile)
+};
+
+/// Notes on the vertices of an opened face that they lie on a wall, and on those that both its sides still share that
+/// the cut ends there.
+void mark_wall(Transaction& transaction, const IncisionFace& face);
 
 /// What the incision faces around a vertex let one do with it (paper §2.3, Figure 4).
 enum class Dividability : std::uint8_t {

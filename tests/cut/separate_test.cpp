@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Separation along given faces: the paper's figures, the number of copies, and both algorithms side by side.
-#include "cut/separate.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "cut/contact.h"
 #include "cut/crossing.h"
 #include "cut/dividable.h"
+#include "cut/star_separation.h"
 #include "cut/strokes.h"
 #include "cut/support.h"
 
@@ -43,14 +42,6 @@ bool is_at(double x, double place) {
 }
 bool is_between(double x, double low, double high) {
   return x > low - 1e-9 && x < high + 1e-9;
-}
-
-Separation separate_stars(TetMesh& mesh, Faces faces) {
-  Transaction transaction(mesh);
-  SeparationScratch scratch;
-  const Separation result = separate(transaction, std::move(faces), {}, 1, scratch);
-  transaction.commit();
-  return result;
 }
 
 Separation separate_by_paper(TetMesh& mesh, Faces faces) {

@@ -9,10 +9,6 @@
 #include <set>
 
 #include "cut/bodies.h"
-#include "cut/crossing.h"
-#include "cut/separate.h"
-#include "cut/strokes.h"
-#include "cut/subdivide.h"
 #include "cut/support.h"
 
 namespace incise::test {

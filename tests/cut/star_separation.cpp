@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cut/separate.h"
+#include "cut/star_separation.h"
 
 #include <algorithm>
-#include <span>
+#include <array>
+#include <map>
 
+#include "cut/edge_table.h"
+#include "incise/mesh/star.h"
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise::test {
 
 namespace {
 
@@ -14,26 +17,16 @@ constexpr unsigned kMaxPinchRounds = 8;
 
 class Separator {
  public:
-  Separator(Transaction& transaction, std::vector<IncisionFace> incision, const std::vector<TetId>& new_tets,
-            std::uint32_t tag, SeparationScratch& scratch)
-      : transaction_(transaction),
-        mesh_(transaction.mesh()),
-        incision_(std::move(incision)),
-        new_tets_(new_tets),
-        tag_(tag),
-        scratch_(scratch) {}
-  Separator(const Separator&) = delete;
-  Separator& operator=(const Separator&) = delete;
-  ~Separator() { clear_marks(); }
+  Separator(Transaction& transaction, std::vector<IncisionFace> incision, std::uint32_t tag)
+      : transaction_(transaction), mesh_(transaction.mesh()), incision_(std::move(incision)), tag_(tag) {}
 
-  Separation run(const std::function<void()>& before_copies) {
+  Separation run() {
     for (unsigned round = 0; round <= kMaxPinchRounds; ++round) {
       find_copies();
       if (round == kMaxPinchRounds || !bisect_pinched_edges()) {
         break;
       }
     }
-    before_copies();
     apply_copies();
     open_faces();
     return result_;
@@ -50,15 +43,10 @@ class Separator {
     VertexId vertex;
     TetId tet;
   };
-  struct SeededVertex {
-    VertexId vertex;
-    std::uint32_t seeds;
-  };
 
   void find_copies() {
-    clear_marks();
-    scratch_.incision.ensure(mesh_.tet_slots());
-    scratch_.copies.ensure(mesh_.tet_slots());
+    is_incision_.assign(mesh_.tet_slots(), {});
+    copy_of_.assign(mesh_.tet_slots(), {});
     touched_.clear();
     parts_.clear();
     copies_ = 0;
@@ -67,82 +55,23 @@ class Separator {
       mark(face.b);
     }
     collect_seeds();
-    divide_stars();
+    for (const auto& [vertex, tets] : seeds_) divide_star(vertex, tets);
   }
-  void mark(Side side) {
-    std::uint8_t& bits = scratch_.incision[side.tet().value];
-    if (bits == 0) {
-      scratch_.marked.push_back(side.tet());
-    }
-    bits = static_cast<std::uint8_t>(bits | 1U << side.side());
-  }
-  [[nodiscard]] bool is_incision(Side side) const {
-    return ((unsigned{scratch_.incision[side.tet().value]} >> side.side()) & 1U) != 0;
-  }
-  void clear_marks() {
-    for (const TetId tet : scratch_.marked) scratch_.incision[tet.value] = 0;
-    for (const TetId tet : scratch_.reached) scratch_.copies[tet.value] = {};
-    scratch_.marked.clear();
-    scratch_.reached.clear();
-  }
-  /// Every vertex of the incision with every tet beside it; also split points at which tets meet without a face.
+  void mark(Side side) { is_incision_[side.tet().value][side.side()] = true; }
+  void unmark(Side side) { is_incision_[side.tet().value][side.side()] = false; }
+  [[nodiscard]] bool is_incision(Side side) const { return is_incision_[side.tet().value][side.side()]; }
+  /// Every vertex of the incision with every tet beside it.
   void collect_seeds() {
     seeds_.clear();
-    vertices_.clear();
-    scratch_.index_of_vertex.ensure(mesh_.vertex_slots());
     for (const IncisionFace& face : incision_) {
       for (const VertexId v : mesh_.vertices(face.a)) {
-        add_seed(v, face.a.tet());
-        add_seed(v, face.b.tet());
-      }
-    }
-    add_singleton_seeds();
-  }
-  void add_seed(VertexId v, TetId tet) {
-    std::uint32_t& index = scratch_.index_of_vertex[v.value];
-    if (index == 0) {
-      vertices_.push_back({v, 0});
-      index = static_cast<std::uint32_t>(vertices_.size());
-    }
-    ++vertices_[index - 1].seeds;
-    seeds_.push_back({v, tet});
-  }
-  /// Paper, Algorithm 2: a new vertex whose tets are more than can be reached from one of them is a singleton vertex.
-  /// Arises only where the input's tets touch along an edge without sharing a face.
-  void add_singleton_seeds() {
-    if (!mesh_.touched_itself_at_load()) {
-      return;
-    }
-    for (const TetId tet : new_tets_) {
-      if (!mesh_.is_live(tet)) {
-        continue;
-      }
-      for (const VertexId v : mesh_.vertices(tet)) {
-        if (is_new(v)) {
-          add_seed(v, tet);
-        }
+        seeds_[v].push_back(face.a.tet());
+        seeds_[v].push_back(face.b.tet());
       }
     }
   }
-  /// Sorts the seeds by vertex, in the order in which the vertices were met, and divides one star after the other.
-  void divide_stars() {
-    std::vector<std::uint32_t> next(vertices_.size() + 1, 0);
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      next[i + 1] = next[i] + vertices_[i].seeds;
-    }
-    std::vector<TetId> tets(seeds_.size());
-    for (const Corner& seed : seeds_) {
-      tets[next[scratch_.index_of_vertex[seed.vertex.value] - 1]++] = seed.tet;
-    }
-    for (std::size_t i = 0, begin = 0; i < vertices_.size(); begin = next[i++]) {
-      scratch_.index_of_vertex[vertices_[i].vertex.value] = 0;
-      divide_star(vertices_[i].vertex, {tets.data() + begin, tets.data() + next[i]});
-    }
-  }
-  [[nodiscard]] bool is_new(VertexId v) const { return !mesh_.origin(v).is_valid(); }
-
   /// One part per face-connected group of the star; the first keeps the vertex.
-  void divide_star(VertexId v, std::span<const TetId> seeds) {
+  void divide_star(VertexId v, const std::vector<TetId>& seeds) {
     const std::size_t first_part = parts_.size();
     for (const TetId seed : seeds) {
       if (copy_of(seed, v) == 0) {
@@ -173,10 +102,9 @@ class Separator {
         } else if (!is_incision(Side(tet, s))) {
           const TetId next = links[s].side().tet();
           const unsigned corner = mesh_.corner_of(next, v);
-          if (scratch_.copies[next.value][corner] == 0) {
+          if (copy_of_[next.value][corner] == 0) {
             assign(next, corner, v, copy);
             part_.push_back(next);
-            __builtin_prefetch(&mesh_.links(next));
           }
         }
       }
@@ -185,17 +113,11 @@ class Separator {
   }
   // A corner is stored as copy + 1, so that 0 means "not reached yet".
   void assign(TetId tet, unsigned corner, VertexId v, std::uint32_t copy) {
-    SeparationScratch::CornerCopies& copies = scratch_.copies[tet.value];
-    if ((copies[0] | copies[1] | copies[2] | copies[3]) == 0) {
-      scratch_.reached.push_back(tet);
-    }
-    copies[corner] = copy + 1;
-    if (copy != 0) {
-      touched_.push_back({v, tet});
-    }
+    copy_of_[tet.value][corner] = copy + 1;
+    if (copy != 0) touched_.push_back({v, tet});
   }
   [[nodiscard]] std::uint32_t copy_of(TetId tet, VertexId v) const {
-    return scratch_.copies[tet.value][mesh_.corner_of(tet, v)];
+    return copy_of_[tet.value][mesh_.corner_of(tet, v)];
   }
 
   // --- pinched edges -------------------------------------------------------------------------------------------------
@@ -221,14 +143,10 @@ class Separator {
     return std::all_of(v.begin(), v.end(),
                        [&](VertexId x) { return copy_of(face.a.tet(), x) == copy_of(face.b.tet(), x); });
   }
-  void unmark(Side side) {
-    std::uint8_t& bits = scratch_.incision[side.tet().value];
-    bits = static_cast<std::uint8_t>(bits & ~(1U << side.side()));
-  }
   /// Edges that need a look: kept by a face and not just the front inside the body, or in more than two incision faces,
   /// or in two and on a surface.
   void find_suspects(std::vector<std::array<VertexId, 2>>& suspects) {
-    scratch_.edges.clear();
+    edges_.clear();
     for (const IncisionFace& face : incision_) {
       if (is_latent(face)) {
         unmark(face.a);
@@ -238,12 +156,12 @@ class Separator {
       const auto v = mesh_.vertices(face.a);
       for (unsigned k = 0; k < 3; ++k) {
         const VertexId a = std::min(v[k], v[(k + 1) % 3]), b = std::max(v[k], v[(k + 1) % 3]);
-        CutEdge& edge = scratch_.edges[scratch_.edges.find_or_add(a, b)];
+        CutEdge& edge = edges_[edges_.find_or_add(a, b)];
         ++edge.crossings;
         edge.is_blocked |= keeps_edge(face, a, b);
       }
     }
-    for (const CutEdge& edge : scratch_.edges.edges()) {
+    for (const CutEdge& edge : edges_.edges()) {
       const bool is_on_surface = (mesh_.shape_of(edge.a) & mesh_.shape_of(edge.b)) != 0;
       const bool may_be_pinched = edge.is_blocked && (edge.crossings > 1 || is_on_surface);
       if (may_be_pinched || edge.crossings > 2 || (edge.crossings == 2 && is_on_surface)) {
@@ -364,7 +282,7 @@ class Separator {
     }
     for (const Corner& corner : touched_) {
       const unsigned c = mesh_.corner_of(corner.tet, corner.vertex);
-      transaction_.set_corner(corner.tet, c, copy_ids[scratch_.copies[corner.tet.value][c] - 1]);
+      transaction_.set_corner(corner.tet, c, copy_ids[copy_of_[corner.tet.value][c] - 1]);
     }
     result_.copied_vertices = copies_;
   }
@@ -387,11 +305,12 @@ class Separator {
   Transaction& transaction_;
   const TetMesh& mesh_;
   std::vector<IncisionFace> incision_;
-  const std::vector<TetId>& new_tets_;
   std::uint32_t tag_;
-  SeparationScratch& scratch_;
-  std::vector<Corner> touched_, seeds_;
-  std::vector<SeededVertex> vertices_;
+  std::vector<std::array<bool, 4>> is_incision_;       // by tet slot and side
+  std::vector<std::array<std::uint32_t, 4>> copy_of_;  // by tet slot: 1 + the copy that each corner gets; 0 not reached
+  std::map<VertexId, std::vector<TetId>> seeds_;
+  EdgeTable edges_;
+  std::vector<Corner> touched_;
   std::vector<TetId> part_;
   std::vector<Part> parts_;
   std::uint32_t copies_ = 0;
@@ -400,22 +319,11 @@ class Separator {
 
 }  // namespace
 
-void mark_wall(Transaction& transaction, const IncisionFace& face) {
-  const TetMesh& mesh = transaction.mesh();
-  const auto a = mesh.vertices(face.a), b = mesh.vertices(face.b);
-  const auto mark = [&](VertexId v, bool is_shared) {
-    const unsigned bits = mesh.shape_of(v) | shape::kWall | (is_shared ? shape::kFront : 0U);
-    if (bits != mesh.shape_of(v)) {
-      transaction.set_shape(v, static_cast<std::uint8_t>(bits));
-    }
-  };
-  for (const VertexId v : a) mark(v, std::find(b.begin(), b.end(), v) != b.end());
-  for (const VertexId v : b) mark(v, std::find(a.begin(), a.end(), v) != a.end());
+Separation separate_stars(TetMesh& mesh, std::vector<IncisionFace> incision, std::uint32_t tag) {
+  Transaction transaction(mesh);
+  const Separation result = Separator(transaction, std::move(incision), tag).run();
+  transaction.commit();
+  return result;
 }
 
-Separation separate(Transaction& transaction, std::vector<IncisionFace> incision, const std::vector<TetId>& new_tets,
-                    std::uint32_t tag, SeparationScratch& scratch, const std::function<void()>& before_copies) {
-  return Separator(transaction, std::move(incision), new_tets, tag, scratch).run(before_copies);
-}
-
-}  // namespace incise::inline v0
+}  // namespace incise::test
