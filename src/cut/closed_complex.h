@@ -61,6 +61,7 @@ struct Master {
   bool is_dirty = false;                  ///< its children must be made anew
   bool is_kept = false;                   ///< a rebuild found nothing to change about its children
   bool is_cut = false;                    ///< the blade has crossed an edge of it
+  bool has_latent_faces = false;                        ///< incision faces that nothing separates, left joined
   bool is_pinched = false;                ///< has incision faces that were left joined beside an edge
 
   [[nodiscard]] bool is_divided() const { return split->children.size() > 1; }

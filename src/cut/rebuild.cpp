@@ -155,7 +155,7 @@ class Rebuild::Run {
       }
       ranges_.push_back(range);
       master.entry = i;
-      master.is_pinched = false;
+      master.is_pinched = master.has_latent_faces = false;
     }
   }
   /// What a dirty master was made of; null for others.
@@ -453,6 +453,7 @@ class Rebuild::Run {
   }
   /// Every vertex of the cut around the dirty masters gets one copy per part of its star.
   void separate() {
+    surface_.clear();
     ++owner_.round_;
     for (const std::uint32_t index : dirty_) {
       if (!complex_[index].is_divided() && complex_[index].on == 0) continue;
@@ -471,6 +472,27 @@ class Rebuild::Run {
   void divide(VertexId vertex, const StarParts::Home& home, bool makes_twins) {
     result_.copied_vertices +=
         owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, {settings_.tag, makes_twins});
+    note_surface_around(vertex);
+  }
+  /// Notes the boundary sides around a vertex where two fans of tets might touch along an edge, or a face of the cut
+  /// that is not rebuilt might be separated no more: not at points of the cut inside the body.
+  void note_surface_around(VertexId vertex) {
+    bool is_plain = !complex_.is_on(vertex);
+    for (const StarTet& tet : star_) is_plain &= has_plain_sides(tet);
+    if (is_plain) return;
+    for (const StarTet& tet : star_) {
+      for (unsigned s = 0; s < 4; ++s) {
+        if (s != tet.corner && mesh_.links(tet.tet)[s].is_boundary()) surface_.emplace_back(tet.tet, s);
+      }
+    }
+  }
+  [[nodiscard]] bool has_plain_sides(const StarTet& tet) const {
+    bool is_plain = true;
+    for (unsigned s = 0; s < 4; ++s) {
+      const Link link = mesh_.links(tet.tet)[s];
+      if (s != tet.corner && link.is_boundary()) is_plain &= link.tag() == settings_.tag && tet.is_new;
+    }
+    return is_plain;
   }
   void divide_corner(std::uint32_t master, VertexId vertex) {
     if (!is_first(vertex)) return;
@@ -539,53 +561,86 @@ class Rebuild::Run {
 
   // --- after ---------------------------------------------------------------------------------------------------------
 
-  /// One edge of one side of an incision face, as it stands now.
+  /// One edge of a boundary side, as it stands now.
   struct WallEdge {
     VertexId a, b;
     Side side;
-    std::uint32_t face;
     bool operator<(const WallEdge& o) const { return a != o.a ? a < o.a : (b != o.b ? b < o.b : side < o.side); }
   };
   /// Closes faces beside edges along which two fans of tets touch: the incision leaves them out until the blade has
   /// passed. Returns whether there were any.
   bool close_pinched_faces() {
     if (!settings_.closes_pinched) return false;
-    std::vector<bool> is_closed(incision_.size(), false);
-    bool has_closed = false;
-    const std::vector<WallEdge> edges = wall_edges();
+    std::vector<Side> closed;
+    const std::vector<WallEdge> edges = surface_edges();
     for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
       while (j < edges.size() && edges[j].a == edges[i].a && edges[j].b == edges[i].b) ++j;
       if (j - i < 2 || (j - i == 2 && are_one_fan(edges[i], edges[i + 1]))) continue;
-      is_closed[edges[i].face] = true;
-      has_closed = true;
+      for (std::size_t k = i; k < j; ++k) closed.push_back(edges[k].side);
     }
+    if (closed.empty()) return false;
+    std::sort(closed.begin(), closed.end());
+    const auto is_closed = [&](Side side) { return std::binary_search(closed.begin(), closed.end(), side); };
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < incision_.size(); ++i) {
-      if (is_closed[i]) {
-        close(incision_[i]);
-        for (const Side side : {incision_[i].a, incision_[i].b}) complex_[complex_.find(side.tet())].is_pinched = true;
-      } else {
-        incision_[kept++] = incision_[i];
+    for (const IncisionFace& face : incision_) {
+      if (is_latent(face) || !(is_closed(face.a) || is_closed(face.b))) {
+        incision_[kept++] = face;
+        continue;
       }
+      close(face);
+      for (const Side side : {face.a, face.b}) complex_[complex_.find(side.tet())].is_pinched = true;
     }
+    const bool has_closed = kept < incision_.size();
     incision_.resize(kept);
     return has_closed;
   }
-  [[nodiscard]] std::vector<WallEdge> wall_edges() const {
+  /// The edges of the noted boundary sides whose vertices were both looked at in this round, or one of them.
+  [[nodiscard]] std::vector<WallEdge> surface_edges() {
+    std::sort(surface_.begin(), surface_.end());
+    surface_.erase(std::unique(surface_.begin(), surface_.end()), surface_.end());
     std::vector<WallEdge> edges;
-    for (std::uint32_t f = 0; f < incision_.size(); ++f) {
-      if (is_latent(incision_[f])) continue;
-      for (const Side side : {incision_[f].a, incision_[f].b}) {
-        const auto v = mesh_.vertices(side);
-        for (unsigned k = 0; k < 3; ++k) {
-          edges.push_back({std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3]), side, f});
-        }
+    for (const Side side : surface_) {
+      const auto v = mesh_.vertices(side);
+      for (unsigned k = 0; k < 3; ++k) {
+        const VertexId a = v[k], b = v[(k + 1) % 3];
+        if (is_visited(a) || is_visited(b)) edges.push_back({std::min(a, b), std::max(a, b), side});
       }
     }
     std::sort(edges.begin(), edges.end());
     return edges;
   }
-  /// Whether two wall sides are the two ends of one fan of tets around an edge.
+  [[nodiscard]] bool is_visited(VertexId vertex) const {
+    const VertexId closed = complex_.closed(vertex);
+    return closed.value < owner_.visited_.capacity() && owner_.visited_[closed.value] == owner_.round_;
+  }
+  /// Joins faces of the cut that are not rebuilt and that nothing separates any more.
+  void join_latent_walls() {
+    std::vector<std::pair<std::array<VertexId, 3>, Side>> walls;
+    for (const Side side : surface_) {
+      if (mesh_.link(side) != Link::boundary(settings_.tag)) continue;
+      auto v = mesh_.vertices(side);
+      std::sort(v.begin(), v.end());
+      walls.emplace_back(v, side);
+    }
+    std::sort(walls.begin(), walls.end());
+    for (std::size_t i = 0; i + 1 < walls.size(); ++i) {
+      if (walls[i].first != walls[i + 1].first) continue;
+      if (!is_opened_now(walls[i].second)) close_latent({walls[i].second, walls[i + 1].second});
+    }
+  }
+  [[nodiscard]] bool is_opened_now(Side side) const {
+    return std::any_of(incision_.begin(), incision_.end(),
+                       [&](const IncisionFace& face) { return face.a == side || face.b == side; });
+  }
+  void close_latent(const IncisionFace& face) {
+    close(face);
+    for (const Side side : {face.a, face.b}) {
+      const std::uint32_t master = complex_.find(side.tet());
+      if (master != Master::kNone) complex_[master].has_latent_faces = true;
+    }
+    ++result_.latent_faces;
+  }
+  /// Whether two boundary sides are the two ends of one fan of tets around an edge.
   [[nodiscard]] bool are_one_fan(const WallEdge& first, const WallEdge& second) const {
     bool is_one = false;
     walk_edge_ring(
@@ -601,8 +656,7 @@ class Rebuild::Run {
     std::size_t kept = 0;
     for (const IncisionFace& face : incision_) {
       if (is_latent(face)) {
-        close(face);
-        ++result_.latent_faces;
+        close_latent(face);
       } else {
         transaction_.open(face.a, face.b, settings_.tag);
         for (const Side side : {face.a, face.b}) result_.opened_sides += is_dirty(side.tet()) ? 1U : 0U;
@@ -610,6 +664,7 @@ class Rebuild::Run {
       }
     }
     incision_.resize(kept);
+    join_latent_walls();
   }
   [[nodiscard]] bool is_dirty(TetId tet) const {
     const std::uint32_t master = complex_.find(tet);
@@ -641,6 +696,7 @@ class Rebuild::Run {
   std::vector<TetId> children_, star_tets_;
   std::vector<StarTet> star_;
   std::vector<std::uint32_t> ring_;
+  std::vector<Side> surface_;  // boundary sides to be looked at
   RebuildStatistics result_;
 };
 

@@ -59,6 +59,9 @@ Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip
     return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
   }
   if (complex_.dirty().empty()) return {};
+  for (const std::uint32_t index : *met_) {
+    if (complex_[index].is_pinched || complex_[index].has_latent_faces) complex_.mark_dirty(index);
+  }
   const StageZone zone(times, Stage::kSubdivide);
   rebuild(mesh, journal, on, true, statistics);
   return {};
@@ -189,7 +192,7 @@ void StrokeCut::finish(TetMesh& mesh, Journal& journal, CutStatistics& statistic
   place_front_points(mesh, kFinalMargin, complex_);
   if (!complex_.dirty().empty()) rebuild(mesh, journal, {}, true, statistics);
   for (std::uint32_t i = 0; i < complex_.size(); ++i) {
-    if (complex_[i].split != nullptr && complex_[i].is_pinched) complex_.mark_dirty(i);
+    if (complex_[i].split != nullptr && (complex_[i].is_pinched || complex_[i].has_latent_faces)) complex_.mark_dirty(i);
   }
   if (!complex_.dirty().empty()) {
     rebuild(mesh, journal, {}, false, statistics);
