@@ -468,6 +468,8 @@ class Rebuild::Run {
       }
       if (complex_[index].middle.is_valid()) divide_middle(index);
     }
+    std::sort(surface_.begin(), surface_.end());
+    surface_.erase(std::unique(surface_.begin(), surface_.end()), surface_.end());
   }
   void divide(VertexId vertex, const StarParts::Home& home, bool makes_twins) {
     result_.copied_vertices +=
@@ -595,9 +597,7 @@ class Rebuild::Run {
     return has_closed;
   }
   /// The edges of the noted boundary sides whose vertices were both looked at in this round, or one of them.
-  [[nodiscard]] std::vector<WallEdge> surface_edges() {
-    std::sort(surface_.begin(), surface_.end());
-    surface_.erase(std::unique(surface_.begin(), surface_.end()), surface_.end());
+  [[nodiscard]] std::vector<WallEdge> surface_edges() const {
     std::vector<WallEdge> edges;
     for (const Side side : surface_) {
       const auto v = mesh_.vertices(side);
