@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How single tets fall apart: all patterns, all orders; and random patterns on meshes.
+// How single tets fall apart: all patterns, all orders, all pierced sides.
 #include "cut/split_template.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,20 @@ void for_each_order(Visit&& visit) {
   }
 }
 
-using Points = std::array<Vec3, 10>;  // by code
+using Points = std::array<Vec3, 15>;  // by code
+
+/// A point inside a simplex.
+template <std::size_t N>
+Vec3 point_amid(Random& random, const std::array<Vec3, N>& corners) {
+  Vec3 point = Vec3::Zero();
+  double sum = 0;
+  for (const Vec3& corner : corners) {
+    const double weight = random.real(0.02, 1);
+    point += weight * corner;
+    sum += weight;
+  }
+  return point / sum;
+}
 
 Points points_of_a_tet(Random& random) {
   Points p;
@@ -39,6 +52,11 @@ Points points_of_a_tet(Random& random) {
     const auto [a, b] = kEdgeCorners[e];
     p[4 + e] = p[a] + random.real(0.02, 0.98) * (p[b] - p[a]);
   }
+  for (unsigned s = 0; s < 4; ++s) {
+    const auto& k = kSideCorners[s];
+    p[10 + s] = point_amid<3>(random, {p[k[0]], p[k[1]], p[k[2]]});
+  }
+  p[14] = point_amid<4>(random, {p[0], p[1], p[2], p[3]});
   return p;
 }
 
@@ -52,66 +70,102 @@ std::set<unsigned> codes(const SplitTemplate& split, SplitTemplate::ChildSide si
   return result;
 }
 
-TEST(SplitTemplate, children_are_positive_and_fill_the_tet_for_every_order_of_every_pattern) {
+void expect_filled(const SplitTemplate& split, const Points& p) {
+  double sum = 0;
+  for (const auto& child : split.children) {
+    EXPECT_GT(volume6(p, child), 0.0);
+    sum += volume6(p, child);
+  }
+  EXPECT_NEAR(sum, volume6(p, {0, 1, 2, 3}), 1e-15);
+}
+
+/// Every side of a child meets another of the same vertices, or lies on the tet.
+void expect_linked(const SplitTemplate& split) {
+  std::vector<unsigned> seen(4 * split.children.size(), 0);
+  for (const auto& [a, b] : split.inner) {
+    EXPECT_EQ(codes(split, a), codes(split, b));
+    EXPECT_NE(a / 4U, b / 4U);
+    ++seen[a];
+    ++seen[b];
+  }
+  for (unsigned s = 0; s < 4; ++s) {
+    for (const auto side : split.outer[s]) ++seen[side];
+  }
+  EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](unsigned n) { return n == 1; }));
+}
+
+Vec3 twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b - a).cross(c - a);
+}
+
+/// The triangles on a side fill it and turn as it does.
+void expect_filled_side(const SplitTemplate& split, const Points& p, unsigned s) {
+  const auto& k = kSideCorners[s];
+  const Vec3 whole = twice_area(p[k[0]], p[k[1]], p[k[2]]);
+  Vec3 area = Vec3::Zero();
+  for (const auto side : split.outer[s]) {
+    const auto& child = split.children[side / 4U];
+    const auto& c = kSideCorners[side & 3U];
+    const Vec3 part = twice_area(p[child[c[0]]], p[child[c[1]]], p[child[c[2]]]);
+    EXPECT_GT(part.dot(whole), 0.0);
+    area += part;
+  }
+  EXPECT_LT((area - whole).norm(), 1e-14);
+}
+
+void expect_sound(const SplitTemplate& split, Random& random) {
+  const Points p = points_of_a_tet(random);
+  expect_filled(split, p);
+  expect_linked(split);
+  for (unsigned s = 0; s < 4; ++s) expect_filled_side(split, p, s);
+}
+
+TEST(SplitTemplate, children_are_positive_meet_and_fill_the_tet_for_every_order_of_every_pattern) {
   Random random(1);
   SplitTemplates templates;
   unsigned count = 0;
   for_each_order([&](const Order& order) {
-    const SplitTemplate& split = templates.find(order);
-    for (unsigned run = 0; run < 3; ++run) {
-      const Points p = points_of_a_tet(random);
-      double sum = 0;
-      for (const auto& child : split.children) {
-        EXPECT_GT(volume6(p, child), 0.0);
-        sum += volume6(p, child);
-      }
-      EXPECT_NEAR(sum, volume6(p, {0, 1, 2, 3}), 1e-15);
-    }
+    for (unsigned run = 0; run < 3; ++run) expect_sound(templates.find(order), random);
     ++count;
   });
   EXPECT_EQ(count, 1957U);
 }
 
-TEST(SplitTemplate, every_side_of_a_child_meets_another_or_lies_on_the_tet) {
-  SplitTemplates templates;
-  for_each_order([&](const Order& order) {
-    const SplitTemplate& split = templates.find(order);
-    std::vector<unsigned> seen(4 * split.children.size(), 0);
-    for (const auto& [a, b] : split.inner) {
-      EXPECT_EQ(codes(split, a), codes(split, b));
-      EXPECT_NE(a / 4U, b / 4U);
-      ++seen[a];
-      ++seen[b];
-    }
-    for (unsigned s = 0; s < 4; ++s) {
-      for (const auto side : split.outer[s]) ++seen[side];
-    }
-    EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](unsigned n) { return n == 1; }));
-  });
-}
-
-TEST(SplitTemplate, the_triangles_on_a_side_fill_it) {
+TEST(SplitTemplate, cones_are_positive_meet_and_fill_the_tet_for_every_order_and_any_pierced_sides) {
   Random random(2);
   SplitTemplates templates;
   for_each_order([&](const Order& order) {
-    const SplitTemplate& split = templates.find(order);
-    const Points p = points_of_a_tet(random);
-    for (unsigned s = 0; s < 4; ++s) {
-      Vec3 area = Vec3::Zero();
-      for (const auto side : split.outer[s]) {
-        const auto& child = split.children[side / 4U];
-        const auto& c = kSideCorners[side & 3U];
-        const Vec3 part = (p[child[c[1]]] - p[child[c[0]]]).cross(p[child[c[2]]] - p[child[c[0]]]);
-        const Vec3 outward =
-            (p[kSideCorners[s][1]] - p[kSideCorners[s][0]]).cross(p[kSideCorners[s][2]] - p[kSideCorners[s][0]]);
-        EXPECT_GT(part.dot(outward), 0.0);
-        area += part;
-      }
-      const Vec3 whole =
-          (p[kSideCorners[s][1]] - p[kSideCorners[s][0]]).cross(p[kSideCorners[s][2]] - p[kSideCorners[s][0]]);
-      EXPECT_LT((area - whole).norm(), 1e-14);
+    for (unsigned pierced = 0; pierced < 16; ++pierced) {
+      const SplitTemplate& split = templates.find_cone(order, pierced);
+      expect_sound(split, random);
+      EXPECT_EQ(&split, &templates.find_cone(order, pierced));
     }
   });
+}
+
+TEST(SplitTemplate, cones_divide_their_sides_as_bisection_does_where_nothing_is_pierced) {
+  SplitTemplates templates;
+  const auto triangles = [](const SplitTemplate& split, unsigned s) {
+    std::set<std::set<unsigned>> result;
+    for (const auto side : split.outer[s]) result.insert(codes(split, side));
+    return result;
+  };
+  for_each_order([&](const Order& order) {
+    const SplitTemplate &whole = templates.find(order), &cone = templates.find_cone(order, 0);
+    for (unsigned s = 0; s < 4; ++s) EXPECT_EQ(triangles(whole, s), triangles(cone, s));
+  });
+}
+
+TEST(SplitTemplate, a_cone_over_one_crossed_edge_has_ten_children) {
+  SplitTemplates templates;
+  for (std::uint8_t e = 0; e < 6; ++e) {
+    unsigned pierced = 0;
+    for (unsigned s = 0; s < 4; ++s) {
+      const bool has_edge = std::find(kSideEdges[s].begin(), kSideEdges[s].end(), e) != kSideEdges[s].end();
+      pierced |= (has_edge ? 1U : 0U) << s;
+    }
+    EXPECT_EQ(templates.find_cone(Order{e}, pierced).children.size(), 10U);
+  }
 }
 
 TEST(SplitTemplate, neighbours_triangulate_their_common_face_alike) {
