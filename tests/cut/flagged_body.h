@@ -17,6 +17,8 @@ class FlaggedBody {
 
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
   [[nodiscard]] const ClosedComplex& complex() const { return complex_; }
+  [[nodiscard]] ClosedComplex& complex() { return complex_; }
+  [[nodiscard]] const Journal& journal() const { return journal_; }
 
   /// Crosses an edge once more; where it is crossed then, at `t`.
   void toggle(std::uint32_t edge, double t);
@@ -27,7 +29,6 @@ class FlaggedBody {
   void put_some_on(Random& random, double share);
   /// Front points in all faces that need one, somewhere; those that are there move with probability `moved_share`.
   void place_points(Random& random, double moved_share);
-  void mark_dirty(std::uint32_t master) { complex_.mark_dirty(master); }
   /// Moves every vertex by up to `reach` along each axis from where it is at rest: copies come apart.
   void stand(Random& random, double reach);
 

@@ -297,7 +297,7 @@ TEST(Rebuild, changes_nothing_where_nothing_has_changed) {
   const double volume = volume_of(body.mesh());
   change(body, random, 0.1, 0.05, volume);
   const std::uint64_t hash = body.mesh().hash();
-  for (std::uint32_t m = 0; m < body.complex().size(); ++m) body.mark_dirty(m);
+  for (std::uint32_t m = 0; m < body.complex().size(); ++m) body.complex().mark_dirty(m);
   body.rebuild();
   EXPECT_EQ(body.mesh().hash(), hash);
 }
