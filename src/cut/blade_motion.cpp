@@ -64,6 +64,7 @@ BladeMotion::Row BladeMotion::number(std::span<const Vec3> row) {
 /// Whether the row is the first again, up to rounding, after a way around: not one that went out and back.
 bool BladeMotion::returns_to_start(std::span<const Vec3> row) const {
   const double extent = (reach_hi_ - reach_lo_).norm();
+  if (first_.size() != row.size()) return false;
   for (std::size_t c = 0; c < row.size(); ++c) {
     if (!((row[c] - first_[c].position).norm() <= 1e-12 * extent)) return false;
   }
@@ -146,7 +147,9 @@ SweptSurface BladeMotion::with_overlap(const SweptSurface& surface, const OwnShe
 /// The segments of the front that the strip to `to` leaves behind, and those of the first row that it comes back to.
 std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row& to) const {
   std::vector<std::array<std::uint64_t, 2>> inner;
-  const bool returns = to.front().key == first_.front().key && to.back().key == first_.back().key;
+  const bool returns = to.size() == first_.size() && to.front().key == first_.front().key &&
+                       to.back().key == first_.back().key;
+  inner = seam_segments_;
   for (std::size_t c = 0; c + 1 < to.size() && !is_first_strip_; ++c) {
     inner.push_back(keys_of(front_[c], front_[c + 1]));
     if (returns) inner.push_back(keys_of(first_[c], first_[c + 1]));
@@ -161,6 +164,7 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet& sheet) {
     front_ = to;
     return move;
   }
+  append(surface, seams_);
   if (meets(surface, sheet)) {
     move.starts_anew = true;
     move.strip = std::make_unique<Strip>(with_overlap(surface, sheet), std::vector<std::array<std::uint64_t, 2>>());
@@ -173,7 +177,50 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet& sheet) {
   }
   front_ = to;
   is_first_strip_ = false;
+  seams_ = {};
+  seam_segments_.clear();
   return move;
+}
+
+BladeMotion::Proposal BladeMotion::propose(std::span<const Vec3> row) {
+  Proposal proposal;
+  proposal.row = number(row);
+  proposal.surface = lay(front_, proposal.row);
+  return proposal;
+}
+
+/// The divided front is another polyline, if only by rounding: triangles without area close the seam.
+void BladeMotion::refine(const std::vector<std::size_t>& parts) {
+  Row refined = {front_.front()};
+  for (std::size_t c = 0; c + 1 < front_.size(); ++c) {
+    const SosPoint &a = front_[c], &b = front_[c + 1];
+    std::vector<SosPoint> fan = {a};
+    for (std::size_t k = 1; k < parts[c]; ++k) {
+      const double t = static_cast<double>(k) / static_cast<double>(parts[c]);
+      fan.push_back({a.position + t * (b.position - a.position), next_key_++});
+    }
+    fan.push_back(b);
+    for (std::size_t k = 1; k + 1 < fan.size(); ++k) {
+      SweptSurface seam;
+      seam.points = {a, fan[k], fan[k + 1]};
+      seam.triangles.push_back({{0, 1, 2}, 0, static_cast<std::uint32_t>(c)});
+      append(seams_, seam);
+    }
+    if (fan.size() > 2) seam_segments_.push_back(keys_of(a, b));
+    refined.insert(refined.end(), fan.begin() + 1, fan.end());
+  }
+  front_ = std::move(refined);
+  if (is_first_strip_) {  // nothing was swept yet: there is no seam
+    first_ = front_;
+    seams_ = {};
+    seam_segments_.clear();
+  }
+}
+
+std::vector<Vec3> BladeMotion::front() const {
+  std::vector<Vec3> points;
+  for (const SosPoint& p : front_) points.push_back(p.position);
+  return points;
 }
 
 /// The blade leaves its slit elsewhere than at the front: a new sheet starts where it left. In the air it may go

@@ -31,6 +31,18 @@ class BladeMotion {
   using Touches = std::function<bool(const SweptSurface&)>;
   /// The strip to the next row, with as many points. `flushes`: holds nothing merely because it moved too little.
   Move advance(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches, bool flushes);
+  /// A row that was chosen elsewhere, with the surface from the front to it; for `accept`.
+  struct Proposal {
+    std::vector<SosPoint> row;
+    SweptSurface surface;
+  };
+  [[nodiscard]] Proposal propose(std::span<const Vec3> row);
+  /// The strip to a proposed row, without asking whether the blade is in its slit.
+  Move accept(const Proposal& proposal, const OwnSheet& sheet) { return move_to(proposal.row, sheet); }
+  /// Divides the segments of the front and of all rows to come into parts.
+  void refine(const std::vector<std::size_t>& parts);
+  [[nodiscard]] std::vector<Vec3> front() const;
+
   /// The strip that is left over at the end: to the last row, as far as it was held for moving too little.
   Move end(const OwnSheet& sheet, const Touches& touches);
 
@@ -54,6 +66,8 @@ class BladeMotion {
   Row first_, front_;
   std::vector<Vec3> last_;  // where the blade was last
   Vec3 reach_lo_ = Vec3::Zero(), reach_hi_ = Vec3::Zero();
+  SweptSurface seams_;  // between the front as it was and as it is divided now
+  std::vector<std::array<std::uint64_t, 2>> seam_segments_;
   bool is_first_strip_ = true;
   bool is_held_ = false;    // wholly, in its own slit
   bool is_closed_ = false;  // the edge is a ring

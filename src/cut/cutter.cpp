@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cut/blade_motion.h"
+#include "cut/material_blade.h"
 #include "cut/paper_cut.h"
 #include "cut/stroke_cut.h"
 #include "cut/sweep.h"
@@ -19,6 +20,14 @@ namespace {
 constexpr double kSlitShare = 0.02;
 /// Consecutive parts of a sweep that meets itself overlap by so many spacings.
 constexpr double kOverlapShare = 3.0;
+/// A step of a blade in a moving body is taken in parts of an element, at most so many.
+constexpr double kMostParts = 64;
+/// A blade this many spacings ahead of the crack's tip cuts on even where that closes the cut behind it: else strong
+/// shaking would hold it for ever.
+constexpr double kGiveWay = 0.75;
+/// Front points of a moving body stay while the blade pierces their face within so many spacings.
+constexpr double kPointReach = 0.2;
+
 /// The mean edge length of a few tets, as a scale for overlaps.
 double typical_spacing(const TetMesh& mesh) {
   double sum = 0;
@@ -58,22 +67,40 @@ class Cutter::Pipeline {
  public:
   Pipeline(CutOptions options, unsigned threads) : options_(options), paper_cut_(threads), stroke_cut_(options) {}
 
-  void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, std::uint32_t tag) {
+  void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
+             std::uint32_t tag) {
     tag_ = tag;
     swept_ = {};
     stroke_cut_.begin(tag);
     stroke_cut_.prepare(mesh, journal);
-    motion_.begin(row, typical_spacing(mesh));
+    spacing_ = typical_spacing(mesh);
+    last_row_.assign(row.begin(), row.end());
+    is_in_material_ = has_moved;
+    if (!has_moved) {
+      motion_.begin(row, spacing_);
+      return;
+    }
+    material_.begin(mesh, stroke_cut_.surface(), row, spacing_);
+    motion_.begin(material_.anchors(), spacing_);
   }
-  Result<CutStatistics> step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times) {
-    return guarded(mesh, journal, [&] {
+  Result<CutStatistics> step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, const Vec3& direction,
+                             bool has_moved, StageTimes& times) {
+    return guarded(mesh, journal, [&]() -> Status {
       statistics_.steps = 1;
+      if (has_moved && !is_in_material_) {
+        enter_material(mesh);
+      }
+      const std::vector<Vec3> before = std::exchange(last_row_, {row.begin(), row.end()});
+      if (is_in_material_) {
+        return step_in_material(mesh, journal, before, direction, times);
+      }
       return follow(mesh, journal, motion_.advance(row, stroke_cut_.sheet(), touches(mesh), false), times);
     });
   }
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times) {
     return guarded(mesh, journal, [&] {
-      Status status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh)), times);
+      Status status;
+      if (!is_in_material_) status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh)), times);
       if (status) stroke_cut_.finish(mesh, journal, statistics_, times);
       return status;
     });
@@ -114,6 +141,61 @@ class Cutter::Pipeline {
   [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const {
     return [&](const SweptSurface& surface) { return stroke_cut_.touches(mesh, surface); };
   }
+  /// The body has begun to move: from now on the blade is located in the elements as they stand.
+  void enter_material(const TetMesh& mesh) {
+    is_in_material_ = true;
+    material_.take_over(mesh, stroke_cut_.surface(), last_row_, motion_.front(), spacing_, stroke_cut_.complex());
+    motion_.refine(material_.parts());
+  }
+  /// From where the blade was to `last_row_`, in parts of at most an element.
+  Status step_in_material(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& before, const Vec3& direction,
+                          StageTimes& times) {
+    double travel = 0;
+    for (std::size_t c = 0; c < before.size(); ++c) travel = std::max(travel, (last_row_[c] - before[c]).norm());
+    const double parts = std::clamp(std::ceil(travel / spacing_), 1.0, kMostParts);
+    for (double part = 1; part <= parts; ++part) {
+      std::vector<Vec3> row = last_row_;
+      for (std::size_t c = 0; c < row.size() && part < parts; ++c) {
+        row[c] = before[c] + (part / parts) * (last_row_[c] - before[c]);
+      }
+      if (Status status = cut_to(mesh, journal, row, direction, times); !status) return status;
+    }
+    return {};
+  }
+  Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction,
+                StageTimes& times) {
+    stroke_cut_.prepare(mesh, journal);
+    material_.locate(mesh, stroke_cut_.surface(), stroke_cut_.complex(), row, direction);
+    BladeMotion::Proposal proposal = motion_.propose(material_.wanted());
+    while (!proposal.surface.triangles.empty() && hold_where_it_closes(mesh, proposal)) {
+      proposal = motion_.propose(material_.wanted());
+    }
+    if (proposal.surface.triangles.empty()) return {};
+    BladeMotion::Move move = motion_.accept(proposal, stroke_cut_.sheet());
+    if (move.starts_anew) {
+      stroke_cut_.finish(mesh, journal, statistics_, times);
+      stroke_cut_.begin(tag_);
+      stroke_cut_.prepare(mesh, journal);
+      move.starts_anew = false;
+      material_.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    }
+    material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    return follow(mesh, journal, std::move(move), times);
+  }
+  /// Holds the points of the blade beside which a strip would close the cut again, unless they are far ahead. Returns
+  /// whether there were any.
+  bool hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Proposal& proposal) {
+    const Strip strip(proposal.surface, {});
+    bool has_held = false;
+    for (const std::uint32_t column : stroke_cut_.recrossed_columns(mesh, strip)) {
+      for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
+        if (!material_.is_accepted(point) || material_.lead(point) > kGiveWay * spacing_) continue;
+        material_.hold(point);
+        has_held = true;
+      }
+    }
+    return has_held;
+  }
   /// Cuts along what the blade's motion asks for.
   Status follow(TetMesh& mesh, Journal& journal, BladeMotion::Move move, StageTimes& times) {
     if (move.starts_anew) {
@@ -122,7 +204,13 @@ class Cutter::Pipeline {
     }
     if (move.strip == nullptr) return {};
     note_swept(move.strip->surface);
-    return stroke_cut_.advance(mesh, journal, std::move(move.strip), {}, statistics_, times);
+    return stroke_cut_.advance(mesh, journal, std::move(move.strip), rules(), statistics_, times);
+  }
+  /// In a body that moves, front points keep still while they can: each that is made anew disturbs the solver.
+  [[nodiscard]] FrontRules rules() const {
+    FrontRules rules;
+    rules.reach = is_in_material_ ? kPointReach * spacing_ : 0.0;
+    return rules;
   }
   void note_swept(const SweptSurface& surface) {
     const auto first = static_cast<std::uint32_t>(swept_.points.size());
@@ -166,6 +254,10 @@ class Cutter::Pipeline {
   StrokeCut stroke_cut_;
   BladeMotion motion_;
   SweptTriangles swept_;
+  MaterialBlade material_;
+  std::vector<Vec3> last_row_;
+  double spacing_ = 1.0;
+  bool is_in_material_ = false;
   std::uint32_t tag_ = 1;
   CutStatistics statistics_;  // of the stroke being cut
 };
@@ -180,11 +272,13 @@ Result<CutStatistics> Cutter::cut(TetMesh& mesh, Journal& journal, const Stroke&
   return pipeline_->cut(mesh, journal, stroke, tag, times);
 }
 
-void Cutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, std::uint32_t tag) {
-  pipeline_->begin(mesh, journal, row, tag);
+void Cutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
+                   std::uint32_t tag) {
+  pipeline_->begin(mesh, journal, row, has_moved, tag);
 }
-Result<CutStatistics> Cutter::step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times) {
-  return pipeline_->step(mesh, journal, row, times);
+Result<CutStatistics> Cutter::step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, const Vec3& direction,
+                                   bool has_moved, StageTimes& times) {
+  return pipeline_->step(mesh, journal, row, direction, has_moved, times);
 }
 Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& times) {
   return pipeline_->end(mesh, journal, times);

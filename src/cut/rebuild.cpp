@@ -417,8 +417,9 @@ class Rebuild::Run {
   /// A rest point in the coordinates of the new tet around a vertex that holds it best, on the side where it stood.
   [[nodiscard]] MaterialPlace home_place(VertexId vertex, const Vec3& rest) const {
     MaterialPlace best;
+    const bool has_home = std::any_of(star_.begin(), star_.end(), [&](const StarTet& t) { return was_home(t, vertex); });
     for (const StarTet& tet : star_) {
-      if (!was_home(tet, vertex)) continue;
+      if (has_home && !was_home(tet, vertex)) continue;
       const MaterialPlace place = incise::place_in(mesh_, tet.tet, rest);
       if (place.inside > best.inside) best = place;
       if (best.inside >= 0) break;

@@ -172,6 +172,21 @@ void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, const std::vector<OnVer
   if (!step.is_empty()) journal.append(std::move(step));
 }
 
+std::vector<std::uint32_t> StrokeCut::recrossed_columns(const TetMesh& mesh, const Strip& strip) {
+  ++step_;
+  met_ = &walk_.find(mesh, strip, surface_, complex_, step_);
+  crossed_ = &crossings_.find(mesh, strip, *met_, complex_, step_);
+  std::vector<std::uint32_t> columns;
+  for (const StripCrossing& crossing : *crossed_) {
+    if (crossing.count % 2 == 1 && complex_.edges()[crossing.edge].is_crossed) {
+      columns.push_back(strip.surface.triangles[crossing.triangle].column);
+    }
+  }
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  return columns;
+}
+
 bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const {
   bool does_touch = false;
   for (const SweptTriangle& triangle : surface.triangles) {

@@ -38,6 +38,9 @@ class StrokeCut {
   /// Cost: O(tets that the strip meets).
   Status advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> strip, const FrontRules& rules,
                  CutStatistics& statistics, StageTimes& times);
+  /// The columns of a strip that would cross edges which the sheet has crossed before: there it would close the cut.
+  /// Adopts what the strip meets, and changes nothing else. Cost: as `advance` without the rebuild.
+  [[nodiscard]] std::vector<std::uint32_t> recrossed_columns(const TetMesh& mesh, const Strip& strip);
   /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
   void finish(TetMesh& mesh, Journal& journal, CutStatistics& statistics, StageTimes& times);
   /// Forgets a sheet whose cut was taken back.
@@ -46,7 +49,8 @@ class StrokeCut {
   /// Whether a surface meets the body at rest. Cost: the cells of the surface index that it passes through.
   [[nodiscard]] bool touches(const TetMesh& mesh, const SweptSurface& surface) const;
   [[nodiscard]] const OwnSheet& sheet() const { return sheet_; }
-  [[nodiscard]] const ClosedComplex& complex() const { return complex_; }
+  [[nodiscard]] ClosedComplex& complex() { return complex_; }
+  [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
 
  private:
   void collide(TetMesh& mesh, Journal& journal, const Strip& strip);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "incise/geom/closest.h"
 #include "incise/mesh/bounds.h"
 
 namespace incise::inline v0 {
@@ -87,6 +88,22 @@ SurfaceIndex::Cell SurfaceIndex::cell_of(const Vec3& point) const {
     cell[static_cast<std::size_t>(k)] = at > 0 ? (at < last ? static_cast<int>(at) : last) : 0;
   }
   return cell;
+}
+
+TetId SurfaceIndex::nearest_as_it_stands(const TetMesh& mesh, const Vec3& place) const {
+  TetId nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Entry& entry : entries_) {
+    if (!mesh.is_live(entry.side.tet()) || !mesh.link(entry.side).is_boundary()) continue;
+    const auto v = mesh.vertices(entry.side);
+    const double distance2 =
+        closest_on_triangle(place, mesh.current(v[0]), mesh.current(v[1]), mesh.current(v[2])).distance2;
+    if (distance2 < least) {
+      least = distance2;
+      nearest = entry.side.tet();
+    }
+  }
+  return nearest;
 }
 
 bool SurfaceIndex::is_small(const Box& box) const {

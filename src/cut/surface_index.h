@@ -26,6 +26,9 @@ class SurfaceIndex {
   [[nodiscard]] bool is_near(const Box& box) const { return !heads_.empty() && bounds_.overlaps(box); }
   /// Whether a box takes up a few cells only, or lies outside all of them.
   [[nodiscard]] bool is_small(const Box& box) const;
+  /// The tet of the boundary side that lies nearest to a place as the body stands; none where there is no surface.
+  /// Cost: O(surface).
+  [[nodiscard]] TetId nearest_as_it_stands(const TetMesh& mesh, const Vec3& place) const;
   /// Calls `visit(Side)` for each boundary side in the cells that meet a box; a side may come several times.
   template <class Visit>
   void for_each_near(const TetMesh& mesh, const Box& box, Visit&& visit) const;

@@ -85,6 +85,18 @@ Stroke stroke_of(const BladePose& first, const BladePose* second) {
   return stroke;
 }
 
+Status check(const BladePose& first, const BladePose* second) {
+  if (!(second == nullptr ? first : *second).direction.allFinite()) {
+    return Error{ErrorCode::kBadArgument, "the blade's direction is not finite", {}};
+  }
+  return check(stroke_of(first, second));
+}
+
+Vec3 direction_of(const BladePose& pose) {
+  const double length = pose.direction.norm();
+  return length > 0 ? Vec3(pose.direction / length) : Vec3(Vec3::Zero());
+}
+
 Error no_stroke() {
   return {ErrorCode::kBadArgument, "no stroke is under way; begin one first", {}};
 }
@@ -95,7 +107,7 @@ Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
   if (is_in_stroke_) {
     return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
   }
-  if (Status status = check(stroke_of(pose, nullptr)); !status) {
+  if (Status status = check(pose, nullptr); !status) {
     return status.error();
   }
   open_ = {};
@@ -103,7 +115,7 @@ Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
   open_.first_step = journal_.position();
   open_.poses = {pose};
   if (!is_paper()) {
-    cutter_.begin(mesh_, journal_, pose.edge, open_.report.stroke);
+    cutter_.begin(mesh_, journal_, pose.edge, has_moved_, open_.report.stroke);
   }
   is_in_stroke_ = true;
   return open_.report.stroke;
@@ -113,7 +125,7 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   if (!is_in_stroke_) {
     return no_stroke();
   }
-  if (Status status = check(stroke_of(open_.poses.front(), &pose)); !status) {
+  if (Status status = check(open_.poses.front(), &pose); !status) {
     return status.error();
   }
   if (is_paper()) {
@@ -122,7 +134,7 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   }
   const auto start = std::chrono::steady_clock::now();
   StepReport report;
-  Result<CutStatistics> cut = cutter_.step(mesh_, journal_, pose.edge, report.times);
+  Result<CutStatistics> cut = cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
   if (!cut) {
     return abort_stroke(cut.error());
   }
@@ -193,6 +205,8 @@ Status Engine::set_positions(std::span<const Vec3> positions) {
     }
   }
   mesh_.set_current(positions);
+  has_moved_ = false;
+  mesh_.for_each_vertex([&](VertexId v) { has_moved_ = has_moved_ || mesh_.current(v) != mesh_.rest(v); });
   return {};
 }
 

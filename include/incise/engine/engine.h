@@ -142,6 +142,7 @@ class Engine {
   std::uint32_t stroke_count_ = 0;
   OpenStroke open_;
   bool is_in_stroke_ = false;
+  bool has_moved_ = false;  // the body stands otherwise than at rest
 
   static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);
 };

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/material_blade.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cut/contact_walk.h"
+#include "incise/geom/closest.h"
+#include "incise/geom/quality.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Points of the blade stand at most so many spacings apart.
+constexpr double kPointSpacing = 0.25;
+/// The front follows in steps of so many spacings of material.
+constexpr double kLeastStep = 0.1;
+/// A blade cuts on where it is ahead of the tip by this share of how far it is beside it.
+constexpr double kCone = 0.5;
+/// A blade that has left the body cuts on to where it is once it is so many spacings ahead.
+constexpr double kExitLead = 0.3;
+/// A walk from tet to tet gives up after so many.
+constexpr unsigned kMostTets = 256;
+/// Rings of cells that are looked through for the nearest surface, and rounds of drawing nearer.
+constexpr unsigned kMostRings = 6, kMostRounds = 6;
+
+using Corners = std::array<Vec3, 4>;
+
+Corners current_of(const TetMesh& mesh, TetId tet) {
+  const TetVertices& v = mesh.vertices(tet);
+  return {mesh.current(v[0]), mesh.current(v[1]), mesh.current(v[2]), mesh.current(v[3])};
+}
+Corners rest_of(const TetMesh& mesh, TetId tet) {
+  const TetVertices& v = mesh.vertices(tet);
+  return {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])};
+}
+
+/// Barycentric coordinates; false where the tet has next to no volume as it stands.
+bool weights_in(const Corners& p, const Vec3& x, std::array<double, 4>& weights) {
+  const double whole = signed_volume6(p[0], p[1], p[2], p[3]);
+  const double size = std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[0]).squaredNorm(), (p[3] - p[0]).squaredNorm()});
+  if (!(std::abs(whole) > 1e-9 * size * std::sqrt(size))) return false;
+  weights = {signed_volume6(x, p[1], p[2], p[3]) / whole, signed_volume6(p[0], x, p[2], p[3]) / whole,
+             signed_volume6(p[0], p[1], x, p[3]) / whole, signed_volume6(p[0], p[1], p[2], x) / whole};
+  return true;
+}
+
+Vec3 blend(const Corners& p, const std::array<double, 4>& weights) {
+  return weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2] + weights[3] * p[3];
+}
+
+/// A place as the body stands, taken to the rest shape as a tet's own map does; `x` where it has none.
+Vec3 to_rest(const TetMesh& mesh, TetId tet, const Vec3& x, bool& is_possible) {
+  std::array<double, 4> weights{};
+  is_possible = weights_in(current_of(mesh, tet), x, weights);
+  return is_possible ? blend(rest_of(mesh, tet), weights) : x;
+}
+
+/// Walks through tets as they stand towards a place; the tet that holds it, or none where the walk leaves the body.
+TetId walk_to(const TetMesh& mesh, TetId from, const Vec3& x) {
+  TetId tet = from, before;
+  for (unsigned count = 0; count < kMostTets && tet.is_valid() && mesh.is_live(tet); ++count) {
+    std::array<double, 4> weights{};
+    if (!weights_in(current_of(mesh, tet), x, weights)) return {};
+    std::array<unsigned, 4> order = {0, 1, 2, 3};
+    std::sort(order.begin(), order.end(), [&](unsigned a, unsigned b) { return weights[a] < weights[b]; });
+    if (weights[order[0]] >= 0) return tet;
+    TetId next;
+    for (const unsigned s : order) {
+      const Link link = mesh.links(tet)[s];
+      if (weights[s] >= 0) break;
+      if (link.is_boundary() || link.side().tet() == before) continue;
+      next = link.side().tet();
+      break;
+    }
+    before = tet;
+    tet = next;
+  }
+  return {};
+}
+
+/// The boundary side nearest to a rest point, in cells around it.
+Side nearest_side(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest, double spacing, Vec3& place) {
+  Side best;
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned ring = 1; ring <= kMostRings && !(least < std::numeric_limits<double>::infinity()); ++ring) {
+    const Vec3 reach = Vec3::Constant(spacing * static_cast<double>(1U << ring) * 0.5);
+    surface.for_each_near(mesh, {rest - reach, rest + reach}, [&](Side side) {
+      const auto v = mesh.vertices(side);
+      const ClosestPoint near = closest_on_triangle(rest, mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]));
+      if (near.distance2 < least || (near.distance2 == least && side < best)) {
+        least = near.distance2;
+        best = side;
+        place = near.point;
+      }
+    });
+  }
+  return best;
+}
+
+}  // namespace
+
+void MaterialBlade::set_parts(std::span<const Vec3> row) {
+  parts_.clear();
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    const double count = std::ceil((row[c + 1] - row[c]).norm() / (kPointSpacing * spacing_));
+    parts_.push_back(static_cast<std::size_t>(std::clamp(count, 1.0, 4096.0)));
+  }
+}
+
+std::vector<Vec3> MaterialBlade::refined(std::span<const Vec3> row) const {
+  std::vector<Vec3> points = {row.front()};
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    for (std::size_t k = 1; k <= parts_[c]; ++k) {
+      const double t = static_cast<double>(k) / static_cast<double>(parts_[c]);
+      points.push_back(k == parts_[c] ? row[c + 1] : Vec3(row[c] + t * (row[c + 1] - row[c])));
+    }
+  }
+  return points;
+}
+
+void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row,
+                          double spacing) {
+  spacing_ = spacing;
+  set_parts(row);
+  const std::vector<Vec3> places = refined(row);
+  points_.assign(places.size(), {});
+  anchors_.resize(places.size());
+  // The surface as it stands, once: the blade may come from anywhere.
+  TetId nearest;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Point& point = points_[i];
+    point.world = places[i];
+    point.hint = nearest.is_valid() ? nearest : surface.nearest_as_it_stands(mesh, places[i]);
+    find(mesh, surface, point, places[i]);
+    nearest = point.hint;
+    anchors_[i] = point.candidate;
+    point.has_entered = point.tet.is_valid();
+  }
+}
+
+/// Finds the tet that holds a point, or the surface near it and the rest point that its map gives.
+void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor) {
+  point.tet = {};
+  const auto accept = [&](TetId tet) {
+    if (!tet.is_valid()) return false;
+    bool is_possible = false;
+    const Vec3 rest = to_rest(mesh, tet, point.world, is_possible);
+    if (!is_possible) return false;
+    const bool is_nearer = !point.tet.is_valid() || (rest - anchor).norm() < (point.candidate - anchor).norm();
+    if (is_nearer) {
+      point.tet = point.hint = tet;
+      point.candidate = rest;
+    }
+    return true;
+  };
+  if (point.hint.is_valid() && mesh.is_live(point.hint)) accept(walk_to(mesh, point.hint, point.world));
+  if (point.tet.is_valid()) return;
+  Vec3 rest = anchor;
+  for (unsigned round = 0; round < kMostRounds; ++round) {
+    if (point.hint.is_valid() && mesh.is_live(point.hint)) {
+      bool is_possible = false;
+      const Vec3 mapped = to_rest(mesh, point.hint, point.world, is_possible);
+      if (is_possible) rest = mapped;
+    }
+    const TetId inside = incise::locate(mesh, surface, {rest, next_key_++});
+    if (inside.is_valid() && accept(walk_to(mesh, inside, point.world))) return;
+    Vec3 place;
+    const Side side = nearest_side(mesh, surface, rest, spacing_, place);
+    if (side.value == kInvalidIndex) break;
+    if (accept(walk_to(mesh, side.tet(), point.world))) return;
+    if (side.tet() == point.hint) break;
+    point.hint = side.tet();
+  }
+  point.candidate = rest;
+}
+
+void MaterialBlade::find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor) {
+  point.tip = point.world;
+  if (point.master >= complex.size() || complex[point.master].split == nullptr) return;
+  double inside = -1e300;
+  for (const TetId child : complex.children(complex[point.master])) {
+    std::array<double, 4> weights{};
+    if (!weights_in(rest_of(mesh, child), anchor, weights)) continue;
+    const double least = *std::min_element(weights.begin(), weights.end());
+    if (least <= inside) continue;
+    inside = least;
+    point.tip = blend(current_of(mesh, child), weights);
+    if (!point.tet.is_valid() && !mesh.is_live(point.hint)) point.hint = child;
+    // The direction of cutting goes with the material.
+    std::array<double, 4> ahead{};
+    if (!point.rest_step.isZero(0.0) && weights_in(rest_of(mesh, child), anchor + point.rest_step, ahead)) {
+      point.direction = blend(current_of(mesh, child), ahead) - point.tip;
+    }
+  }
+}
+
+/// Whether there is tissue between the tip and the blade.
+bool MaterialBlade::meets_tissue(const TetMesh& mesh, const Point& point) const {
+  for (const double t : {0.15, 0.35, 0.55, 0.75, 0.95}) {
+    if (walk_to(mesh, point.hint, point.tip + t * (point.world - point.tip)).is_valid()) return true;
+  }
+  return false;
+}
+
+void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor) {
+  point.is_accepted = false;
+  if (!point.has_entered && !point.tet.is_valid()) return;  // follows one that has
+  const Vec3 way = point.world - point.tip;
+  const double length = point.direction.norm();
+  point.lead = length > 0 ? way.dot(point.direction) / length : way.norm();
+  const double beside = length > 0 ? (way - point.lead * point.direction / length).norm() : 0.0;
+  const bool is_ahead = point.lead > kCone * beside;
+  if (point.tet.is_valid()) {
+    const bool is_new = !point.has_entered;
+    point.is_accepted = is_new || (is_ahead && (point.candidate - anchor).norm() >= kLeastStep * spacing_);
+    return;
+  }
+  if (!is_ahead || !(point.lead > kExitLead * spacing_ || meets_tissue(mesh, point))) return;
+  // It has left the body: its rest point lies outside, or else on the skin beyond.
+  if (incise::locate(mesh, surface, {point.candidate, next_key_++}).is_valid()) return;
+  point.is_accepted = true;
+}
+
+/// Points that have not entered the body go with the nearest one that has, so that the strip stays even.
+void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surface) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point& point = points_[i];
+    if (point.has_entered || point.tet.is_valid()) continue;
+    std::size_t leader = points_.size(), distance = points_.size();
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const std::size_t apart = k > i ? k - i : i - k;
+      if ((points_[k].has_entered || points_[k].tet.is_valid()) && apart < distance) {
+        leader = k;
+        distance = apart;
+      }
+    }
+    const bool is_free = leader == points_.size();
+    if (!is_free && !points_[leader].is_accepted) continue;
+    Vec3 rest = point.candidate;
+    if (!is_free && points_[leader].tet.is_valid()) {
+      bool is_possible = false;
+      const Vec3 mapped = to_rest(mesh, points_[leader].tet, point.world, is_possible);
+      if (is_possible && !incise::locate(mesh, surface, {mapped, next_key_++}).is_valid()) rest = mapped;
+    }
+    if (incise::locate(mesh, surface, {rest, next_key_++}).is_valid()) continue;
+    point.candidate = rest;
+    point.is_accepted = true;
+  }
+}
+
+void MaterialBlade::locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex,
+                           std::span<const Vec3> row, const Vec3& direction) {
+  const std::vector<Vec3> places = refined(row);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point& point = points_[i];
+    point.world = places[i];
+    find_tip(mesh, complex, point, anchors_[i]);
+    if (!direction.isZero(0.0)) point.direction = direction;
+    find(mesh, surface, point, anchors_[i]);
+    judge(mesh, surface, point, anchors_[i]);
+  }
+  follow_entered(mesh, surface);
+}
+
+std::vector<Vec3> MaterialBlade::wanted() const {
+  std::vector<Vec3> row = anchors_;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (points_[i].is_accepted) row[i] = points_[i].candidate;
+  }
+  return row;
+}
+
+void MaterialBlade::take_over(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row,
+                              std::span<const Vec3> front, double spacing, ClosedComplex& complex) {
+  spacing_ = spacing;
+  set_parts(row);
+  anchors_ = refined(front);
+  const std::vector<Vec3> places = refined(row);
+  points_.assign(places.size(), {});
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    points_[i].world = places[i];
+    points_[i].candidate = anchors_[i];
+  }
+  find_masters(mesh, surface, complex);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point& point = points_[i];
+    point.has_entered = point.master != Master::kNone;
+    Vec3 place;
+    const Side side = nearest_side(mesh, surface, anchors_[i], spacing_, place);
+    if (!point.hint.is_valid()) point.hint = side.value == kInvalidIndex ? TetId() : side.tet();
+    if (!point.hint.is_valid()) point.hint = surface.nearest_as_it_stands(mesh, places[i]);
+  }
+}
+
+void MaterialBlade::advance(const TetMesh& mesh, const SurfaceIndex& surface, ClosedComplex& complex) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point& point = points_[i];
+    if (!point.is_accepted) continue;
+    point.rest_step = point.candidate - anchors_[i];
+    anchors_[i] = point.candidate;
+    if (!point.tet.is_valid()) continue;
+    if (!mesh.is_live(point.tet)) point.tet = incise::locate(mesh, surface, {point.candidate, next_key_++});
+    if (point.tet.is_valid()) point.master = complex.adopt(mesh, point.tet);
+    point.has_entered = true;
+  }
+}
+
+void MaterialBlade::find_masters(const TetMesh& mesh, const SurfaceIndex& surface, ClosedComplex& complex) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const TetId tet = incise::locate(mesh, surface, {anchors_[i], next_key_++});
+    points_[i].master = tet.is_valid() ? complex.adopt(mesh, tet) : Master::kNone;
+    if (tet.is_valid()) points_[i].hint = tet;
+  }
+}
+
+}  // namespace incise::inline v0

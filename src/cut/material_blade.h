@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cut/closed_complex.h"
+#include "cut/surface_index.h"
+
+namespace incise::inline v0 {
+
+/// Where the edge of a blade stands in the material of a body that moves: its points, dense enough to follow the
+/// tissue, each with the rest point that the front has reached there.
+///
+/// The blade is located in the elements as they stand; the cut is made in the rest shape, where strips share rows bit
+/// for bit whatever the body does. So an error of location moves the cut, but cannot leave a bridge. What moved is told
+/// from what was swept by comparing the blade with the crack's tip, the place where the front's rest point stands now:
+/// only a blade ahead of it, in the direction of cutting, cuts on; in the open wound, or withdrawn, it is held.
+/// Source: docs/internals.md (blades in a moving body).
+class MaterialBlade {
+ public:
+  /// Starts at a row, `n ≥ 2` points as the body stands. `spacing`: a typical edge. Cost: O(points · near surface).
+  void begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row, double spacing);
+  /// The front: a rest point for each point of the blade.
+  [[nodiscard]] std::span<const Vec3> anchors() const { return anchors_; }
+
+  /// Takes over a stroke that began at rest: `anchors`, one for each point of the refined row, are its front.
+  void take_over(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row,
+                 std::span<const Vec3> front, double spacing, ClosedComplex& complex);
+  /// How many parts each segment of the row has.
+  [[nodiscard]] const std::vector<std::size_t>& parts() const { return parts_; }
+
+  /// Looks for the blade as it stands now. `direction`: where its edge cuts, unit; zero: where it has cut so far.
+  void locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex,
+              std::span<const Vec3> row, const Vec3& direction);
+  /// The row to cut to, as far as it is not held.
+  [[nodiscard]] std::vector<Vec3> wanted() const;
+  /// Holds a point of the blade in this step.
+  void hold(std::size_t point) { points_[point].is_accepted = false; }
+  [[nodiscard]] bool is_accepted(std::size_t point) const { return points_[point].is_accepted; }
+  /// How far ahead of the crack's tip a point of the blade is, along the direction of cutting.
+  [[nodiscard]] double lead(std::size_t point) const { return points_[point].lead; }
+  /// Takes the accepted points as the new front. Their tets become masters, so that the front is found again.
+  void advance(const TetMesh& mesh, const SurfaceIndex& surface, ClosedComplex& complex);
+  /// Finds the masters of the front anew, after those before were let go.
+  void find_masters(const TetMesh& mesh, const SurfaceIndex& surface, ClosedComplex& complex);
+
+ private:
+  struct Point {
+    Vec3 world = Vec3::Zero();      ///< where it is now
+    Vec3 candidate = Vec3::Zero();  ///< the rest point there
+    Vec3 tip = Vec3::Zero();        ///< where the front's rest point stands now
+    Vec3 direction = Vec3::Zero();  ///< of cutting, as the body stands
+    Vec3 rest_step = Vec3::Zero();  ///< the last step of the anchor
+    double lead = 0;
+    TetId tet;                      ///< that holds it, if it is in tissue
+    TetId hint;                     ///< a live tet near it
+    std::uint32_t master = Master::kNone;  ///< that holds the anchor, if it is in tissue
+    bool has_entered = false;
+    bool is_accepted = false;
+  };
+
+  [[nodiscard]] std::vector<Vec3> refined(std::span<const Vec3> row) const;
+  void set_parts(std::span<const Vec3> row);
+  void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
+  void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);
+  void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
+  void follow_entered(const TetMesh& mesh, const SurfaceIndex& surface);
+  [[nodiscard]] bool meets_tissue(const TetMesh& mesh, const Point& point) const;
+
+  std::vector<Point> points_;
+  std::vector<Vec3> anchors_;
+  std::vector<std::size_t> parts_;  // of each segment of the row
+  double spacing_ = 1.0;
+  std::uint64_t next_key_ = std::uint64_t{1} << 48U;
+};
+
+}  // namespace incise::inline v0
