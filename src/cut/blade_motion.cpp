@@ -19,6 +19,8 @@ constexpr double kCoverShare = 0.02;
 /// Where a sheet meets itself, the new one starts so many spacings behind the front: cutting the same place again
 /// changes nothing, and the cut stays whole where they join.
 constexpr double kOverlapShare = 3.0;
+/// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
+constexpr double kFrontShare = 1.5;
 /// Strips that fold back onto earlier ones within so many spacings meet them.
 constexpr double kMeetingShare = 1e-6;
 
@@ -118,10 +120,16 @@ SweptSurface BladeMotion::lay(const Row& from, const Row& to) const {
   return surface;
 }
 
-/// Whether a strip meets the sheet so far otherwise than along the front.
+/// Whether a strip meets the sheet so far well behind the front. Beside it, where elements are still open, crossings
+/// are counted and nothing is lost.
 bool BladeMotion::meets(const SweptSurface& surface, const OwnSheet& sheet) const {
-  for (const auto& strip : sheet.strips()) {
-    if (strips_meet(surface, strip->surface, strip->sheet, kMeetingShare * spacing_)) return true;
+  double travel = 0;
+  for (auto strip = sheet.strips().rbegin(); strip != sheet.strips().rend(); ++strip) {
+    if (travel > kFrontShare * spacing_ &&
+        strips_meet(surface, (*strip)->surface, (*strip)->sheet, kMeetingShare * spacing_)) {
+      return true;
+    }
+    travel += travel_of((*strip)->surface);
   }
   return false;
 }
@@ -157,7 +165,7 @@ std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row&
   return inner;
 }
 
-BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet& sheet) {
+BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet* sheet) {
   Move move;
   SweptSurface surface = lay(front_, to);
   if (surface.triangles.empty()) {
@@ -165,9 +173,9 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet& sheet) {
     return move;
   }
   append(surface, seams_);
-  if (meets(surface, sheet)) {
+  if (sheet != nullptr && meets(surface, *sheet)) {
     move.starts_anew = true;
-    move.strip = std::make_unique<Strip>(with_overlap(surface, sheet), std::vector<std::array<std::uint64_t, 2>>());
+    move.strip = std::make_unique<Strip>(with_overlap(surface, *sheet), std::vector<std::array<std::uint64_t, 2>>());
   } else {
     move.strip = std::make_unique<Strip>(std::move(surface), inner_segments(to));
   }
@@ -258,7 +266,7 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> row, const OwnSheet
   const Row to = number(wanted);
   if (is_held_ && would_cover(to, sheet)) return leave_slit(before, row, touches);
   is_held_ = false;
-  return move_to(to, sheet);
+  return move_to(to, &sheet);
 }
 
 BladeMotion::Move BladeMotion::end(const OwnSheet& sheet, const Touches& touches) {

@@ -37,8 +37,8 @@ class BladeMotion {
     SweptSurface surface;
   };
   [[nodiscard]] Proposal propose(std::span<const Vec3> row);
-  /// The strip to a proposed row, without asking whether the blade is in its slit.
-  Move accept(const Proposal& proposal, const OwnSheet& sheet) { return move_to(proposal.row, sheet); }
+  /// The strip to a proposed row, without asking whether the blade is in its slit or the sheet meets itself.
+  std::unique_ptr<Strip> accept(const Proposal& proposal) { return move_to(proposal.row, nullptr).strip; }
   /// Divides the segments of the front and of all rows to come into parts.
   void refine(const std::vector<std::size_t>& parts);
   [[nodiscard]] std::vector<Vec3> front() const;
@@ -59,7 +59,7 @@ class BladeMotion {
   [[nodiscard]] SweptSurface with_overlap(const SweptSurface& surface, const OwnSheet& sheet) const;
   [[nodiscard]] std::vector<std::array<std::uint64_t, 2>> inner_segments(const Row& to) const;
   Move leave_slit(std::span<const Vec3> before, std::span<const Vec3> row, const Touches& touches);
-  Move move_to(const Row& to, const OwnSheet& sheet);
+  Move move_to(const Row& to, const OwnSheet* sheet);
 
   double spacing_ = 1.0;
   std::uint64_t next_key_ = kFirstBladeKey;

@@ -26,6 +26,12 @@ struct Ray {
     return segment_crosses_triangle(from, to, {mesh.rest(v[0]), v[0].value}, {mesh.rest(v[1]), v[1].value},
                                     {mesh.rest(v[2]), v[2].value});
   }
+  /// Whether it comes from within the tet behind a side that it crosses.
+  [[nodiscard]] bool leaves(const TetMesh& mesh, Side side) const {
+    const auto v = mesh.vertices(side);
+    return orient3d_sos({mesh.rest(v[0]), v[0].value}, {mesh.rest(v[1]), v[1].value}, {mesh.rest(v[2]), v[2].value},
+                        from) < 0;
+  }
   /// How far along it passes the plane of a side.
   [[nodiscard]] double distance_to(const TetMesh& mesh, Side side) const {
     const auto v = mesh.vertices(side);
@@ -51,14 +57,17 @@ Exit find_exit(const TetMesh& mesh, const SurfaceIndex& surface, const Ray& ray)
   crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
   Exit exit;
   double nearest = 2.0;
+  int depth = 0;  // walls stand on one another: what the ray enters there is not what it leaves
   for (const Side side : crossed) {
-    exit.starts_inside = !exit.starts_inside;
+    const bool leaves = ray.leaves(mesh, side);
+    depth += leaves ? 1 : -1;
     const double distance = ray.distance_to(mesh, side);
-    if (distance < nearest) {
+    if (leaves && distance < nearest) {
       nearest = distance;
       exit.side = side;
     }
   }
+  exit.starts_inside = depth > 0;
   return exit;
 }
 

@@ -171,14 +171,7 @@ class Cutter::Pipeline {
       proposal = motion_.propose(material_.wanted());
     }
     if (proposal.surface.triangles.empty()) return {};
-    BladeMotion::Move move = motion_.accept(proposal, stroke_cut_.sheet());
-    if (move.starts_anew) {
-      stroke_cut_.finish(mesh, journal, statistics_, times);
-      stroke_cut_.begin(tag_);
-      stroke_cut_.prepare(mesh, journal);
-      move.starts_anew = false;
-      material_.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-    }
+    BladeMotion::Move move{motion_.accept(proposal), false};
     material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
     return follow(mesh, journal, std::move(move), times);
   }

@@ -28,19 +28,25 @@ void SurfaceIndex::follow(const TetMesh& mesh, const Journal& journal) {
   if (!is_built_ || journal.rewinds() != rewinds_ || journal.position() < position_ || has_grown_much) {
     build(mesh);
   } else {
-    for (std::size_t i = position_; i < journal.position(); ++i) {
-      const Step& step = journal.step(i);
-      for (const ProducedTet& tet : step.produced) add(mesh, tet.id);
-      for (const OpenedFace& face : step.opened) {
-        add(mesh, face.a.tet());
-        add(mesh, face.b.tet());
-      }
-      for (const MovedVertex& vertex : step.moved)
-        add(mesh, mesh.is_live(vertex.id) ? mesh.tet_of(vertex.id) : TetId());
-    }
+    for (std::size_t i = position_; i < journal.position(); ++i) add_changed(mesh, journal.step(i));
   }
   position_ = journal.position();
   rewinds_ = journal.rewinds();
+}
+
+/// The sides that a step may have made boundary, or moved.
+void SurfaceIndex::add_changed(const TetMesh& mesh, const Step& step) {
+  for (const ProducedTet& tet : step.produced) add(mesh, tet.id);
+  for (const OpenedFace& face : step.opened) {
+    add(mesh, face.a.tet());
+    add(mesh, face.b.tet());
+  }
+  for (const MovedVertex& vertex : step.moved) {
+    if (!mesh.is_live(vertex.id)) continue;
+    for (const TetId tet : walker_.star(mesh, vertex.id)) add(mesh, tet);
+  }
+  if (step.edits.empty()) return;  // maintenance lays sides bare, and gives tets other vertices
+  for (const TetImage& tet : step.before.tets) add(mesh, tet.id);
 }
 
 void SurfaceIndex::build(const TetMesh& mesh) {

@@ -6,6 +6,7 @@
 #include "incise/core/grow_array.h"
 #include "incise/geom/box.h"
 #include "incise/mesh/journal.h"
+#include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
 
@@ -36,6 +37,7 @@ class SurfaceIndex {
  private:
   using Cell = std::array<int, 3>;
   void build(const TetMesh& mesh);
+  void add_changed(const TetMesh& mesh, const Step& step);
   void add(const TetMesh& mesh, TetId tet);
   void insert(const Box& box, Side side);
   [[nodiscard]] Cell cell_of(const Vec3& point) const;
@@ -54,6 +56,7 @@ class SurfaceIndex {
   Cell counts_{};
   std::vector<std::uint32_t> heads_;  // by cell: 1 + index of the latest entry
   GrowArray<Entry> entries_;
+  StarWalker walker_;
   std::size_t position_ = 0;  // of the journal
   std::uint64_t rewinds_ = 0;
   std::size_t built_entries_ = 0;
