@@ -9,7 +9,14 @@ namespace incise::inline v0 {
 
 namespace {
 
+/// Barycentric weights: exact where `x` is a corner.
 std::array<double, 4> weights_in(const std::array<Vec3, 4>& p, const Vec3& x) {
+  for (unsigned c = 0; c < 4; ++c) {
+    if (x != p[c]) continue;
+    std::array<double, 4> at_corner{};
+    at_corner[c] = 1.0;
+    return at_corner;
+  }
   std::array<double, 4> weights = {signed_volume6(x, p[1], p[2], p[3]), signed_volume6(p[0], x, p[2], p[3]),
                                    signed_volume6(p[0], p[1], x, p[3]), 0.0};
   const double whole = signed_volume6(p[0], p[1], p[2], p[3]);
