@@ -37,7 +37,7 @@ std::uint32_t ClosedComplex::adopt(const TetMesh& mesh, TetId tet) {
   }
   const auto index = static_cast<std::uint32_t>(masters_.size());
   Master master;
-  master.vertices = mesh.vertices(tet);
+  for (unsigned c = 0; c < 4; ++c) master.vertices[c] = closed(mesh.vertices(tet)[c]);
   master.behind.fill(Master::kNone);
   master.points.fill(Master::kNone);
   master.split = &whole_;
@@ -74,7 +74,8 @@ void ClosedComplex::link(std::uint32_t master, unsigned side, const TetMesh& mes
 }
 
 unsigned ClosedComplex::side_with(const Master& master, const TetMesh& mesh, Side facet) const {
-  const auto face = mesh.vertices(facet);
+  auto face = mesh.vertices(facet);
+  for (VertexId& v : face) v = closed(v);
   unsigned side = 0;
   while (side < 3 && std::any_of(face.begin(), face.end(), [&](VertexId v) { return v == master.vertices[side]; })) {
     ++side;

@@ -20,6 +20,8 @@ constexpr double kLeastStep = 0.1;
 constexpr double kCone = 0.5;
 /// A blade that has left the body cuts on to where it is once it is so many spacings ahead.
 constexpr double kExitLead = 0.3;
+/// What the map of a tet says of a place outside it counts within so many spacings of what is expected.
+constexpr double kTrust = 1.0;
 /// A walk from tet to tet gives up after so many.
 constexpr unsigned kMostTets = 256;
 /// Rings of cells that are looked through for the nearest surface, and rounds of drawing nearer.
@@ -218,9 +220,25 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
     return;
   }
   if (!is_ahead || !(point.lead > kExitLead * spacing_ || meets_tissue(mesh, point))) return;
-  // It has left the body: its rest point lies outside, or else on the skin beyond.
-  if (incise::locate(mesh, surface, {point.candidate, next_key_++}).is_valid()) return;
-  point.is_accepted = true;
+  // It has left the body: the cut goes straight on, unless the map of the surface there says much the same.
+  const double step = point.rest_step.norm();
+  if (step > 0) {
+    const Vec3 straight = anchor + (point.lead / step) * point.rest_step;
+    if ((point.candidate - straight).norm() > kTrust * spacing_) point.candidate = straight;
+  }
+  point.is_accepted = push_out(mesh, surface, anchor, point.candidate);
+}
+
+/// The blade has left the body, so its rest point must lie outside: else further along its way.
+bool MaterialBlade::push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest) {
+  const Vec3 way = rest - from;
+  for (const double reach : {1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 13.0, 21.0}) {
+    const Vec3 place = from + reach * way;
+    if (incise::locate(mesh, surface, {place, next_key_++}).is_valid()) continue;
+    rest = place;
+    return true;
+  }
+  return false;
 }
 
 /// Points that have not entered the body go with the nearest one that has, so that the strip stays even.
@@ -239,14 +257,15 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
     const bool is_free = leader == points_.size();
     if (!is_free && !points_[leader].is_accepted) continue;
     Vec3 rest = point.candidate;
-    if (!is_free && points_[leader].tet.is_valid()) {
+    if (!is_free) {
+      rest = anchors_[i] + (points_[leader].candidate - anchors_[leader]);
       bool is_possible = false;
-      const Vec3 mapped = to_rest(mesh, points_[leader].tet, point.world, is_possible);
-      if (is_possible && !incise::locate(mesh, surface, {mapped, next_key_++}).is_valid()) rest = mapped;
+      const TetId tet = points_[leader].tet;
+      const Vec3 mapped = tet.is_valid() ? to_rest(mesh, tet, point.world, is_possible) : rest;
+      if (is_possible && (mapped - rest).norm() <= kTrust * spacing_) rest = mapped;
     }
-    if (incise::locate(mesh, surface, {rest, next_key_++}).is_valid()) continue;
-    point.candidate = rest;
-    point.is_accepted = true;
+    point.is_accepted = push_out(mesh, surface, anchors_[i], rest);
+    if (point.is_accepted) point.candidate = rest;
   }
 }
 

@@ -65,6 +65,7 @@ class MaterialBlade {
   void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);
   void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
+  bool push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
   void follow_entered(const TetMesh& mesh, const SurfaceIndex& surface);
   [[nodiscard]] bool meets_tissue(const TetMesh& mesh, const Point& point) const;
 

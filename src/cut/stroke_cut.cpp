@@ -88,7 +88,7 @@ bool StrokeCut::bisect(TetMesh& mesh, Journal& journal, const std::vector<Betwee
   for (const BetweenCrossings& place : between) {
     const ClosedEdge edge = complex_.edges()[place.edge];
     if (complex_[place.master].split == nullptr || mesh.is_overshared_at_load(edge.a, edge.b)) continue;
-    bool is_whole = true;
+    bool is_whole = !complex_.has_copies(edge.a) && !complex_.has_copies(edge.b);
     complex_.for_each_around(place.edge, [&](std::uint32_t master) { is_whole &= !complex_[master].is_divided(); });
     if (!is_whole) continue;
     const SplitEdgePlan plan =
