@@ -135,18 +135,25 @@ bool ContactWalk::meets(const std::array<Vec3, 4>& corners) const {
 }
 
 bool ContactWalk::meets_some(const std::array<Vec3, 4>& corners) const {
-  const auto is_beyond = [&](const Plane& plane) {
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](const Vec3& p) { return plane.normal.dot(p) - plane.offset > plane.margin; });
+  const auto heights_over = [&](const Plane& plane) {
+    std::array<double, 4> heights;
+    for (unsigned c = 0; c < 4; ++c) heights[c] = plane.normal.dot(corners[c]) - plane.offset;
+    return heights;
   };
-  const auto is_before = [&](const Plane& plane) {
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](const Vec3& p) { return plane.normal.dot(p) - plane.offset < -plane.margin; });
+  const auto least = [](const std::array<double, 4>& h) {
+    return std::min(std::min(h[0], h[1]), std::min(h[2], h[3]));
   };
-  return std::any_of(prisms_.begin(), prisms_.end(), [&](const Prism& prism) {
-    return !is_beyond(prism.face) && !is_before(prism.face) &&
-           std::none_of(prism.walls.begin(), prism.walls.end(), is_beyond);
-  });
+  for (const Prism& prism : prisms_) {
+    const std::array<double, 4> over_face = heights_over(prism.face);
+    if (least(over_face) > prism.face.margin) continue;
+    const double most = std::max(std::max(over_face[0], over_face[1]), std::max(over_face[2], over_face[3]));
+    if (most < -prism.face.margin) continue;
+    if (least(heights_over(prism.walls[0])) > prism.walls[0].margin) continue;
+    if (least(heights_over(prism.walls[1])) > prism.walls[1].margin) continue;
+    if (least(heights_over(prism.walls[2])) > prism.walls[2].margin) continue;
+    return true;
+  }
+  return false;
 }
 
 void ContactWalk::visit(std::uint32_t master) {

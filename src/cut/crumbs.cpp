@@ -13,13 +13,23 @@ constexpr std::size_t kMaxPieceSearch = 512;
 class CrumbFinder {
  public:
   CrumbFinder(const TetMesh& mesh, const CrumbLimit& limit, std::vector<IncisionFace>& incision,
-              std::vector<IncisionFace>& dropped)
-      : mesh_(mesh), limit_(limit), incision_(incision), dropped_(dropped) {
+              std::vector<IncisionFace>& dropped, CrumbScratch& scratch)
+      : mesh_(mesh),
+        limit_(limit),
+        incision_(incision),
+        dropped_(dropped),
+        blocked_(scratch.blocked),
+        state_(scratch.state) {
     for (std::uint32_t i = 0; i < incision_.size(); ++i) {
       mark(incision_[i].a);
       mark(incision_[i].b);
     }
     is_dropped_.resize(incision_.size(), false);
+  }
+  CrumbFinder(const CrumbFinder&) = delete;
+  CrumbFinder& operator=(const CrumbFinder&) = delete;
+  ~CrumbFinder() {
+    for (const TetId tet : touched_) blocked_[tet.value] = state_[tet.value] = 0;
   }
 
   std::uint64_t run() {
@@ -40,8 +50,9 @@ class CrumbFinder {
 
   void mark(Side side) {
     blocked_.ensure(std::size_t{side.tet().value} + 1);
-    blocked_[side.tet().value] = static_cast<std::uint8_t>(blocked_[side.tet().value] | 1U << side.side());
     state_.ensure(std::size_t{side.tet().value} + 1);
+    blocked_[side.tet().value] = static_cast<std::uint8_t>(blocked_[side.tet().value] | 1U << side.side());
+    touched_.push_back(side.tet());
   }
   [[nodiscard]] bool is_blocked(Side side) const {
     return ((unsigned{blocked_[side.tet().value]} >> side.side()) & 1U) != 0;
@@ -69,6 +80,7 @@ class CrumbFinder {
           is_large = true;
         } else if (state_[next.value] == kUnseen) {
           state_[next.value] = kCrumb;
+          touched_.push_back(next);
           piece_.push_back(next);
         }
       }
@@ -146,7 +158,8 @@ class CrumbFinder {
   const CrumbLimit& limit_;
   std::vector<IncisionFace>& incision_;
   std::vector<IncisionFace>& dropped_;
-  ZeroedArray<std::uint8_t> blocked_, state_;
+  ZeroedArray<std::uint8_t>&blocked_, &state_;
+  std::vector<TetId> touched_;  // whose entries may not be zero
   std::vector<bool> is_dropped_;
   std::vector<TetId> piece_;
 };
@@ -154,8 +167,8 @@ class CrumbFinder {
 }  // namespace
 
 std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbLimit& limit, std::vector<IncisionFace>& incision,
-                          std::vector<IncisionFace>& dropped) {
-  return CrumbFinder(mesh, limit, incision, dropped).run();
+                          std::vector<IncisionFace>& dropped, CrumbScratch& scratch) {
+  return CrumbFinder(mesh, limit, incision, dropped, scratch).run();
 }
 
 }  // namespace incise::inline v0

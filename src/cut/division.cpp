@@ -3,26 +3,10 @@
 
 #include <algorithm>
 
-#include "cut/neighbourhood.h"
 #include "incise/geom/predicates.h"
 #include "incise/geom/quality.h"
 
 namespace incise::inline v0 {
-
-bool needs_split(const Master& master, unsigned edge) {
-  const auto [a, b] = kEdgeCorners[edge];
-  return ((unsigned{master.flagged} >> edge) & 1U) != 0 && ((unsigned{master.on} >> a) & 1U) == 0 &&
-         ((unsigned{master.on} >> b) & 1U) == 0;
-}
-
-bool needs_point(const Master& master, unsigned side) {
-  unsigned flagged = 0, split = 0;
-  for (const unsigned edge : kSideEdges[side]) {
-    flagged += (unsigned{master.flagged} >> edge) & 1U;
-    split += needs_split(master, edge) ? 1U : 0U;
-  }
-  return flagged % 2 == 1 && split > 0;
-}
 
 bool Divider::Item::operator<(const Item& other) const {
   if (length2 != other.length2) return length2 > other.length2;
@@ -32,8 +16,9 @@ bool Divider::Item::operator<(const Item& other) const {
 
 std::span<const std::uint8_t> Divider::order_of(const Master& master) {
   unsigned count = 0;
+  const unsigned split = split_edges(master);
   for (std::uint8_t e = 0; e < 6; ++e) {
-    if (!needs_split(master, e)) continue;
+    if (((split >> e) & 1U) == 0) continue;
     const ClosedEdge& edge = complex_.edges()[master.edges[e]];
     const Item item{(mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e};
     unsigned place = count++;
@@ -58,12 +43,6 @@ const SplitTemplate& Divider::find(const Master& master) {
     pierced |= (master.points[s] != Master::kNone ? 1U : 0U) << s;
   }
   return templates_.find_cone(order, pierced);
-}
-
-bool Divider::is_cone(const Master& master) {
-  bool is_split = false;
-  for (unsigned e = 0; e < 6; ++e) is_split |= needs_split(master, e);
-  return is_split && has_odd_face(master.flagged);
 }
 
 Vec3 Divider::middle_of(const Master& master) const {

@@ -2,17 +2,53 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <span>
 #include <vector>
 
 #include "cut/closed_complex.h"
+#include "cut/neighbourhood.h"
 
 namespace incise::inline v0 {
 
-/// Whether an edge of a master is to be split: flagged, and neither end takes part in the cut itself.
-[[nodiscard]] bool needs_split(const Master& master, unsigned edge);
+namespace detail {
+
+/// For each set of corners (bit c: corner c) the edges that have none of them, as a set (bit e: edge e).
+inline constexpr std::array<std::uint8_t, 16> kEdgesWithout = [] {
+  std::array<std::uint8_t, 16> edges{};
+  for (unsigned corners = 0; corners < 16; ++corners) {
+    for (unsigned e = 0; e < 6; ++e) {
+      const bool has_one = ((corners >> kEdgeCorners[e][0] | corners >> kEdgeCorners[e][1]) & 1U) != 0;
+      edges[corners] = static_cast<std::uint8_t>(edges[corners] | (has_one ? 0U : 1U << e));
+    }
+  }
+  return edges;
+}();
+
+/// The edges of each side, as a set.
+inline constexpr std::array<std::uint8_t, 4> kEdgesOfSide = [] {
+  std::array<std::uint8_t, 4> edges{};
+  for (unsigned s = 0; s < 4; ++s) {
+    for (const unsigned e : kSideEdges[s]) edges[s] = static_cast<std::uint8_t>(edges[s] | 1U << e);
+  }
+  return edges;
+}();
+
+}  // namespace detail
+
+/// The edges of a master that are to be split, as a set: flagged, and neither end takes part in the cut itself.
+[[nodiscard]] inline unsigned split_edges(const Master& master) {
+  return unsigned{master.flagged} & detail::kEdgesWithout[master.on & 15U];
+}
+/// Whether an edge of a master is to be split.
+[[nodiscard]] inline bool needs_split(const Master& master, unsigned edge) {
+  return ((split_edges(master) >> edge) & 1U) != 0;
+}
 /// Whether the cut ends in a side of a master, and something is split there: the side gets a front point.
-[[nodiscard]] bool needs_point(const Master& master, unsigned side);
+[[nodiscard]] inline bool needs_point(const Master& master, unsigned side) {
+  const unsigned edges = detail::kEdgesOfSide[side];
+  return std::popcount(master.flagged & edges) % 2 == 1 && (split_edges(master) & edges) != 0;
+}
 
 /// Finds how masters are to be divided, from their flags, ON vertices and front points.
 class Divider {
@@ -24,7 +60,9 @@ class Divider {
   /// first, then by ends), so that neighbours agree; those that the blade is still in are coned. Paper §2.2, Figure 2.
   [[nodiscard]] const SplitTemplate& find(const Master& master);
   /// Whether the blade is still in a master and something in it is split: it is coned.
-  [[nodiscard]] static bool is_cone(const Master& master);
+  [[nodiscard]] static bool is_cone(const Master& master) {
+    return split_edges(master) != 0 && has_odd_face(master.flagged);
+  }
   /// Where the front point inside a coned master belongs: amid those in its sides.
   [[nodiscard]] Vec3 middle_of(const Master& master) const;
   /// The rest position of a vertex of a template.

@@ -108,7 +108,17 @@ class Rebuild::Run {
         settings_(settings),
         divider_(mesh_, owner.templates_, complex),
         old_(owner.old_),
-        incision_(owner.incision_) {
+        incision_(owner.incision_),
+        dropped_(owner.dropped_),
+        ranges_(owner.ranges_),
+        children_(owner.children_),
+        star_tets_(owner.star_tets_),
+        star_(owner.star_),
+        ring_(owner.ring_),
+        surface_(owner.surface_),
+        edges_(owner.edges_) {
+    ranges_.clear();
+    surface_.clear();
     old_.clear();
     incision_.clear();
   }
@@ -131,11 +141,6 @@ class Rebuild::Run {
   }
 
  private:
-  struct OldRange {
-    std::uint32_t first, last;
-    std::array<Link, 4> outside;
-  };
-
   // --- before --------------------------------------------------------------------------------------------------------
 
   void keep_old() {
@@ -394,7 +399,7 @@ class Rebuild::Run {
       return crumb_limit(sum / 6.0);
     };
     dropped_.clear();
-    result_.crumbs_kept += incise::keep_crumbs(mesh_, limit, incision_, dropped_);
+    result_.crumbs_kept += incise::keep_crumbs(mesh_, limit, incision_, dropped_, owner_.crumbs_);
     for (const IncisionFace& face : dropped_) close(face);
   }
   /// Leaves the material joined at an incision face.
@@ -402,7 +407,8 @@ class Rebuild::Run {
   void move_on_vertices(const std::vector<OnVertex>& on) {
     for (const OnVertex& vertex : on) {
       if (vertex.distance <= kCoincident * vertex.spacing) continue;
-      gather(complex_.star(mesh_, vertex.master, vertex.vertex), vertex.vertex);
+      gather(complex_.star(mesh_, vertex.master, vertex.vertex),
+             [&](const Master& m) { return codes_of_corner(m, vertex.vertex); });
       star_tets_.clear();
       for (const StarTet& tet : star_) star_tets_.push_back(tet.tet);
       const auto landing = find_landing(mesh_, sheet_, settings_.snap, vertex, complex_, star_tets_);
@@ -417,7 +423,8 @@ class Rebuild::Run {
   /// A rest point in the coordinates of the new tet around a vertex that holds it best, on the side where it stood.
   [[nodiscard]] MaterialPlace home_place(VertexId vertex, const Vec3& rest) const {
     MaterialPlace best;
-    const bool has_home = std::any_of(star_.begin(), star_.end(), [&](const StarTet& t) { return was_home(t, vertex); });
+    const bool has_home =
+        std::any_of(star_.begin(), star_.end(), [&](const StarTet& t) { return was_home(t, vertex); });
     for (const StarTet& tet : star_) {
       if (has_home && !was_home(tet, vertex)) continue;
       const MaterialPlace place = incise::place_in(mesh_, tet.tet, rest);
@@ -432,19 +439,46 @@ class Rebuild::Run {
     const TetVertices& corners = old_.vertices(tet.old);
     return std::find(corners.begin(), corners.end(), vertex) != corners.end();
   }
-  /// The live tets of some masters around a closed vertex, into `star_`.
-  template <class Masters>
-  void gather(const Masters& masters, VertexId vertex) {
+  /// The code of a closed vertex in a master; those of the ends of its edge, where it splits one.
+  struct Codes {
+    std::uint8_t vertex;
+    std::uint8_t a = kNoCode, b = kNoCode;
+  };
+  static constexpr std::uint8_t kNoCode = SplitTemplate::kCodes;
+  /// The live tets of some masters around a closed vertex, into `star_`. `codes_in(master)` tells which of a template's
+  /// vertices it is: cheaper than asking for the copies of every corner.
+  template <class Masters, class CodesIn>
+  void gather(const Masters& masters, CodesIn&& codes_in) {
     star_.clear();
     for (const std::uint32_t index : masters) {
-      for (const TetId tet : complex_.children(complex_[index])) {
-        const unsigned corner = complex_.closed_corner(mesh_, tet, vertex);
-        if (corner == 4) continue;
-        const bool is_dirty = complex_[index].is_dirty;
-        const std::uint32_t old = is_dirty ? owner_.old_of_[tet.value] : kInvalidIndex;
-        star_.push_back({tet, corner, is_dirty && !complex_[index].is_kept, old, 0});
+      const Master& master = complex_[index];
+      const SplitTemplate& split = *master.split;
+      const Codes codes = codes_in(master);
+      const auto tets = complex_.children(master);
+      const bool is_new = master.is_dirty && !master.is_kept;
+      for (const std::uint8_t at : split.around[codes.vertex]) {
+        const unsigned k = at / 4U, has = split.codes[k];
+        const auto ends = static_cast<std::uint8_t>(((has >> codes.a) & 1U) | ((has >> codes.b) & 1U) << 1U);
+        const std::uint32_t old = master.is_dirty ? owner_.old_of_[tets[k].value] : kInvalidIndex;
+        star_.push_back({tets[k], at & 3U, is_new, old, 0, ends});
       }
     }
+  }
+  [[nodiscard]] static Codes codes_of_corner(const Master& master, VertexId vertex) {
+    const auto& corners = master.vertices;
+    return {static_cast<std::uint8_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin())};
+  }
+  [[nodiscard]] static Codes codes_of_split_point(const Master& master, std::uint32_t edge, VertexId a) {
+    const auto e =
+        static_cast<std::size_t>(std::find(master.edges.begin(), master.edges.end(), edge) - master.edges.begin());
+    const auto [first, second] = kEdgeCorners[e];
+    const auto code = static_cast<std::uint8_t>(SplitTemplate::kFirstSplit + e);
+    return master.vertices[first] == a ? Codes{code, first, second} : Codes{code, second, first};
+  }
+  [[nodiscard]] Codes codes_of_point(const Master& master, VertexId vertex) const {
+    std::uint8_t s = 0;
+    while (master.points[s] == Master::kNone || complex_.point(master.points[s]).vertex != vertex) ++s;
+    return {static_cast<std::uint8_t>(SplitTemplate::kFirstPoint + s)};
   }
   [[nodiscard]] bool is_first(VertexId vertex) {
     owner_.visited_.ensure(std::size_t{vertex.value} + 1);
@@ -499,7 +533,7 @@ class Rebuild::Run {
   }
   void divide_corner(std::uint32_t master, VertexId vertex) {
     if (!is_first(vertex)) return;
-    gather(complex_.star(mesh_, master, vertex), vertex);
+    gather(complex_.star(mesh_, master, vertex), [&](const Master& m) { return codes_of_corner(m, vertex); });
     divide(
         vertex, [&](std::span<const StarTet> part) { return home_of_corner(vertex, part); }, false);
   }
@@ -514,8 +548,7 @@ class Rebuild::Run {
     if (!is_first(vertex)) return;
     ring_.clear();
     complex_.for_each_around(at, [&](std::uint32_t m) { ring_.push_back(m); });
-    gather(ring_, vertex);
-    const auto half_of = [&](std::span<const StarTet> part) { return half_at(complex_.edges()[at], part); };
+    gather(ring_, [&, a = complex_.edges()[at].a](const Master& m) { return codes_of_split_point(m, at, a); });
     divide(
         vertex,
         [&](std::span<const StarTet> part) {
@@ -526,21 +559,16 @@ class Rebuild::Run {
     note_halves(complex_.edges()[at]);
   }
   /// Which end of its edge a part of a split point's star contains: 0 for a, 1 for b, 2 for both or neither.
-  [[nodiscard]] unsigned half_at(const ClosedEdge& edge, std::span<const StarTet> part) const {
-    bool has_a = false, has_b = false;
-    for (const StarTet& tet : part) {
-      has_a |= complex_.closed_corner(mesh_, tet.tet, edge.a) < 4;
-      has_b |= complex_.closed_corner(mesh_, tet.tet, edge.b) < 4;
-    }
-    return has_a == has_b ? 2 : (has_a ? 0 : 1);
+  [[nodiscard]] static unsigned half_of(std::span<const StarTet> part) {
+    unsigned ends = 0;
+    for (const StarTet& tet : part) ends |= tet.ends;
+    return ends == 1 || ends == 2 ? ends - 1 : 2;
   }
   void note_halves(ClosedEdge& edge) {
     edge.halves = {};
     for (const StarTet& tet : star_) {
       for (const unsigned half : {0U, 1U}) {
-        if (complex_.closed_corner(mesh_, tet.tet, half == 0 ? edge.a : edge.b) < 4) {
-          edge.halves[half] = mesh_.vertices(tet.tet)[tet.corner];
-        }
+        if (((unsigned{tet.ends} >> half) & 1U) != 0) edge.halves[half] = mesh_.vertices(tet.tet)[tet.corner];
       }
     }
   }
@@ -550,36 +578,34 @@ class Rebuild::Run {
     for (const std::uint32_t master : point.masters) {
       if (master != Master::kNone) ring_.push_back(master);
     }
-    gather(ring_, point.vertex);
+    gather(ring_, [&](const Master& m) { return codes_of_point(m, point.vertex); });
     divide(
         point.vertex, [](std::span<const StarTet>) { return VertexId(); }, false);
   }
   void divide_middle(std::uint32_t master) {
     if (!is_first(complex_[master].middle)) return;
     ring_.assign(1, master);
-    gather(ring_, complex_[master].middle);
+    gather(ring_, [](const Master&) { return Codes{SplitTemplate::kMiddle}; });
     divide(
         complex_[master].middle, [](std::span<const StarTet>) { return VertexId(); }, false);
   }
 
   // --- after ---------------------------------------------------------------------------------------------------------
 
-  /// One edge of a boundary side, as it stands now.
-  struct WallEdge {
-    VertexId a, b;
-    Side side;
-    bool operator<(const WallEdge& o) const { return a != o.a ? a < o.a : (b != o.b ? b < o.b : side < o.side); }
-  };
   /// Closes faces beside edges along which two fans of tets touch: the incision leaves them out until the blade has
   /// passed. Returns whether there were any.
   bool close_pinched_faces() {
     if (!settings_.closes_pinched) return false;
-    std::vector<Side> closed;
-    const std::vector<WallEdge> edges = surface_edges();
-    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-      while (j < edges.size() && edges[j].a == edges[i].a && edges[j].b == edges[i].b) ++j;
-      if (j - i < 2 || (j - i == 2 && are_one_fan(edges[i], edges[i + 1]))) continue;
-      for (std::size_t k = i; k < j; ++k) closed.push_back(edges[k].side);
+    collect_surface_edges();
+    std::vector<Side>& closed = owner_.closed_;
+    closed.clear();
+    for (const SurfaceEdges::Edge& edge : edges_.all()) {
+      if (edge.count < 2) continue;
+      const SurfaceEdges::Use &last = edges_.use(edge.last), &first = edges_.use(last.before);
+      if (edge.count == 2 && are_one_fan(edge, first.side, last.side)) continue;
+      for (std::uint32_t use = edge.last; use != kInvalidIndex; use = edges_.use(use).before) {
+        closed.push_back(edges_.use(use).side);
+      }
     }
     if (closed.empty()) return false;
     std::sort(closed.begin(), closed.end());
@@ -598,17 +624,16 @@ class Rebuild::Run {
     return has_closed;
   }
   /// The edges of the noted boundary sides whose vertices were both looked at in this round, or one of them.
-  [[nodiscard]] std::vector<WallEdge> surface_edges() const {
-    std::vector<WallEdge> edges;
+  void collect_surface_edges() {
+    edges_.clear();
     for (const Side side : surface_) {
       const auto v = mesh_.vertices(side);
+      const std::array<bool, 3> is_near = {is_visited(v[0]), is_visited(v[1]), is_visited(v[2])};
       for (unsigned k = 0; k < 3; ++k) {
-        const VertexId a = v[k], b = v[(k + 1) % 3];
-        if (is_visited(a) || is_visited(b)) edges.push_back({std::min(a, b), std::max(a, b), side});
+        const unsigned next = (k + 1) % 3;
+        if (is_near[k] || is_near[next]) edges_.add(v[k], v[next], side);
       }
     }
-    std::sort(edges.begin(), edges.end());
-    return edges;
   }
   [[nodiscard]] bool is_visited(VertexId vertex) const {
     const VertexId closed = complex_.closed(vertex);
@@ -642,11 +667,11 @@ class Rebuild::Run {
     ++result_.latent_faces;
   }
   /// Whether two boundary sides are the two ends of one fan of tets around an edge.
-  [[nodiscard]] bool are_one_fan(const WallEdge& first, const WallEdge& second) const {
+  [[nodiscard]] bool are_one_fan(const SurfaceEdges::Edge& edge, Side first, Side second) const {
     bool is_one = false;
     walk_edge_ring(
-        mesh_, first.a, first.b, first.side.tet(), [](Side) { return false; },
-        [&](TetId tet) { is_one |= tet == second.side.tet(); });
+        mesh_, edge.a, edge.b, first.tet(), [](Side) { return false; },
+        [&](TetId tet) { is_one |= tet == second.tet(); });
     return is_one;
   }
   [[nodiscard]] bool is_latent(const IncisionFace& face) const {
@@ -692,12 +717,13 @@ class Rebuild::Run {
   Divider divider_;
   OldChildren& old_;
   std::vector<IncisionFace>& incision_;
-  std::vector<IncisionFace> dropped_;
-  std::vector<OldRange> ranges_;
-  std::vector<TetId> children_, star_tets_;
-  std::vector<StarTet> star_;
-  std::vector<std::uint32_t> ring_;
-  std::vector<Side> surface_;  // boundary sides to be looked at
+  std::vector<IncisionFace>& dropped_;
+  std::vector<OldRange>& ranges_;
+  std::vector<TetId>&children_, &star_tets_;
+  std::vector<StarTet>& star_;
+  std::vector<std::uint32_t>& ring_;
+  std::vector<Side>& surface_;  // boundary sides to be looked at
+  SurfaceEdges& edges_;
   RebuildStatistics result_;
 };
 

@@ -9,6 +9,7 @@
 #include "cut/old_children.h"
 #include "cut/snapping.h"
 #include "cut/star_parts.h"
+#include "cut/surface_edges.h"
 #include "incise/mesh/transaction.h"
 
 namespace incise::inline v0 {
@@ -50,10 +51,24 @@ class Rebuild {
  private:
   class Run;
 
+  /// What a master was made of before.
+  struct OldRange {
+    std::uint32_t first, last;    ///< into `old_`
+    std::array<Link, 4> outside;  ///< behind its sides, where there is no master
+  };
+
   SplitTemplates& templates_;
   OldChildren old_;
   StarParts parts_;
   std::vector<IncisionFace> incision_;
+  std::vector<IncisionFace> dropped_;  // from here on: memory kept between runs
+  std::vector<OldRange> ranges_;
+  std::vector<TetId> children_, star_tets_;
+  std::vector<StarTet> star_;
+  std::vector<std::uint32_t> ring_;
+  std::vector<Side> surface_, closed_;
+  SurfaceEdges edges_;
+  CrumbScratch crumbs_;
   ZeroedArray<std::uint32_t> old_of_;   // by tet slot: the old child that holds the middle of a child
   ZeroedArray<std::uint32_t> visited_;  // by vertex slot: the round that divided its star
   std::uint32_t round_ = 0;

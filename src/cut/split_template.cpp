@@ -75,6 +75,18 @@ void find_sides(SplitTemplate& result) {
   }
 }
 
+void index_vertices(SplitTemplate& result) {
+  for (unsigned k = 0; k < result.children.size(); ++k) {
+    unsigned bits = 0;
+    for (unsigned c = 0; c < 4; ++c) {
+      const std::uint8_t code = result.children[k][c];
+      result.around[code].push_back(static_cast<std::uint8_t>(k * 4 + c));
+      bits |= 1U << code;
+    }
+    result.codes.push_back(static_cast<std::uint16_t>(bits));
+  }
+}
+
 using Facet = std::array<std::uint8_t, 3>;
 
 /// Bisects a side; the facets turn as the side does.
@@ -124,6 +136,7 @@ SplitTemplate make_cone(std::span<const std::uint8_t> order, unsigned pierced) {
     result.children.push_back({f[0], f[2], f[1], SplitTemplate::kMiddle});
   }
   find_sides(result);
+  index_vertices(result);
   return result;
 }
 
@@ -131,6 +144,7 @@ SplitTemplate make(std::span<const std::uint8_t> order) {
   SplitTemplate result;
   bisect({0, 1, 2, 3}, order, result.children);
   find_sides(result);
+  index_vertices(result);
   return result;
 }
 

@@ -19,11 +19,14 @@ struct SplitTemplate {
   using Child = std::array<std::uint8_t, 4>;
   /// A side of a child: child · 4 + side.
   using ChildSide = std::uint8_t;
-  static constexpr std::uint8_t kFirstSplit = 4, kFirstPoint = 10, kMiddle = 14;
+  static constexpr std::uint8_t kFirstSplit = 4, kFirstPoint = 10, kMiddle = 14, kCodes = 15;
 
   std::vector<Child> children;                  ///< as positive as the parent
   std::vector<std::array<ChildSide, 2>> inner;  ///< pairs of sides that meet inside the parent
   std::array<std::vector<ChildSide>, 4> outer;  ///< sides that lie on each side of the parent
+  std::vector<std::uint16_t> codes;             ///< of each child, as bits
+  std::array<std::vector<std::uint8_t>, kCodes>
+      around;  ///< the children that have a vertex, ascending: child · 4 + corner
 };
 
 /// Makes and keeps the templates. Paper §2.2 ("a tetrahedron can be divided into two smaller tetrahedrons according to

@@ -17,6 +17,7 @@ struct StarTet {
   bool is_new = false;                ///< made in this rebuild
   std::uint32_t old = kInvalidIndex;  ///< the old child that holds its middle, where its master is rebuilt
   std::uint32_t part = 0;             ///< 1 + its part of the star; set by `divide`
+  std::uint8_t ends = 0;              ///< around a split point: bit 0 where it has the edge's end a, bit 1 for b
 };
 
 /// The copies of the vertices of a cut: one per face-connected part of the star, as long as it stays cut.
@@ -32,7 +33,7 @@ class StarParts {
   /// Copies that no part needs any more die. Returns how many copies were made. Cost: O(star).
   /// With `makes_twins` they start as `vertex` stands instead. The shape bits of each part are set from its surfaces; a
   /// star that stays whole beside walls of `tag` is at the front.
-  using Home = std::function<VertexId(std::span<const StarTet>)>;
+  using Home = std::function<VertexId(std::span<const StarTet>)>;  // of what is captured, two pointers cost no memory
   struct Settings {
     std::uint32_t tag = 0;
     bool makes_twins = false;
