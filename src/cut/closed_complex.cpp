@@ -8,6 +8,7 @@ namespace incise::inline v0 {
 
 void ClosedComplex::clear() {
   for (const Master& master : masters_) {
+    for (const VertexId vertex : master.vertices) master_at_[vertex.value] = 0;
     if (master.split == nullptr) continue;  // released
     for (const TetId child : children(master)) master_of_[child.value] = 0;
   }
@@ -55,6 +56,10 @@ std::uint32_t ClosedComplex::adopt(const TetMesh& mesh, TetId tet) {
   master.first_child = static_cast<std::uint32_t>(children_.size());
   children_.push_back(tet);
   masters_.push_back(master);
+  for (const VertexId vertex : master.vertices) {
+    master_at_.ensure(std::size_t{vertex.value} + 1);
+    master_at_[vertex.value] = index + 1;
+  }
   master_of_.ensure(std::size_t{tet.value} + 1);
   master_of_[tet.value] = index + 1;
   for (unsigned s = 0; s < 4; ++s) {

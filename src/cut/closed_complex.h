@@ -163,6 +163,12 @@ class ClosedComplex {
     return vertex.value < flagged_at_.capacity() ? flagged_at_[vertex.value] : 0;
   }
 
+  /// A master that has a closed vertex, or `Master::kNone`.
+  [[nodiscard]] std::uint32_t master_at(VertexId vertex) const {
+    const std::uint32_t index = vertex.value < master_at_.capacity() ? master_at_[vertex.value] - 1 : Master::kNone;
+    return index < masters_.size() && masters_[index].split != nullptr ? index : Master::kNone;
+  }
+
   [[nodiscard]] bool is_on(VertexId vertex) const {
     return vertex.value < is_on_.capacity() && is_on_[vertex.value] != 0;
   }
@@ -205,6 +211,7 @@ class ClosedComplex {
   std::vector<VertexId> copied_;  // the closed vertex of each list
   std::vector<std::uint32_t> free_lists_;
   ZeroedArray<std::uint32_t> flagged_at_;  // by vertex slot
+  ZeroedArray<std::uint32_t> master_at_;   // by vertex slot: 1 + the master adopted last that has it
   ZeroedArray<std::uint8_t> is_on_;
   std::vector<VertexId> on_, retired_;
   std::vector<std::uint32_t> star_, dirty_;

@@ -123,14 +123,13 @@ class Rebuild::Run {
     incision_.clear();
   }
 
-  RebuildStatistics run(const std::vector<OnVertex>& on) {
+  RebuildStatistics run() {
     keep_old();
     make_vertices();
     for (std::uint32_t i = 0; i < dirty_.size(); ++i) make_children(i);
     remove_old();
     for (std::uint32_t i = 0; i < dirty_.size(); ++i) link(i);
     keep_crumbs();
-    move_on_vertices(on);
     separate();
     for (unsigned round = 0; round < kMaxPinchRounds && close_pinched_faces(); ++round) separate();
     open_faces();
@@ -404,35 +403,6 @@ class Rebuild::Run {
   }
   /// Leaves the material joined at an incision face.
   void close(const IncisionFace& face) { transaction_.join(face.a, face.b); }
-  void move_on_vertices(const std::vector<OnVertex>& on) {
-    for (const OnVertex& vertex : on) {
-      if (vertex.distance <= kCoincident * vertex.spacing) continue;
-      gather(complex_.star(mesh_, vertex.master, vertex.vertex),
-             [&](const Master& m) { return codes_of_corner(m, vertex.vertex); });
-      star_tets_.clear();
-      for (const StarTet& tet : star_) star_tets_.push_back(tet.tet);
-      const auto landing = find_landing(mesh_, sheet_, settings_.snap, vertex, complex_, star_tets_);
-      if (!landing) {
-        ++result_.bent_vertices;
-        continue;
-      }
-      const MaterialPlace place = home_place(vertex.vertex, *landing);
-      transaction_.move(vertex.vertex, *landing, place.basis, place.weights);
-    }
-  }
-  /// A rest point in the coordinates of the new tet around a vertex that holds it best, on the side where it stood.
-  [[nodiscard]] MaterialPlace home_place(VertexId vertex, const Vec3& rest) const {
-    MaterialPlace best;
-    const bool has_home =
-        std::any_of(star_.begin(), star_.end(), [&](const StarTet& t) { return was_home(t, vertex); });
-    for (const StarTet& tet : star_) {
-      if (has_home && !was_home(tet, vertex)) continue;
-      const MaterialPlace place = incise::place_in(mesh_, tet.tet, rest);
-      if (place.inside > best.inside) best = place;
-      if (best.inside >= 0) break;
-    }
-    return best;
-  }
   /// Whether the material of a new tet had the vertex before.
   [[nodiscard]] bool was_home(const StarTet& tet, VertexId vertex) const {
     if (tet.old == kInvalidIndex) return false;
@@ -728,8 +698,8 @@ class Rebuild::Run {
 };
 
 RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,
-                               const std::vector<OnVertex>& on, const Settings& settings) {
-  return Run(*this, transaction, complex, sheet, settings).run(on);
+                               const Settings& settings) {
+  return Run(*this, transaction, complex, sheet, settings).run();
 }
 
 }  // namespace incise::inline v0

@@ -20,7 +20,6 @@ struct RebuildStatistics {
   std::uint64_t copied_vertices = 0;
   std::uint64_t crumbs_kept = 0;
   std::uint64_t latent_faces = 0;
-  std::uint64_t bent_vertices = 0;
 };
 
 /// Makes the children of masters anew and separates them along the cut.
@@ -33,17 +32,15 @@ class Rebuild {
  public:
   struct Settings {
     std::uint32_t tag = 1;
-    double snap = 0.2;
     bool keeps_crumbs = true;
     bool closes_pinched = true;  ///< leaves faces joined where two fans of tets would touch along an edge
   };
 
   explicit Rebuild(SplitTemplates& templates) : templates_(templates) {}
 
-  /// Rebuilds the dirty masters. `on`: the vertices that snapped in this step; their masters are dirty.
-  /// Cost: O(dirty masters).
+  /// Rebuilds the dirty masters. Cost: O(dirty masters).
   RebuildStatistics run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,
-                        const std::vector<OnVertex>& on, const Settings& settings);
+                        const Settings& settings);
 
   /// The incision faces that the last run opened.
   [[nodiscard]] const std::vector<IncisionFace>& opened() const { return incision_; }

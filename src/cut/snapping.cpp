@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cut/neighbourhood.h"
+#include "cut/old_children.h"
 #include "incise/geom/quality.h"
 
 namespace incise::inline v0 {
@@ -403,14 +404,26 @@ double volume6(const std::array<Vec3, 4>& p) {
 /// A move changes the volume of a star by rounding alone, or not at all: overlapping input tets would not obey.
 constexpr double kVolumeTolerance = 1e-11;
 
+/// The live tets around a closed vertex, on all sides of the cut.
+void gather_star(const TetMesh& mesh, ClosedComplex& complex, std::uint32_t master, VertexId vertex,
+                 std::vector<TetId>& star) {
+  star.clear();
+  for (const std::uint32_t around : complex.star(mesh, master, vertex)) {
+    for (const TetId tet : complex.children(complex[around])) {
+      if (complex.closed_corner(mesh, tet, vertex) < 4) star.push_back(tet);
+    }
+  }
+}
+
 /// Whether every tet of the star keeps a quarter of its volume with the vertex moved, and the star all of it.
-bool keeps_volumes(const TetMesh& mesh, VertexId vertex, const Vec3& moved, std::span<const TetId> star) {
+bool keeps_volumes(const TetMesh& mesh, const ClosedComplex& complex, VertexId vertex, const Vec3& moved,
+                   std::span<const TetId> star) {
   double before = 0, after = 0;
   for (const TetId tet : star) {
     std::array<Vec3, 4> p;
     for (unsigned c = 0; c < 4; ++c) {
       const VertexId v = mesh.vertices(tet)[c];
-      p[c] = v == vertex ? moved : mesh.rest(v);
+      p[c] = complex.closed(v) == vertex ? moved : mesh.rest(v);
     }
     const double volume = volume6(p), old_volume = mesh.rest_volume6(tet);
     if (!(volume >= 0.25 * old_volume) || is_flat(p[0], p[1], p[2], p[3])) {
@@ -420,6 +433,34 @@ bool keeps_volumes(const TetMesh& mesh, VertexId vertex, const Vec3& moved, std:
     after += volume;
   }
   return std::abs(after - before) <= kVolumeTolerance * before;
+}
+
+/// A rest point in the coordinates of the tet around one copy of a vertex that holds it best.
+MaterialPlace place_beside(const TetMesh& mesh, VertexId copy, const Vec3& rest, std::span<const TetId> star) {
+  MaterialPlace best;
+  for (const TetId tet : star) {
+    if (mesh.corner_of(tet, copy) == 4) continue;
+    const MaterialPlace place = place_in(mesh, tet, rest);
+    if (place.inside > best.inside) best = place;
+    if (best.inside >= 0) break;
+  }
+  return best;
+}
+
+/// Moves a vertex and its copies, each with the values of its own side.
+void move_with_copies(Transaction& transaction, const ClosedComplex& complex, VertexId vertex, const Vec3& rest,
+                      std::span<const TetId> star) {
+  const TetMesh& mesh = transaction.mesh();
+  std::vector<VertexId> copies;
+  for (const TetId tet : star) {
+    const VertexId copy = mesh.vertices(tet)[complex.closed_corner(mesh, tet, vertex)];
+    if (std::find(copies.begin(), copies.end(), copy) == copies.end()) copies.push_back(copy);
+  }
+  std::vector<MaterialPlace> places;
+  for (const VertexId copy : copies) places.push_back(place_beside(mesh, copy, rest, star));
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    transaction.move(copies[i], rest, places[i].basis, places[i].weights);
+  }
 }
 
 }  // namespace
@@ -449,16 +490,26 @@ std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sh
   return chosen;
 }
 
-std::optional<Vec3> find_landing(const TetMesh& mesh, const OwnSheet& sheet, double snap, const OnVertex& on,
-                                 ClosedComplex& complex, std::span<const TetId> star) {
-  const Vec3 start = mesh.rest(on.vertex);
-  const Constraint constraint = constraint_of(mesh, complex, on.vertex, complex.star(mesh, on.master, on.vertex));
-  const Landing landing = land_on_sheet(start, on, sheet, constraint);
-  const bool is_short = (landing.point - start).norm() <= 1.5 * snap * on.spacing;
-  if (has_landed(landing, on) && is_short && keeps_volumes(mesh, on.vertex, landing.point, star)) {
-    return landing.point;
+std::uint64_t move_on_vertices(Transaction& transaction, const OwnSheet& sheet, double snap,
+                               const std::vector<OnVertex>& chosen, ClosedComplex& complex) {
+  const TetMesh& mesh = transaction.mesh();
+  std::vector<TetId> star;
+  std::uint64_t bent = 0;
+  for (const OnVertex& on : chosen) {
+    const std::uint32_t master = complex.master_at(on.vertex);
+    if (on.distance <= kCoincident * on.spacing || master == Master::kNone) continue;
+    gather_star(mesh, complex, master, on.vertex, star);
+    const Vec3 start = mesh.rest(on.vertex);
+    const Constraint constraint = constraint_of(mesh, complex, on.vertex, complex.star(mesh, master, on.vertex));
+    const Landing landing = land_on_sheet(start, on, sheet, constraint);
+    const bool is_short = (landing.point - start).norm() <= 1.5 * snap * on.spacing;
+    if (has_landed(landing, on) && is_short && keeps_volumes(mesh, complex, on.vertex, landing.point, star)) {
+      move_with_copies(transaction, complex, on.vertex, landing.point, star);
+    } else {
+      ++bent;
+    }
   }
-  return std::nullopt;
+  return bent;
 }
 
 }  // namespace incise::inline v0

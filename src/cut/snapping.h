@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "cut/closed_complex.h"
 #include "cut/strip.h"
+#include "incise/mesh/transaction.h"
 
 namespace incise::inline v0 {
 
@@ -40,11 +40,12 @@ std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sh
                                          std::span<const std::uint32_t> masters, ClosedComplex& complex,
                                          SnapScratch& scratch);
 
-/// Where a chosen vertex may move onto the sheet while the body keeps its shape: an interior one freely, one on a flat
-/// part of a surface within it, one on a straight feature along it, others not at all (the wall then bends to them).
-/// A move that would leave a tet of `star` less than a quarter of its volume or flat, change the volume of the star, or
-/// be longer than 1.5·snap·spacing, is refused. `star`: the live tets around the vertex, on all sides of the cut.
-std::optional<Vec3> find_landing(const TetMesh& mesh, const OwnSheet& sheet, double snap, const OnVertex& on,
-                                 ClosedComplex& complex, std::span<const TetId> star);
+/// Moves the chosen vertices onto the sheet, their copies with them, while the body keeps its shape: interior ones freely,
+/// those on a flat part of a surface within it, those on a straight feature along it, others not at all (the wall then
+/// bends to them). A move that would leave a tet of the star less than a quarter of its volume or flat, change the
+/// volume of the star, or be longer than 1.5·snap·spacing, is refused. Only once the blade has gone: edges around a
+/// vertex that has moved cannot be told on which side of earlier strips they are. Returns how many stay off the sheet.
+std::uint64_t move_on_vertices(Transaction& transaction, const OwnSheet& sheet, double snap,
+                               const std::vector<OnVertex>& chosen, ClosedComplex& complex);
 
 }  // namespace incise::inline v0

@@ -37,6 +37,7 @@ void StrokeCut::forget() {
   sheet_.clear();
   walk_.clear();
   snapping_.coincident.clear();
+  on_.clear();
 }
 
 Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> next, const FrontRules& rules,
@@ -63,7 +64,9 @@ Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip
     if (complex_[index].is_pinched || complex_[index].has_latent_faces) complex_.mark_dirty(index);
   }
   const StageZone zone(times, Stage::kSubdivide);
-  rebuild(mesh, journal, on, true, statistics);
+  statistics.snapped_vertices += on.size();
+  on_.insert(on_.end(), on.begin(), on.end());
+  rebuild(mesh, journal, true, statistics);
   return {};
 }
 
@@ -154,19 +157,16 @@ void StrokeCut::count_cut(CutStatistics& statistics) {
   }
 }
 
-void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, const std::vector<OnVertex>& on, bool closes_pinched,
-                        CutStatistics& statistics) {
+void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, CutStatistics& statistics) {
   const std::size_t tets = mesh.tet_count(), vertices = mesh.vertex_count();
   Transaction transaction(mesh);
   const RebuildStatistics done =
-      rebuild_.run(transaction, complex_, sheet_, on, {tag_, snap(), snap() > 0, closes_pinched});
+      rebuild_.run(transaction, complex_, sheet_, {tag_, snap() > 0, closes_pinched});
   Step step = transaction.commit();
   statistics.created_tets += mesh.tet_count() - tets;
   statistics.new_vertices += mesh.vertex_count() - vertices;
   statistics.copied_vertices += done.copied_vertices;
   statistics.incision_faces += (done.opened_sides - done.closed_sides) / 2;
-  statistics.snapped_vertices += on.size();
-  statistics.bent_vertices += done.bent_vertices;
   statistics.crumbs_kept += done.crumbs_kept;
   statistics.latent_faces += done.latent_faces;
   if (!step.is_empty()) journal.append(std::move(step));
@@ -204,16 +204,25 @@ bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const 
 
 void StrokeCut::finish(TetMesh& mesh, Journal& journal, CutStatistics& statistics, StageTimes& times) {
   const StageZone zone(times, Stage::kSeparate);
+  land(mesh, journal, statistics);
   place_front_points(mesh, kFinalMargin, complex_);
-  if (!complex_.dirty().empty()) rebuild(mesh, journal, {}, true, statistics);
+  if (!complex_.dirty().empty()) rebuild(mesh, journal, true, statistics);
   for (std::uint32_t i = 0; i < complex_.size(); ++i) {
     if (complex_[i].split != nullptr && (complex_[i].is_pinched || complex_[i].has_latent_faces)) complex_.mark_dirty(i);
   }
   if (!complex_.dirty().empty()) {
-    rebuild(mesh, journal, {}, false, statistics);
+    rebuild(mesh, journal, false, statistics);
     part_edges(mesh, journal, statistics);
   }
   forget();
+}
+
+/// The vertices that took part in the cut move onto its sheet.
+void StrokeCut::land(TetMesh& mesh, Journal& journal, CutStatistics& statistics) {
+  Transaction transaction(mesh);
+  statistics.bent_vertices += move_on_vertices(transaction, sheet_, snap(), on_, complex_);
+  Step step = transaction.commit();
+  if (!step.is_empty()) journal.append(std::move(step));
 }
 
 void StrokeCut::part_edges(TetMesh& mesh, Journal& journal, CutStatistics& statistics) {

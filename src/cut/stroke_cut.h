@@ -59,8 +59,8 @@ class StrokeCut {
   void refresh_around(std::uint32_t edge);
   void place_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
   void count_cut(CutStatistics& statistics);
-  void rebuild(TetMesh& mesh, Journal& journal, const std::vector<OnVertex>& on, bool closes_pinched,
-               CutStatistics& statistics);
+  void rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, CutStatistics& statistics);
+  void land(TetMesh& mesh, Journal& journal, CutStatistics& statistics);
   void part_edges(TetMesh& mesh, Journal& journal, CutStatistics& statistics);
   [[nodiscard]] double snap() const { return options_.snap; }
 
@@ -72,6 +72,7 @@ class StrokeCut {
   ContactWalk walk_;
   StripCrossings crossings_;
   SnapScratch snapping_;
+  std::vector<OnVertex> on_;  // chosen so far
   Rebuild rebuild_;
   StarWalker walker_;
   const std::vector<StripCrossing>* crossed_ = nullptr;  // of the current strip
