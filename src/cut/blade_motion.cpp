@@ -179,6 +179,7 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet* sheet) {
   } else {
     move.strip = std::make_unique<Strip>(std::move(surface), inner_segments(to));
   }
+  move.strip->row = to;
   for (const SosPoint& p : to) {
     reach_lo_ = reach_lo_.cwiseMin(p.position);
     reach_hi_ = reach_hi_.cwiseMax(p.position);
@@ -241,6 +242,7 @@ BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> before, std::spa
   if (surface.triangles.empty() || !touches(surface)) return move;
   move.starts_anew = true;
   move.strip = std::make_unique<Strip>(std::move(surface), std::vector<std::array<std::uint64_t, 2>>());
+  move.strip->row = to;
   first_ = from;
   front_ = to;
   is_held_ = false;

@@ -17,6 +17,22 @@ Box box_of(const std::array<Vec3, 4>& p) {
   return {p[0].cwiseMin(p[1]).cwiseMin(p[2]).cwiseMin(p[3]), p[0].cwiseMax(p[1]).cwiseMax(p[2]).cwiseMax(p[3])};
 }
 
+/// Whether a segment passes through a box, or close by it.
+bool segment_meets(const Box& box, const Vec3& p, const Vec3& q) {
+  const Vec3 margin = Vec3::Constant(1e-6 * (box.hi - box.lo).norm());
+  double from = 0, to = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double lo = box.lo[k] - margin[k] - p[k], hi = box.hi[k] + margin[k] - p[k], way = q[k] - p[k];
+    if (way == 0) {
+      if (lo > 0 || hi < 0) return false;
+      continue;
+    }
+    from = std::max(from, std::min(lo / way, hi / way));
+    to = std::min(to, std::max(lo / way, hi / way));
+  }
+  return from <= to;
+}
+
 /// The way from a point out of the body.
 struct Ray {
   SosPoint from, to;
@@ -163,6 +179,7 @@ void ContactWalk::visit(std::uint32_t master) {
                                        mesh_->rest(m.vertices[2]), mesh_->rest(m.vertices[3])};
   if (meets(corners)) {
     m.seen = step_;
+    if (m.first_met == 0) m.first_met = step_;
     met_.push_back(master);
   }
 }
@@ -177,7 +194,7 @@ void ContactWalk::visit(const TetMesh& mesh, TetId tet) {
   const TetVertices& v = mesh.vertices(tet);
   if (meets({mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])})) {
     const std::uint32_t master = complex_->adopt(mesh, tet);
-    (*complex_)[master].seen = step_;
+    (*complex_)[master].seen = (*complex_)[master].first_met = step_;
     met_.push_back(master);
   } else {
     rejected_[tet.value] = walk_;
@@ -207,16 +224,15 @@ const std::vector<std::uint32_t>& ContactWalk::find(const TetMesh& mesh, const S
   prepare(strip);
   std::swap(met_, last_);
   met_.clear();
-  for (const std::uint32_t master : last_) {
-    if (master < complex.size()) visit(master);
-  }
+  for (const std::uint32_t master : front_) visit(master);
+  for (const std::uint32_t master : last_) visit(master);
   for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) {
     for_each_side_near(
         mesh, surface,
         {strip.sheet.point(t, 0).position, strip.sheet.point(t, 1).position, strip.sheet.point(t, 2).position},
         [&](Side side) { visit(mesh, side.tet()); });
   }
-  if (last_.empty()) {  // a sheet that starts inside the body
+  if (front_.empty() && last_.empty()) {  // a sheet that starts inside the body
     const TetId tet = locate(mesh, surface, strip.sheet.point(0, 0));
     if (tet.is_valid()) visit(mesh, tet);
   }
@@ -224,6 +240,23 @@ const std::vector<std::uint32_t>& ContactWalk::find(const TetMesh& mesh, const S
     walk_on(mesh, met_[i]);
   }
   return met_;
+}
+
+void ContactWalk::keep_front(const TetMesh& mesh, const ClosedComplex& complex, std::span<const SosPoint> row) {
+  front_.insert(front_.end(), met_.begin(), met_.end());
+  std::sort(front_.begin(), front_.end());
+  front_.erase(std::unique(front_.begin(), front_.end()), front_.end());
+  const auto is_left = [&](std::uint32_t index) {
+    const Master& master = complex[index];
+    if (master.split == nullptr) return true;
+    const Box box = box_of({mesh.rest(master.vertices[0]), mesh.rest(master.vertices[1]), mesh.rest(master.vertices[2]),
+                            mesh.rest(master.vertices[3])});
+    for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+      if (segment_meets(box, row[c].position, row[c + 1].position)) return false;
+    }
+    return true;
+  };
+  std::erase_if(front_, is_left);
 }
 
 }  // namespace incise::inline v0

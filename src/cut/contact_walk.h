@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "cut/closed_complex.h"
@@ -19,12 +20,18 @@ namespace incise::inline v0 {
 /// Paper §2.2 (collision detection). Differs: no search of the mesh; the cost depends on the tets met alone.
 class ContactWalk {
  public:
-  void clear() { met_.clear(); }
+  void clear() {
+    met_.clear();
+    front_.clear();
+  }
   /// The masters that the strip meets, each once, in the order of the walk; tets that were none yet become masters.
   /// Conservative: a few come close without touching. Cost: about 30 ns per tet visited, and the cells of the surface
   /// index that the strip passes through.
   const std::vector<std::uint32_t>& find(const TetMesh& mesh, const Strip& strip, const SurfaceIndex& surface,
                                          ClosedComplex& complex, std::uint32_t step);
+  /// Notes where the front lies now, `row`, among the masters met last and where it lay before: the next strip is looked
+  /// for from there, wherever along the blade it begins. Cost: O(masters · segments).
+  void keep_front(const TetMesh& mesh, const ClosedComplex& complex, std::span<const SosPoint> row);
 
  private:
   void visit(std::uint32_t master);
@@ -51,6 +58,7 @@ class ContactWalk {
   std::uint32_t step_ = 0;
   std::vector<Prism> prisms_;
   std::vector<std::uint32_t> met_, last_;
+  std::vector<std::uint32_t> front_;  // masters that the blade's front may lie in
   ZeroedArray<std::uint32_t> rejected_;  // by tet slot: the walk that turned it down
   std::uint32_t walk_ = 0;
 };

@@ -23,6 +23,7 @@ struct Strip {
   Sheet sheet;
   std::vector<Segment> border;  ///< where the cut ends, as far as this strip tells
   std::vector<std::array<std::uint64_t, 2>> inner;
+  std::vector<SosPoint> row;  ///< where the blade's front lies after it; empty for a sheet cut at once
 };
 
 /// The place of a sheet nearest to a point.

@@ -49,6 +49,7 @@ Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip
     const StageZone zone(times, Stage::kCollision);
     collide(mesh, journal, strip);
     flag(mesh, strip);
+    walk_.keep_front(mesh, complex_, strip.row);
     on = choose_on_vertices(mesh, sheet_, snap(), *met_, complex_, snapping_);
     for (const OnVertex& vertex : on) {
       for (const std::uint32_t master : complex_.star(mesh, vertex.master, vertex.vertex)) complex_.mark_dirty(master);
@@ -70,8 +71,10 @@ Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip
   return {};
 }
 
-/// Finds what the strip meets and crosses; edges crossed twice are bisected in between and looked at again.
+/// Finds what the strip meets and crosses; edges crossed twice are bisected in between and looked at again. Not where
+/// earlier strips have been: how they pass the new edges would not be known.
 void StrokeCut::collide(TetMesh& mesh, Journal& journal, const Strip& strip) {
+  first_look_ = step_ + 1;
   for (unsigned round = 0;; ++round) {
     ++step_;
     surface_.follow(mesh, journal);
@@ -92,7 +95,9 @@ bool StrokeCut::bisect(TetMesh& mesh, Journal& journal, const std::vector<Betwee
     const ClosedEdge edge = complex_.edges()[place.edge];
     if (complex_[place.master].split == nullptr || mesh.is_overshared_at_load(edge.a, edge.b)) continue;
     bool is_whole = !complex_.has_copies(edge.a) && !complex_.has_copies(edge.b);
-    complex_.for_each_around(place.edge, [&](std::uint32_t master) { is_whole &= !complex_[master].is_divided(); });
+    complex_.for_each_around(place.edge, [&](std::uint32_t master) {
+      is_whole &= !complex_[master].is_divided() && complex_[master].first_met >= first_look_;
+    });
     if (!is_whole) continue;
     const SplitEdgePlan plan =
         plan_split_edge(mesh, edge.a, edge.b, complex_.children(complex_[place.master])[0], place.t);

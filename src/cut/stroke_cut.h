@@ -78,6 +78,7 @@ class StrokeCut {
   const std::vector<StripCrossing>* crossed_ = nullptr;  // of the current strip
   const std::vector<std::uint32_t>* met_ = nullptr;      // likewise
   std::uint32_t tag_ = 1, step_ = 0;
+  std::uint32_t first_look_ = 0;  // the first of the steps that look at the current strip
 };
 
 }  // namespace incise::inline v0
