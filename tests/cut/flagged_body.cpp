@@ -112,7 +112,7 @@ void FlaggedBody::stand(Random& random, double reach) {
 
 RebuildStatistics FlaggedBody::rebuild(const Rebuild::Settings& settings) {
   Transaction transaction(mesh_);
-  const RebuildStatistics result = rebuild_.run(transaction, complex_, no_sheet_, none_, settings);
+  const RebuildStatistics result = rebuild_.run(transaction, complex_, no_sheet_, settings);
   journal_.append(transaction.commit());
   return result;
 }

@@ -49,7 +49,6 @@ class FlaggedBody {
   ClosedComplex complex_;
   Rebuild rebuild_;
   OwnSheet no_sheet_;
-  std::vector<OnVertex> none_;
 };
 
 }  // namespace incise::test
