@@ -125,6 +125,7 @@ std::vector<Vec3> MaterialBlade::refined(std::span<const Vec3> row) const {
 void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row,
                           double spacing) {
   spacing_ = spacing;
+  course_ = Vec3::Zero();
   set_parts(row);
   const std::vector<Vec3> places = refined(row);
   points_.assign(places.size(), {});
@@ -221,9 +222,8 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
   }
   if (!is_ahead || !(point.lead > kExitLead * spacing_ || meets_tissue(mesh, point))) return;
   // It has left the body: the cut goes straight on, unless the map of the surface there says much the same.
-  const double step = point.rest_step.norm();
-  if (step > 0) {
-    const Vec3 straight = anchor + (point.lead / step) * point.rest_step;
+  if (!course_.isZero(0.0)) {
+    const Vec3 straight = anchor + point.lead * course_;
     if ((point.candidate - straight).norm() > kTrust * spacing_) point.candidate = straight;
   }
   point.is_accepted = push_out(mesh, surface, anchor, point.candidate);
@@ -232,7 +232,7 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
 /// The blade has left the body, so its rest point must lie outside: else further along its way.
 bool MaterialBlade::push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest) {
   const Vec3 way = rest - from;
-  for (const double reach : {1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 13.0, 21.0}) {
+  for (const double reach : {1.0, 1.5, 2.0, 3.0, 5.0}) {
     const Vec3 place = from + reach * way;
     if (incise::locate(mesh, surface, {place, next_key_++}).is_valid()) continue;
     rest = place;
@@ -281,6 +281,19 @@ void MaterialBlade::locate(const TetMesh& mesh, const SurfaceIndex& surface, con
     judge(mesh, surface, point, anchors_[i]);
   }
   follow_entered(mesh, surface);
+  set_course();
+}
+
+/// The course of the cut at rest: the mean way of the points in tissue, new ones counting most.
+void MaterialBlade::set_course() {
+  Vec3 way = Vec3::Zero();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
+    if (point.is_accepted && point.has_entered && point.tet.is_valid()) way += point.candidate - anchors_[i];
+  }
+  const double length = way.norm();
+  if (!(length > 0)) return;
+  course_ = (0.5 * course_ + way / length).normalized();
 }
 
 std::vector<Vec3> MaterialBlade::wanted() const {
@@ -294,6 +307,7 @@ std::vector<Vec3> MaterialBlade::wanted() const {
 void MaterialBlade::take_over(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row,
                               std::span<const Vec3> front, double spacing, ClosedComplex& complex) {
   spacing_ = spacing;
+  course_ = Vec3::Zero();
   set_parts(row);
   anchors_ = refined(front);
   const std::vector<Vec3> places = refined(row);
@@ -317,9 +331,10 @@ void MaterialBlade::advance(const TetMesh& mesh, const SurfaceIndex& surface, Cl
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];
     if (!point.is_accepted) continue;
-    point.rest_step = point.candidate - anchors_[i];
+    const Vec3 step = point.candidate - anchors_[i];
     anchors_[i] = point.candidate;
     if (!point.tet.is_valid()) continue;
+    point.rest_step = step;
     if (!mesh.is_live(point.tet)) point.tet = incise::locate(mesh, surface, {point.candidate, next_key_++});
     if (point.tet.is_valid()) point.master = complex.adopt(mesh, point.tet);
     point.has_entered = true;

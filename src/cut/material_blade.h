@@ -51,7 +51,7 @@ class MaterialBlade {
     Vec3 candidate = Vec3::Zero();  ///< the rest point there
     Vec3 tip = Vec3::Zero();        ///< where the front's rest point stands now
     Vec3 direction = Vec3::Zero();  ///< of cutting, as the body stands
-    Vec3 rest_step = Vec3::Zero();  ///< the last step of the anchor
+    Vec3 rest_step = Vec3::Zero();  ///< the last step of the anchor in tissue
     double lead = 0;
     TetId tet;                      ///< that holds it, if it is in tissue
     TetId hint;                     ///< a live tet near it
@@ -66,12 +66,14 @@ class MaterialBlade {
   void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);
   void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   bool push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
+  void set_course();
   void follow_entered(const TetMesh& mesh, const SurfaceIndex& surface);
   [[nodiscard]] bool meets_tissue(const TetMesh& mesh, const Point& point) const;
 
   std::vector<Point> points_;
   std::vector<Vec3> anchors_;
   std::vector<std::size_t> parts_;  // of each segment of the row
+  Vec3 course_ = Vec3::Zero();      // of the cut at rest, unit
   double spacing_ = 1.0;
   std::uint64_t next_key_ = std::uint64_t{1} << 48U;
 };
