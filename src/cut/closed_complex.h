@@ -56,6 +56,7 @@ struct Master {
   std::uint32_t mark = 0;                 ///< scratch of one stage at a time
   std::uint32_t seen = 0;                 ///< the step in which the blade last met it
   std::uint32_t first_met = 0;                      ///< the step in which the blade first met it
+  std::uint32_t missed = 0;               ///< the step in which the blade was last found to pass it by
   std::uint8_t flagged = 0;               ///< bit e: edge e is flagged
   std::uint8_t on = 0;                    ///< bit c: corner c takes part in the cut itself
   std::uint32_t entry = 0;                ///< its number among the dirty ones while a rebuild runs

@@ -174,13 +174,15 @@ bool ContactWalk::meets_some(const std::array<Vec3, 4>& corners) const {
 
 void ContactWalk::visit(std::uint32_t master) {
   Master& m = (*complex_)[master];
-  if (m.seen == step_ || m.split == nullptr) return;
+  if (m.seen == step_ || m.missed == step_ || m.split == nullptr) return;
   const std::array<Vec3, 4> corners = {mesh_->rest(m.vertices[0]), mesh_->rest(m.vertices[1]),
                                        mesh_->rest(m.vertices[2]), mesh_->rest(m.vertices[3])};
   if (meets(corners)) {
     m.seen = step_;
     if (m.first_met == 0) m.first_met = step_;
     met_.push_back(master);
+  } else {
+    m.missed = step_;
   }
 }
 

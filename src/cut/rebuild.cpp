@@ -12,6 +12,8 @@ namespace incise::inline v0 {
 namespace {
 
 constexpr unsigned kMaxPinchRounds = 4;
+/// A master falls apart into so many children at most.
+constexpr std::size_t kMostChildren = 24;
 
 /// Which side of the sheet a child of a complete master lies on: the colour of any corner that is not on the sheet.
 unsigned colour_of_child(const SplitTemplate::Child& child, const Master& master) {
@@ -72,15 +74,6 @@ class IncisionLines {
   std::uint8_t count_ = 0;
 };
 
-bool is_same_face(const TetMesh& mesh, const ClosedComplex& complex, Side a, Side b) {
-  const auto u = mesh.vertices(a), v = mesh.vertices(b);
-  const std::array<VertexId, 3> w = {complex.closed(v[0]), complex.closed(v[1]), complex.closed(v[2])};
-  return std::all_of(u.begin(), u.end(), [&](VertexId x) {
-    const VertexId y = complex.closed(x);
-    return y == w[0] || y == w[1] || y == w[2];
-  });
-}
-
 /// Whether a segment passes through a sheet an odd number of times. Exact.
 bool crosses(const OwnSheet& sheet, const SosPoint& p, const SosPoint& q) {
   const Box box{p.position.cwiseMin(q.position), p.position.cwiseMax(q.position)};
@@ -124,6 +117,7 @@ class Rebuild::Run {
   }
 
   RebuildStatistics run() {
+    if (owner_.sizes_.new_tets <= kMostChildren * dirty_.size()) transaction_.reserve(owner_.sizes_);  // alike steps
     keep_old();
     make_vertices();
     for (std::uint32_t i = 0; i < dirty_.size(); ++i) make_children(i);
@@ -134,6 +128,7 @@ class Rebuild::Run {
     for (unsigned round = 0; round < kMaxPinchRounds && close_pinched_faces(); ++round) separate();
     open_faces();
     bury_retired();
+    owner_.sizes_ = transaction_.sizes();
     for (const std::uint32_t index : dirty_) complex_[index].is_dirty = false;
     dirty_.clear();
     return result_;
@@ -353,13 +348,28 @@ class Rebuild::Run {
     const auto& sides = other.behind;
     const auto other_side = static_cast<unsigned>(std::find(sides.begin(), sides.end(), index) - sides.begin());
     const auto &outer = master.split->outer[side], &facing = other.split->outer[other_side];
-    const bool is_incision = outer.size() == 1 && lies_across(master, side, other, other_side);
+    if (outer.size() == 1) {
+      meet(complex_.facet(master, outer[0]), complex_.facet(other, facing[0]),
+           lies_across(master, side, other, other_side));
+      return;
+    }
+    constexpr std::size_t kMostFacets = 6;
+    std::array<std::array<VertexId, 3>, kMostFacets> there;
+    for (std::size_t k = 0; k < facing.size(); ++k) there[k] = closed_facet(other, facing[k]);
     for (const auto a : outer) {
-      for (const auto b : facing) {
-        const Side here = complex_.facet(master, a), there = complex_.facet(other, b);
-        if (outer.size() == 1 || is_same_face(mesh_, complex_, here, there)) meet(here, there, is_incision);
+      const std::array<VertexId, 3> here = closed_facet(master, a);
+      for (std::size_t k = 0; k < facing.size(); ++k) {
+        if (are_same(here, there[k])) meet(complex_.facet(master, a), complex_.facet(other, facing[k]), false);
       }
     }
+  }
+  /// The closed vertices of a facet of a master.
+  [[nodiscard]] std::array<VertexId, 3> closed_facet(const Master& master, SplitTemplate::ChildSide side) const {
+    const auto v = mesh_.vertices(complex_.facet(master, side));
+    return {complex_.closed(v[0]), complex_.closed(v[1]), complex_.closed(v[2])};
+  }
+  [[nodiscard]] static bool are_same(const std::array<VertexId, 3>& u, const std::array<VertexId, 3>& v) {
+    return std::all_of(u.begin(), u.end(), [&](VertexId x) { return x == v[0] || x == v[1] || x == v[2]; });
   }
   /// Whether an undivided face lies on the sheet: three ON vertices, and the two masters on opposite sides.
   [[nodiscard]] bool lies_across(const Master& master, unsigned side, const Master& other, unsigned other_side) const {
@@ -611,9 +621,21 @@ class Rebuild::Run {
   }
   /// Joins faces of the cut that are not rebuilt and that nothing separates any more.
   void join_latent_walls() {
-    std::vector<std::pair<std::array<VertexId, 3>, Side>> walls;
+    auto& walls = owner_.walls_;
+    walls.clear();
+    std::array<std::uint8_t, 1024> counts{};  // of walls by a hash of their vertices: most have no match
+    const auto count_of = [&](Side side) -> std::uint8_t& {
+      const auto v = mesh_.vertices(side);
+      return counts[((v[0].value + v[1].value + v[2].value) * 0x9E3779B9U) >> 22U];
+    };
+    const auto is_wall = [&](Side side) { return mesh_.link(side) == Link::boundary(settings_.tag); };
     for (const Side side : surface_) {
-      if (mesh_.link(side) != Link::boundary(settings_.tag)) continue;
+      if (!is_wall(side)) continue;
+      std::uint8_t& count = count_of(side);
+      count = static_cast<std::uint8_t>(std::min(2, count + 1));
+    }
+    for (const Side side : surface_) {
+      if (!is_wall(side) || count_of(side) < 2) continue;
       auto v = mesh_.vertices(side);
       std::sort(v.begin(), v.end());
       walls.emplace_back(v, side);

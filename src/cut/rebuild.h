@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "cut/closed_complex.h"
@@ -64,8 +65,10 @@ class Rebuild {
   std::vector<StarTet> star_;
   std::vector<std::uint32_t> ring_;
   std::vector<Side> surface_, closed_;
+  std::vector<std::pair<std::array<VertexId, 3>, Side>> walls_;
   SurfaceEdges edges_;
   CrumbScratch crumbs_;
+  Transaction::Sizes sizes_;            // of the last run
   ZeroedArray<std::uint32_t> old_of_;   // by tet slot: the old child that holds the middle of a child
   ZeroedArray<std::uint32_t> visited_;  // by vertex slot: the round that divided its star
   std::uint32_t round_ = 0;

@@ -63,6 +63,7 @@ void SurfaceIndex::build(const TetMesh& mesh) {
   is_built_ = true;
   entries_.clear();
   heads_.clear();
+  free_ = 0;
   built_entries_ = sides.size();
   if (sides.empty()) return;
   bounds_ = rest_bounds(mesh);
@@ -124,8 +125,15 @@ void SurfaceIndex::insert(const Box& box, Side side) {
     for (int y = lo[1]; y <= hi[1]; ++y) {
       for (int x = lo[0]; x <= hi[0]; ++x) {
         std::uint32_t& head = heads_[index_of(x, y, z)];
-        entries_.push_back({side, head});
-        head = static_cast<std::uint32_t>(entries_.size());
+        if (free_ == 0) {
+          entries_.push_back({side, head});
+          head = static_cast<std::uint32_t>(entries_.size());
+          continue;
+        }
+        const std::uint32_t entry = free_;
+        free_ = entries_[entry - 1].next;
+        entries_[entry - 1] = {side, head};
+        head = entry;
       }
     }
   }

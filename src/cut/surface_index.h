@@ -54,8 +54,19 @@ class SurfaceIndex {
   Box bounds_;
   double inverse_size_ = 1.0;
   Cell counts_{};
-  std::vector<std::uint32_t> heads_;  // by cell: 1 + index of the latest entry
-  GrowArray<Entry> entries_;
+  /// Takes an entry whose side is no longer there out of a list: where it comes back, the journal tells.
+  void drop(std::uint32_t& link) const {
+    Entry& entry = entries_[link - 1];
+    const std::uint32_t next = entry.next;
+    entry.next = free_;
+    free_ = link;
+    link = next;
+  }
+
+  // A search tidies up what it passes over, which changes no answer.
+  mutable std::vector<std::uint32_t> heads_;  // by cell: 1 + index of the latest entry
+  mutable GrowArray<Entry> entries_;
+  mutable std::uint32_t free_ = 0;  // entries to be used again: 1 + index of the first
   StarWalker walker_;
   std::size_t position_ = 0;  // of the journal
   std::uint64_t rewinds_ = 0;
@@ -70,10 +81,14 @@ void SurfaceIndex::for_each_near(const TetMesh& mesh, const Box& box, Visit&& vi
   for (int z = lo[2]; z <= hi[2]; ++z) {
     for (int y = lo[1]; y <= hi[1]; ++y) {
       for (int x = lo[0]; x <= hi[0]; ++x) {
-        for (std::uint32_t i = heads_[index_of(x, y, z)]; i != 0; i = entries_[i - 1].next) {
-          const Side side = entries_[i - 1].side;
-          if (mesh.is_live(side.tet()) && mesh.link(side).is_boundary()) {
-            visit(side);
+        std::uint32_t* at = &heads_[index_of(x, y, z)];
+        while (*at != 0) {
+          Entry& entry = entries_[*at - 1];
+          if (mesh.is_live(entry.side.tet()) && mesh.link(entry.side).is_boundary()) {
+            visit(entry.side);
+            at = &entry.next;
+          } else {
+            drop(*at);
           }
         }
       }

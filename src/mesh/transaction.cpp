@@ -239,6 +239,24 @@ void Transaction::note_produced(std::span<const TetId> tets, std::span<const Tet
             born.is_valid() ? static_cast<std::uint32_t>(step_.born.size() - 1) : std::uint32_t{kInvalidIndex});
 }
 
+Transaction::Sizes Transaction::sizes() const {
+  return {step_.before.tets.size(),  step_.new_tets.size(), removed_tets_.size(), step_.before.vertices.size(),
+          step_.new_vertices.size(), step_.born.size(),     opened_.size()};
+}
+
+void Transaction::reserve(const Sizes& sizes) {
+  step_.before.tets.reserve(sizes.old_tets);
+  step_.new_tets.reserve(sizes.new_tets);
+  parents_.reserve(sizes.new_tets);
+  removed_tets_.reserve(sizes.removed_tets);
+  step_.consumed.reserve(sizes.removed_tets);
+  step_.before.vertices.reserve(sizes.old_vertices);
+  step_.new_vertices.reserve(sizes.new_vertices);
+  step_.born.reserve(sizes.born);
+  opened_.reserve(sizes.opened);
+  step_.opened.reserve(sizes.opened);
+}
+
 TetId Transaction::root_parent(TetId tet) const {
   while (tet_mark_[tet.value] >= kFirstNew) {
     tet = parents_[tet_mark_[tet.value] - kFirstNew];

@@ -62,6 +62,14 @@ class Transaction {
   void note_consumed(std::span<const TetId> tets);
   void note_produced(std::span<const TetId> tets, std::span<const TetId> parents, VertexId born = {});
 
+  /// How much a transaction has changed so far.
+  struct Sizes {
+    std::size_t old_tets = 0, new_tets = 0, removed_tets = 0, old_vertices = 0, new_vertices = 0, born = 0, opened = 0;
+  };
+  [[nodiscard]] Sizes sizes() const;
+  /// Makes room for changes in one go: those of a transaction like it.
+  void reserve(const Sizes& sizes);
+
   /// Slots taken so far.
   [[nodiscard]] const std::vector<TetId>& new_tets() const { return step_.new_tets; }
   [[nodiscard]] const std::vector<VertexId>& new_vertices() const { return step_.new_vertices; }
