@@ -159,6 +159,7 @@ std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row&
                        to.back().key == first_.back().key;
   inner = seam_segments_;
   for (std::size_t c = 0; c + 1 < to.size() && !is_first_strip_; ++c) {
+    if (to[c].key == front_[c].key && to[c + 1].key == front_[c + 1].key) continue;  // the cut still ends there
     inner.push_back(keys_of(front_[c], front_[c + 1]));
     if (returns) inner.push_back(keys_of(first_[c], first_[c + 1]));
   }
@@ -254,8 +255,10 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> row, const OwnSheet
   const double least2 = flushes ? 0.0 : kLeastStep * spacing_ * kLeastStep * spacing_;
   std::vector<Vec3> wanted(row.begin(), row.end());
   std::size_t in_slit = 0;
+  // A blade that comes back to its start over fresh tissue closes the sheet: that is no way back in its slit.
+  const bool closes = !is_first_strip_ && returns_to_start(row) && !would_cover(first_, sheet);
   for (std::size_t c = 0; c < row.size(); ++c) {
-    const bool is_held = is_on(row[c], sheet, kSlitShare * spacing_);
+    const bool is_held = !closes && is_on(row[c], sheet, kSlitShare * spacing_);
     in_slit += is_held ? 1U : 0U;
     if (is_held || (row[c] - front_[c].position).squaredNorm() <= least2) wanted[c] = front_[c].position;
   }

@@ -11,7 +11,7 @@ namespace incise::inline v0 {
 
 namespace {
 
-constexpr unsigned kMaxPinchRounds = 4;
+constexpr unsigned kMaxPinchRounds = 64;
 /// A master falls apart into so many children at most.
 constexpr std::size_t kMostChildren = 24;
 
@@ -139,23 +139,23 @@ class Rebuild::Run {
 
   void keep_old() {
     ranges_.reserve(dirty_.size());
-    for (std::uint32_t i = 0; i < dirty_.size(); ++i) {
-      Master& master = complex_[dirty_[i]];
-      OldRange range{old_.size(), 0, {}};
-      for (const TetId child : complex_.children(master)) {
-        old_.add(mesh_, child);
-        for (const Link link : mesh_.links(child)) {
-          result_.closed_sides += link.is_boundary() && link.tag() == settings_.tag ? 1U : 0U;
-        }
+    for (const std::uint32_t index : dirty_) keep_old(complex_[index]);
+  }
+  void keep_old(Master& master) {
+    OldRange range{old_.size(), 0, {}};
+    for (const TetId child : complex_.children(master)) {
+      old_.add(mesh_, child);
+      for (const Link link : mesh_.links(child)) {
+        result_.closed_sides += link.is_boundary() && link.tag() == settings_.tag ? 1U : 0U;
       }
-      range.last = old_.size();
-      for (unsigned s = 0; s < 4; ++s) {
-        if (master.behind[s] == Master::kNone) range.outside[s] = complex_.outside(mesh_, master, s);
-      }
-      ranges_.push_back(range);
-      master.entry = i;
-      master.is_pinched = master.has_latent_faces = false;
     }
+    range.last = old_.size();
+    for (unsigned s = 0; s < 4; ++s) {
+      if (master.behind[s] == Master::kNone) range.outside[s] = complex_.outside(mesh_, master, s);
+    }
+    master.entry = static_cast<std::uint32_t>(ranges_.size());
+    ranges_.push_back(range);
+    master.is_pinched = master.has_latent_faces = false;
   }
   /// What a dirty master was made of; null for others.
   [[nodiscard]] const OldRange* range_of(std::uint32_t master) const {
@@ -237,7 +237,7 @@ class Rebuild::Run {
     const SplitTemplate& split = divider_.find(master);
     complex_[index].is_kept = is_divided_so(master, split);
     if (master.is_kept) {
-      for (std::uint32_t old = ranges_[i].first; old < ranges_[i].last; ++old) note_old(old_.id(old), old);
+      note_kept(ranges_[i]);
       return;
     }
     children_.clear();
@@ -257,6 +257,9 @@ class Rebuild::Run {
     complex_.set_children(index, split, children_);
   }
 
+  void note_kept(const OldRange& range) {
+    for (std::uint32_t old = range.first; old < range.last; ++old) note_old(old_.id(old), old);
+  }
   void note_old(TetId tet, std::uint32_t old) {
     owner_.old_of_.ensure(std::size_t{tet.value} + 1);
     owner_.old_of_[tet.value] = old;
@@ -430,8 +433,10 @@ class Rebuild::Run {
   template <class Masters, class CodesIn>
   void gather(const Masters& masters, CodesIn&& codes_in) {
     star_.clear();
+    is_beside_closed_ = false;
     for (const std::uint32_t index : masters) {
       const Master& master = complex_[index];
+      is_beside_closed_ |= master.is_pinched || master.has_latent_faces;
       const SplitTemplate& split = *master.split;
       const Codes codes = codes_in(master);
       const auto tets = complex_.children(master);
@@ -494,7 +499,7 @@ class Rebuild::Run {
   /// Notes the boundary sides around a vertex where two fans of tets might touch along an edge, or a face of the cut
   /// that is not rebuilt might be separated no more: not at points of the cut inside the body.
   void note_surface_around(VertexId vertex) {
-    bool is_plain = !complex_.is_on(vertex);
+    bool is_plain = !complex_.is_on(vertex) && !is_beside_closed_;
     for (const StarTet& tet : star_) is_plain &= has_plain_sides(tet);
     if (is_plain) return;
     for (const StarTet& tet : star_) {
@@ -560,14 +565,15 @@ class Rebuild::Run {
     }
     gather(ring_, [&](const Master& m) { return codes_of_point(m, point.vertex); });
     divide(
-        point.vertex, [](std::span<const StarTet>) { return VertexId(); }, false);
+        point.vertex, [&](std::span<const StarTet> part) { return home_of_corner(point.vertex, part); }, false);
   }
   void divide_middle(std::uint32_t master) {
     if (!is_first(complex_[master].middle)) return;
     ring_.assign(1, master);
     gather(ring_, [](const Master&) { return Codes{SplitTemplate::kMiddle}; });
+    const VertexId middle = complex_[master].middle;
     divide(
-        complex_[master].middle, [](std::span<const StarTet>) { return VertexId(); }, false);
+        middle, [&](std::span<const StarTet> part) { return home_of_corner(middle, part); }, false);
   }
 
   // --- after ---------------------------------------------------------------------------------------------------------
@@ -599,9 +605,23 @@ class Rebuild::Run {
       close(face);
       for (const Side side : {face.a, face.b}) complex_[complex_.find(side.tet())].is_pinched = true;
     }
-    const bool has_closed = kept < incision_.size();
+    bool has_changed = kept < incision_.size();
     incision_.resize(kept);
-    return has_closed;
+    for (const Side side : closed) has_changed |= take_in(side);
+    return has_changed;
+  }
+  /// Makes the incision of the master that a wall belongs to part of the rebuild, where it was not: its children stay.
+  bool take_in(Side side) {
+    const std::uint32_t index = complex_.find(side.tet());
+    if (mesh_.link(side) != Link::boundary(settings_.tag) || index == Master::kNone || complex_[index].is_dirty) {
+      return false;
+    }
+    complex_.mark_dirty(index);
+    keep_old(complex_[index]);
+    complex_[index].is_kept = true;
+    note_kept(ranges_.back());
+    link(complex_[index].entry);
+    return true;
   }
   /// The edges of the noted boundary sides whose vertices were both looked at in this round, or one of them.
   void collect_surface_edges() {
@@ -717,6 +737,7 @@ class Rebuild::Run {
   std::vector<Side>& surface_;  // boundary sides to be looked at
   SurfaceEdges& edges_;
   RebuildStatistics result_;
+  bool is_beside_closed_ = false;  // `star_`: beside faces of the cut that were left joined
 };
 
 RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,

@@ -55,7 +55,6 @@ Strip::Strip(SweptSurface swept, const std::vector<Keys>& shared)
 void OwnSheet::clear() {
   strips_.clear();
   border_.clear();
-  first_border_ = last_border_ = 0;
 }
 
 const Strip& OwnSheet::add(std::unique_ptr<Strip> strip) {
@@ -63,16 +62,8 @@ const Strip& OwnSheet::add(std::unique_ptr<Strip> strip) {
     const Keys keys = keys_of(segment[0], segment[1]);
     return std::find(strip->inner.begin(), strip->inner.end(), keys) != strip->inner.end();
   };
-  const auto forget_inner = [&](std::size_t from, std::size_t to) {
-    const auto begin = border_.begin() + static_cast<std::ptrdiff_t>(from);
-    const auto end = border_.begin() + static_cast<std::ptrdiff_t>(to);
-    border_.erase(std::remove_if(begin, end, is_inner), end);
-  };
-  forget_inner(last_border_, border_.size());
-  forget_inner(0, std::min(first_border_, border_.size()));
-  last_border_ = border_.size();
+  if (!strip->inner.empty()) std::erase_if(border_, is_inner);
   border_.insert(border_.end(), strip->border.begin(), strip->border.end());
-  if (strips_.empty()) first_border_ = border_.size();
   strips_.push_back(std::move(strip));
   return *strips_.back();
 }

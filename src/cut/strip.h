@@ -50,8 +50,6 @@ class OwnSheet {
  private:
   std::deque<std::unique_ptr<Strip>> strips_;
   std::vector<Strip::Segment> border_;
-  std::size_t first_border_ = 0;  // segments of the first strip
-  std::size_t last_border_ = 0;   // where those of the last strip begin
 };
 
 }  // namespace incise::inline v0

@@ -162,7 +162,7 @@ Row around(double turns) {
 }
 
 // Fails: where the blade comes back it is within its slit, and held; a core cut by going around stays joined.
-TEST(BladeMotion, DISABLED_closes_the_sheet_when_it_comes_back_to_its_start) {
+TEST(BladeMotion, closes_the_sheet_when_it_comes_back_to_its_start) {
   Motion blade(around(0), 0.1);
   for (int i = 1; i <= 16; ++i) EXPECT_FALSE(blade.advance(around(i / 16.0)).starts_anew);
   EXPECT_EQ(blade.sheet().strips().size(), 16U);
@@ -200,7 +200,7 @@ TEST(BladeMotion, of_a_closed_edge_has_no_border_along_it) {
 
 // Fails where parts of the front are held while others go on: held segments count as inner, and leave the border of the
 // sheet although it still ends there.
-TEST(BladeMotion, DISABLED_ends_where_all_that_it_swept_does) {
+TEST(BladeMotion, ends_where_all_that_it_swept_does) {
   Random random(1);
   for (unsigned run = 0; run < 30; ++run) {
     SCOPED_TRACE(run);
