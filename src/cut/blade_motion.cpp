@@ -36,6 +36,7 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   front_.clear();
   is_closed_ = row.size() > 2 && row.front() == row.back();
   first_ = front_ = number(row);
+  is_swept_.assign(row.size() - 1, false);
   last_.assign(row.begin(), row.end());
   reach_lo_ = reach_hi_ = row.front();
   is_first_strip_ = true;
@@ -158,8 +159,9 @@ std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row&
   const bool returns = to.size() == first_.size() && to.front().key == first_.front().key &&
                        to.back().key == first_.back().key;
   inner = seam_segments_;
-  for (std::size_t c = 0; c + 1 < to.size() && !is_first_strip_; ++c) {
-    if (to[c].key == front_[c].key && to[c + 1].key == front_[c + 1].key) continue;  // the cut still ends there
+  for (std::size_t c = 0; c + 1 < to.size(); ++c) {
+    const bool stays = to[c].key == front_[c].key && to[c + 1].key == front_[c + 1].key;  // the cut still ends there
+    if (stays || !is_swept_[c]) continue;
     inner.push_back(keys_of(front_[c], front_[c + 1]));
     if (returns) inner.push_back(keys_of(first_[c], first_[c + 1]));
   }
@@ -181,6 +183,7 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet* sheet) {
     move.strip = std::make_unique<Strip>(std::move(surface), inner_segments(to));
   }
   move.strip->row = to;
+  note_swept(to);
   for (const SosPoint& p : to) {
     reach_lo_ = reach_lo_.cwiseMin(p.position);
     reach_hi_ = reach_hi_.cwiseMax(p.position);
@@ -190,6 +193,12 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet* sheet) {
   seams_ = {};
   seam_segments_.clear();
   return move;
+}
+
+void BladeMotion::note_swept(const Row& to) {
+  for (std::size_t c = 0; c + 1 < to.size(); ++c) {
+    if (to[c].key != front_[c].key || to[c + 1].key != front_[c + 1].key) is_swept_[c] = true;
+  }
 }
 
 BladeMotion::Proposal BladeMotion::propose(std::span<const Vec3> row) {
@@ -219,6 +228,9 @@ void BladeMotion::refine(const std::vector<std::size_t>& parts) {
     if (fan.size() > 2) seam_segments_.push_back(keys_of(a, b));
     refined.insert(refined.end(), fan.begin() + 1, fan.end());
   }
+  std::vector<bool> is_swept;
+  for (std::size_t c = 0; c < parts.size(); ++c) is_swept.insert(is_swept.end(), parts[c], is_swept_[c]);
+  is_swept_ = std::move(is_swept);
   front_ = std::move(refined);
   if (is_first_strip_) {  // nothing was swept yet: there is no seam
     first_ = front_;
@@ -244,7 +256,9 @@ BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> before, std::spa
   move.starts_anew = true;
   move.strip = std::make_unique<Strip>(std::move(surface), std::vector<std::array<std::uint64_t, 2>>());
   move.strip->row = to;
-  first_ = from;
+  first_ = front_ = from;
+  is_swept_.assign(to.size() - 1, false);
+  note_swept(to);
   front_ = to;
   is_held_ = false;
   return move;

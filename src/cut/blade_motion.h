@@ -59,11 +59,13 @@ class BladeMotion {
   [[nodiscard]] SweptSurface with_overlap(const SweptSurface& surface, const OwnSheet& sheet) const;
   [[nodiscard]] std::vector<std::array<std::uint64_t, 2>> inner_segments(const Row& to) const;
   Move leave_slit(std::span<const Vec3> before, std::span<const Vec3> row, const Touches& touches);
+  void note_swept(const Row& to);
   Move move_to(const Row& to, const OwnSheet* sheet);
 
   double spacing_ = 1.0;
   std::uint64_t next_key_ = kFirstBladeKey;
   Row first_, front_;
+  std::vector<bool> is_swept_;  // by column: the front there is the end of a strip
   std::vector<Vec3> last_;  // where the blade was last
   Vec3 reach_lo_ = Vec3::Zero(), reach_hi_ = Vec3::Zero();
   SweptSurface seams_;  // between the front as it was and as it is divided now
