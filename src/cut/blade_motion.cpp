@@ -156,8 +156,8 @@ SweptSurface BladeMotion::with_overlap(const SweptSurface& surface, const OwnShe
 /// The segments of the front that the strip to `to` leaves behind, and those of the first row that it comes back to.
 std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row& to) const {
   std::vector<std::array<std::uint64_t, 2>> inner;
-  const bool returns = to.size() == first_.size() && to.front().key == first_.front().key &&
-                       to.back().key == first_.back().key;
+  const bool returns =
+      to.size() == first_.size() && to.front().key == first_.front().key && to.back().key == first_.back().key;
   inner = seam_segments_;
   for (std::size_t c = 0; c + 1 < to.size(); ++c) {
     const bool stays = to[c].key == front_[c].key && to[c + 1].key == front_[c + 1].key;  // the cut still ends there

@@ -66,7 +66,7 @@ class BladeMotion {
   std::uint64_t next_key_ = kFirstBladeKey;
   Row first_, front_;
   std::vector<bool> is_swept_;  // by column: the front there is the end of a strip
-  std::vector<Vec3> last_;  // where the blade was last
+  std::vector<Vec3> last_;      // where the blade was last
   Vec3 reach_lo_ = Vec3::Zero(), reach_hi_ = Vec3::Zero();
   SweptSurface seams_;  // between the front as it was and as it is divided now
   std::vector<std::array<std::uint64_t, 2>> seam_segments_;

@@ -55,7 +55,7 @@ struct Master {
   std::uint32_t first_child = 0;          ///< into `ClosedComplex::children`
   std::uint32_t mark = 0;                 ///< scratch of one stage at a time
   std::uint32_t seen = 0;                 ///< the step in which the blade last met it
-  std::uint32_t first_met = 0;                      ///< the step in which the blade first met it
+  std::uint32_t first_met = 0;            ///< the step in which the blade first met it
   std::uint32_t missed = 0;               ///< the step in which the blade was last found to pass it by
   std::uint8_t flagged = 0;               ///< bit e: edge e is flagged
   std::uint8_t on = 0;                    ///< bit c: corner c takes part in the cut itself
@@ -63,7 +63,7 @@ struct Master {
   bool is_dirty = false;                  ///< its children must be made anew
   bool is_kept = false;                   ///< a rebuild found nothing to change about its children
   bool is_cut = false;                    ///< the blade has crossed an edge of it
-  bool has_latent_faces = false;                        ///< incision faces that nothing separates, left joined
+  bool has_latent_faces = false;          ///< incision faces that nothing separates, left joined
   bool is_pinched = false;                ///< has incision faces that were left joined beside an edge
 
   [[nodiscard]] bool is_divided() const { return split->children.size() > 1; }

@@ -29,8 +29,8 @@ class ContactWalk {
   /// index that the strip passes through.
   const std::vector<std::uint32_t>& find(const TetMesh& mesh, const Strip& strip, const SurfaceIndex& surface,
                                          ClosedComplex& complex, std::uint32_t step);
-  /// Notes where the front lies now, `row`, among the masters met last and where it lay before: the next strip is looked
-  /// for from there, wherever along the blade it begins. Cost: O(masters · segments).
+  /// Notes where the front lies now, `row`, among the masters met last and where it lay before: the next strip is
+  /// looked for from there, wherever along the blade it begins. Cost: O(masters · segments).
   void keep_front(const TetMesh& mesh, const ClosedComplex& complex, std::span<const SosPoint> row);
 
  private:
@@ -58,7 +58,7 @@ class ContactWalk {
   std::uint32_t step_ = 0;
   std::vector<Prism> prisms_;
   std::vector<std::uint32_t> met_, last_;
-  std::vector<std::uint32_t> front_;  // masters that the blade's front may lie in
+  std::vector<std::uint32_t> front_;     // masters that the blade's front may lie in
   ZeroedArray<std::uint32_t> rejected_;  // by tet slot: the walk that turned it down
   std::uint32_t walk_ = 0;
 };

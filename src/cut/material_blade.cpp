@@ -122,8 +122,7 @@ std::vector<Vec3> MaterialBlade::refined(std::span<const Vec3> row) const {
   return points;
 }
 
-void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row,
-                          double spacing) {
+void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row, double spacing) {
   spacing_ = spacing;
   course_ = Vec3::Zero();
   set_parts(row);

@@ -31,8 +31,8 @@ class MaterialBlade {
   [[nodiscard]] const std::vector<std::size_t>& parts() const { return parts_; }
 
   /// Looks for the blade as it stands now. `direction`: where its edge cuts, unit; zero: where it has cut so far.
-  void locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex,
-              std::span<const Vec3> row, const Vec3& direction);
+  void locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex, std::span<const Vec3> row,
+              const Vec3& direction);
   /// The row to cut to, as far as it is not held.
   [[nodiscard]] std::vector<Vec3> wanted() const;
   /// Holds a point of the blade in this step.
@@ -53,8 +53,8 @@ class MaterialBlade {
     Vec3 direction = Vec3::Zero();  ///< of cutting, as the body stands
     Vec3 rest_step = Vec3::Zero();  ///< the last step of the anchor in tissue
     double lead = 0;
-    TetId tet;                      ///< that holds it, if it is in tissue
-    TetId hint;                     ///< a live tet near it
+    TetId tet;                             ///< that holds it, if it is in tissue
+    TetId hint;                            ///< a live tet near it
     std::uint32_t master = Master::kNone;  ///< that holds the anchor, if it is in tissue
     bool has_entered = false;
     bool is_accepted = false;

@@ -40,11 +40,12 @@ std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sh
                                          std::span<const std::uint32_t> masters, ClosedComplex& complex,
                                          SnapScratch& scratch);
 
-/// Moves the chosen vertices onto the sheet, their copies with them, while the body keeps its shape: interior ones freely,
-/// those on a flat part of a surface within it, those on a straight feature along it, others not at all (the wall then
-/// bends to them). A move that would leave a tet of the star less than a quarter of its volume or flat, change the
-/// volume of the star, or be longer than 1.5·snap·spacing, is refused. Only once the blade has gone: edges around a
-/// vertex that has moved cannot be told on which side of earlier strips they are. Returns how many stay off the sheet.
+/// Moves the chosen vertices onto the sheet, their copies with them, while the body keeps its shape: interior ones
+/// freely, those on a flat part of a surface within it, those on a straight feature along it, others not at all (the
+/// wall then bends to them). A move that would leave a tet of the star less than a quarter of its volume or flat,
+/// change the volume of the star, or be longer than 1.5·snap·spacing, is refused. Only once the blade has gone: edges
+/// around a vertex that has moved cannot be told on which side of earlier strips they are. Returns how many stay off
+/// the sheet.
 std::uint64_t move_on_vertices(Transaction& transaction, const OwnSheet& sheet, double snap,
                                const std::vector<OnVertex>& chosen, ClosedComplex& complex);
 

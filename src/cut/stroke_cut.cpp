@@ -165,8 +165,7 @@ void StrokeCut::count_cut(CutStatistics& statistics) {
 void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, CutStatistics& statistics) {
   const std::size_t tets = mesh.tet_count(), vertices = mesh.vertex_count();
   Transaction transaction(mesh);
-  const RebuildStatistics done =
-      rebuild_.run(transaction, complex_, sheet_, {tag_, snap() > 0, closes_pinched});
+  const RebuildStatistics done = rebuild_.run(transaction, complex_, sheet_, {tag_, snap() > 0, closes_pinched});
   Step step = transaction.commit();
   statistics.created_tets += mesh.tet_count() - tets;
   statistics.new_vertices += mesh.vertex_count() - vertices;
@@ -213,7 +212,8 @@ void StrokeCut::finish(TetMesh& mesh, Journal& journal, CutStatistics& statistic
   place_front_points(mesh, kFinalMargin, complex_);
   if (!complex_.dirty().empty()) rebuild(mesh, journal, true, statistics);
   for (std::uint32_t i = 0; i < complex_.size(); ++i) {
-    if (complex_[i].split != nullptr && (complex_[i].is_pinched || complex_[i].has_latent_faces)) complex_.mark_dirty(i);
+    if (complex_[i].split != nullptr && (complex_[i].is_pinched || complex_[i].has_latent_faces))
+      complex_.mark_dirty(i);
   }
   if (!complex_.dirty().empty()) {
     rebuild(mesh, journal, false, statistics);

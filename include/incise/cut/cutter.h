@@ -32,11 +32,10 @@ class Cutter {
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times);
 
-  /// Puts the blade in place for a stroke that is cut step by step (profile incise). `row`: its edge as the body stands,
-  /// at least two finite points; `has_moved`: whether the body stands otherwise than at rest.
-  /// Cost: one pass over the mesh at first, to find its surface.
-  void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
-             std::uint32_t tag);
+  /// Puts the blade in place for a stroke that is cut step by step (profile incise). `row`: its edge as the body
+  /// stands, at least two finite points; `has_moved`: whether the body stands otherwise than at rest. Cost: one pass
+  /// over the mesh at first, to find its surface.
+  void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved, std::uint32_t tag);
   /// Cuts on to where the blade is now; `row` has as many points as the first. `direction`: where the edge cuts, unit;
   /// zero: where it has cut so far. Appends to the journal what changed.
   /// Errors: kOutOfMemory where ids run out; the mesh is then as before the step. Cost: O(tets that the blade touches).
