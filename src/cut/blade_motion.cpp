@@ -229,7 +229,7 @@ void BladeMotion::refine(const std::vector<std::size_t>& parts) {
     refined.insert(refined.end(), fan.begin() + 1, fan.end());
   }
   std::vector<bool> is_swept;
-  for (std::size_t c = 0; c < parts.size(); ++c) is_swept.insert(is_swept.end(), parts[c], is_swept_[c]);
+  for (std::size_t c = 0; c < parts.size(); ++c) is_swept.insert(is_swept.end(), parts[c], bool{is_swept_[c]});
   is_swept_ = std::move(is_swept);
   front_ = std::move(refined);
   if (is_first_strip_) {  // nothing was swept yet: there is no seam

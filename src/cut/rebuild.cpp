@@ -12,8 +12,6 @@ namespace incise::inline v0 {
 namespace {
 
 constexpr unsigned kMaxPinchRounds = 64;
-/// A master falls apart into so many children at most.
-constexpr std::size_t kMostChildren = 24;
 
 /// Which side of the sheet a child of a complete master lies on: the colour of any corner that is not on the sheet.
 unsigned colour_of_child(const SplitTemplate::Child& child, const Master& master) {

@@ -15,6 +15,9 @@
 
 namespace incise::inline v0 {
 
+/// A master falls apart into so many children at most.
+inline constexpr std::size_t kMostChildren = 24;
+
 /// What a rebuild did.
 struct RebuildStatistics {
   std::uint64_t opened_sides = 0, closed_sides = 0;  ///< of incision faces, made and unmade
@@ -42,9 +45,6 @@ class Rebuild {
   /// Rebuilds the dirty masters. Cost: O(dirty masters).
   RebuildStatistics run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,
                         const Settings& settings);
-
-  /// The incision faces that the last run opened.
-  [[nodiscard]] const std::vector<IncisionFace>& opened() const { return incision_; }
 
  private:
   class Run;

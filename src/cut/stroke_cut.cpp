@@ -20,8 +20,6 @@ constexpr double kGrazeShare = 0.02;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
 constexpr double kFinalMargin = 0.05;
-/// A tet falls apart into so many children at most.
-constexpr std::size_t kMostChildren = 24;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
