@@ -46,6 +46,9 @@ class Rebuild {
   RebuildStatistics run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,
                         const Settings& settings);
 
+  /// The incision faces that the last run opened.
+  [[nodiscard]] const std::vector<IncisionFace>& opened() const { return incision_; }
+
  private:
   class Run;
 
