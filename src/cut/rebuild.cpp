@@ -103,7 +103,6 @@ class Rebuild::Run {
         dropped_(owner.dropped_),
         ranges_(owner.ranges_),
         children_(owner.children_),
-        star_tets_(owner.star_tets_),
         star_(owner.star_),
         ring_(owner.ring_),
         surface_(owner.surface_),
@@ -729,7 +728,7 @@ class Rebuild::Run {
   std::vector<IncisionFace>& incision_;
   std::vector<IncisionFace>& dropped_;
   std::vector<OldRange>& ranges_;
-  std::vector<TetId>&children_, &star_tets_;
+  std::vector<TetId>& children_;
   std::vector<StarTet>& star_;
   std::vector<std::uint32_t>& ring_;
   std::vector<Side>& surface_;  // boundary sides to be looked at

@@ -64,7 +64,7 @@ class Rebuild {
   std::vector<IncisionFace> incision_;
   std::vector<IncisionFace> dropped_;  // from here on: memory kept between runs
   std::vector<OldRange> ranges_;
-  std::vector<TetId> children_, star_tets_;
+  std::vector<TetId> children_;
   std::vector<StarTet> star_;
   std::vector<std::uint32_t> ring_;
   std::vector<Side> surface_, closed_;
