@@ -20,6 +20,9 @@ namespace {
 constexpr double kSlitShare = 0.02;
 /// Consecutive parts of a sweep that meets itself overlap by so many spacings.
 constexpr double kOverlapShare = 3.0;
+/// Strokes that meet the end of an older cut reach into it by so many spacings, if its walls lie as near as this there.
+constexpr double kOlderCut = 0.5;
+constexpr double kNearWall = 0.15;
 /// A step of a blade in a moving body is taken in parts of an element, at most so many.
 constexpr double kMostParts = 64;
 /// A blade this many spacings ahead of the crack's tip cuts on even where that closes the cut behind it: else strong
@@ -76,6 +79,8 @@ class Cutter::Pipeline {
     spacing_ = typical_spacing(mesh);
     last_row_.assign(row.begin(), row.end());
     is_in_material_ = has_moved;
+    is_first_step_ = true;
+    way_.clear();
     if (!has_moved) {
       motion_.begin(row, spacing_);
       return;
@@ -91,6 +96,8 @@ class Cutter::Pipeline {
         enter_material(mesh);
       }
       const std::vector<Vec3> before = std::exchange(last_row_, {row.begin(), row.end()});
+      if (std::exchange(is_first_step_, false) && !is_in_material_) start_in_older_cut(mesh, before);
+      way_ = way_between(before, last_row_);
       if (is_in_material_) {
         return step_in_material(mesh, journal, before, direction, times);
       }
@@ -100,7 +107,10 @@ class Cutter::Pipeline {
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times) {
     return guarded(mesh, journal, [&] {
       Status status;
-      if (!is_in_material_) status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh)), times);
+      if (!is_in_material_) {
+        status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh)), times);
+        if (status) status = end_in_older_cut(mesh, journal, times);
+      }
       if (status) stroke_cut_.finish(mesh, journal, statistics_, times);
       return status;
     });
@@ -140,6 +150,34 @@ class Cutter::Pipeline {
   }
   [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const {
     return [&](const SweptSurface& surface) { return stroke_cut_.touches(mesh, surface); };
+  }
+  /// How the blade moved, in shares of the point that moved furthest.
+  static std::vector<Vec3> way_between(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    std::vector<Vec3> way;
+    double longest = 0;
+    for (std::size_t c = 0; c < to.size(); ++c) {
+      way.emplace_back(to[c] - from[c]);
+      longest = std::max(longest, way.back().norm());
+    }
+    for (Vec3& step : way) step = longest > 0 ? Vec3(step / longest) : Vec3(Vec3::Zero());
+    return way;
+  }
+  static std::vector<Vec3> shifted(const std::vector<Vec3>& row, const std::vector<Vec3>& way, double by) {
+    std::vector<Vec3> moved = row;
+    for (std::size_t c = 0; c < row.size() && c < way.size(); ++c) moved[c] += by * way[c];
+    return moved;
+  }
+  /// A stroke that starts where an older cut ends begins a little inside that cut: its front keeps off the edges of
+  /// elements, and would leave a thread of tissue between the two.
+  void start_in_older_cut(const TetMesh& mesh, const std::vector<Vec3>& first) {
+    const std::vector<Vec3> behind = shifted(first, way_between(first, last_row_), -kOlderCut * spacing_);
+    if (stroke_cut_.lies_on_walls(mesh, behind, kNearWall * spacing_)) motion_.begin(behind, spacing_);
+  }
+  /// The same for one that ends where an older cut does.
+  Status end_in_older_cut(TetMesh& mesh, Journal& journal, StageTimes& times) {
+    const std::vector<Vec3> ahead = shifted(last_row_, way_, kOlderCut * spacing_);
+    if (way_.empty() || !stroke_cut_.lies_on_walls(mesh, ahead, kNearWall * spacing_)) return {};
+    return follow(mesh, journal, motion_.advance(ahead, stroke_cut_.sheet(), touches(mesh), true), times);
   }
   /// The body has begun to move: from now on the blade is located in the elements as they stand.
   void enter_material(const TetMesh& mesh) {
@@ -250,7 +288,9 @@ class Cutter::Pipeline {
   MaterialBlade material_;
   std::vector<Vec3> last_row_;
   double spacing_ = 1.0;
+  std::vector<Vec3> way_;  // of the last step
   bool is_in_material_ = false;
+  bool is_first_step_ = false;
   std::uint32_t tag_ = 1;
   CutStatistics statistics_;  // of the stroke being cut
 };

@@ -6,6 +6,7 @@
 
 #include "cut/dividable.h"
 #include "cut/neighbourhood.h"
+#include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
 #include "incise/mesh/verbs.h"
 
@@ -187,6 +188,35 @@ std::vector<std::uint32_t> StrokeCut::recrossed_columns(const TetMesh& mesh, con
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   return columns;
+}
+
+bool StrokeCut::lies_on_walls(const TetMesh& mesh, std::span<const Vec3> row, double distance) const {
+  constexpr unsigned kSamples = 64;
+  constexpr double kMost = 0.8;
+  unsigned inside = 0, on_wall = 0;
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    for (unsigned i = 0; i < kSamples; ++i) {
+      const Vec3 place = row[c] + ((i + 0.5) / kSamples) * (row[c + 1] - row[c]);
+      if (surface_.bounds().distance2(place) > 0) continue;
+      const bool is_near = is_near_older_wall(mesh, place, distance);
+      on_wall += is_near ? 1U : 0U;
+      inside += is_near || locate(mesh, surface_, {place, ~std::uint64_t{0} - 1}).is_valid() ? 1U : 0U;
+    }
+  }
+  return on_wall > 0 && on_wall >= kMost * inside;
+}
+
+bool StrokeCut::is_near_older_wall(const TetMesh& mesh, const Vec3& place, double distance) const {
+  bool is_near = false;
+  const Vec3 reach = Vec3::Constant(distance);
+  surface_.for_each_near(mesh, {place - reach, place + reach}, [&](Side side) {
+    const std::uint32_t tag = mesh.link(side).tag();
+    if (is_near || tag == 0 || tag == tag_) return;
+    const auto v = mesh.vertices(side);
+    is_near = closest_on_triangle(place, mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])).distance2 <=
+              distance * distance;
+  });
+  return is_near;
 }
 
 bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const {

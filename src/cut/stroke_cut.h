@@ -48,6 +48,8 @@ class StrokeCut {
 
   /// Whether a surface meets the body at rest. Cost: the cells of the surface index that it passes through.
   [[nodiscard]] bool touches(const TetMesh& mesh, const SweptSurface& surface) const;
+  /// Whether a row lies on the walls of older cuts, as far as it is in the body: at least most of it within `distance`.
+  [[nodiscard]] bool lies_on_walls(const TetMesh& mesh, std::span<const Vec3> row, double distance) const;
   [[nodiscard]] const OwnSheet& sheet() const { return sheet_; }
   [[nodiscard]] ClosedComplex& complex() { return complex_; }
   [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
@@ -56,6 +58,7 @@ class StrokeCut {
   void collide(TetMesh& mesh, Journal& journal, const Strip& strip);
   bool bisect(TetMesh& mesh, Journal& journal, const std::vector<BetweenCrossings>& between);
   void flag(const TetMesh& mesh, const Strip& strip);
+  [[nodiscard]] bool is_near_older_wall(const TetMesh& mesh, const Vec3& place, double distance) const;
   void refresh_around(std::uint32_t edge);
   void place_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
   void count_cut(CutStatistics& statistics);
