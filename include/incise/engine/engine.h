@@ -53,9 +53,12 @@ struct MaintainReport {
 
 /// Owns a mesh and orders the pipeline on it: collision → subdivide → separate → merge → improve (paper, Figure 1).
 ///
-/// Maintenance follows each cut, within `MaintainOptions::work_units`; what the budget leaves undone waits for
-/// `maintain` or the next cut. One writer; const reads from any thread between calls. A call either takes effect as a
-/// whole or not at all.
+/// A stroke is cut as a whole (`cut`) or step by step as the blade moves (`begin_stroke`, `step`, `end_stroke`), in a
+/// body at rest or one that moves (`set_positions`). After each step the mesh is valid and cut up to the blade, inside
+/// elements. The profile `paper` knows whole strokes alone: its steps cut nothing, `end_stroke` does.
+/// Maintenance follows each stroke, within `MaintainOptions::work_units`; what the budget leaves undone waits for
+/// `maintain` or the next stroke. One writer; const reads from any thread between calls. A call either takes effect as
+/// a whole or not at all.
 class Engine {
  public:
   /// Takes the mesh. Errors: kBadArgument for options out of range.
@@ -67,8 +70,9 @@ class Engine {
   /// Strokes applied so far (undone ones not counted).
   [[nodiscard]] std::uint32_t stroke_count() const { return stroke_count_; }
 
-  /// Cuts along the whole stroke. A blade that misses changes nothing and is no error.
-  /// Errors: kBadArgument for a malformed stroke; kOutOfMemory where ids run out; the mesh is then unchanged.
+  /// Cuts along the whole stroke, in the rest shape. A blade that misses changes nothing and is no error.
+  /// Errors: kBadArgument for a malformed stroke, or while one is under way; kOutOfMemory where ids run out; the mesh is
+  /// then unchanged.
   /// Cost: O(tets) to find the first contact, then O(cut tets).
   Result<StrokeReport> cut(const Stroke& stroke);
 
@@ -77,33 +81,37 @@ class Engine {
   Result<std::uint32_t> begin_stroke(const BladePose& pose);
   /// Moves the blade on and cuts what it passes through on the way, up to where it stands now. All poses of a stroke
   /// have the same number of points. Errors: kBadArgument without a stroke or for a malformed pose; kOutOfMemory where
-  /// ids run out; the mesh is then as before the step. Cost: O(tets that the blade touches), whatever the mesh's size.
+  /// ids run out; the mesh is then as before the step, and the stroke has ended there. May append several steps to the
+  /// journal. Cost: O(tets that the blade touches), whatever the mesh's size.
   Result<StepReport> step(const BladePose& pose);
-  /// Lifts the blade off: what it cut stays, and is maintained within the budget. Errors: kBadArgument without a
-  /// stroke.
+  /// Lifts the blade off: what it cut stays, is finished (vertices that took part in the cut move onto it, its front
+  /// draws close to the blade), and is maintained within the budget. Errors: kBadArgument without a stroke;
+  /// kOutOfMemory, where the stroke ends as its last step left it.
   Result<StrokeReport> end_stroke();
   [[nodiscard]] bool is_in_stroke() const { return is_in_stroke_; }
 
   /// Tells where the body stands now: `positions[slot]` for every vertex slot, dead ones ignored. Finite, in the mesh's
-  /// length unit; the rest shape stays. Errors: kBadArgument for a wrong count or a position that is not finite.
-  /// Cost: O(vertices).
+  /// length unit; the rest shape stays. At any time, between the steps of a stroke too; no operation for undo.
+  /// Errors: kBadArgument for a wrong count or a position that is not finite. Cost: O(vertices).
   Status set_positions(std::span<const Vec3> positions);
 
   /// Goes on with the maintenance that a budget left undone, for `work_units` more or until `should_stop` says so; it
   /// counts as part of the last stroke. The same units on the same mesh give the same result, whatever stopped it.
-  /// Cost: about 20 ns per unit.
+  /// Does nothing while a stroke is under way. Cost: about 20 ns per unit.
   MaintainReport maintain(std::uint64_t work_units = kUnlimitedWork, const ShouldStop& should_stop = {});
   /// Whether maintenance waits.
   [[nodiscard]] bool has_maintenance() const;
 
-  /// Maintains the whole mesh, cut or not: an operation of its own for undo. Cost: O(tets).
+  /// Maintains the whole mesh, cut or not: an operation of its own for undo. Does nothing, and is none, while a stroke
+  /// is under way. Cost: O(tets).
   MaintainReport improve(const ShouldStop& should_stop = {});
 
   /// Takes the last stroke (or `improve`) back, bit for bit, its maintenance included; maintenance that waits is
   /// dropped, and a stroke under way is ended where the blade is, and taken back. Returns false where there is none.
   /// Cost: O(its edits).
   bool undo();
-  /// Applies what was last taken back. Returns false where there is none.
+  /// Applies what was last taken back. Returns false where there is none, or while a stroke is under way. A new stroke
+  /// forgets what could be applied, once it has ended.
   bool redo();
 
  private:
