@@ -71,9 +71,8 @@ class Engine {
   [[nodiscard]] std::uint32_t stroke_count() const { return stroke_count_; }
 
   /// Cuts along the whole stroke, in the rest shape. A blade that misses changes nothing and is no error.
-  /// Errors: kBadArgument for a malformed stroke, or while one is under way; kOutOfMemory where ids run out; the mesh is
-  /// then unchanged.
-  /// Cost: O(tets) to find the first contact, then O(cut tets).
+  /// Errors: kBadArgument for a malformed stroke, or while one is under way; kOutOfMemory where ids run out; the mesh
+  /// is then unchanged. Cost: O(tets) to find the first contact, then O(cut tets).
   Result<StrokeReport> cut(const Stroke& stroke);
 
   /// Puts the blade in place for a stroke that will be cut step by step; nothing is cut yet. Returns the stroke's
