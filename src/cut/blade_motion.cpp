@@ -135,6 +135,31 @@ bool BladeMotion::meets(const SweptSurface& surface, const OwnSheet& sheet) cons
   return false;
 }
 
+/// Whether a strip passes within an element of what was swept well behind the front.
+bool BladeMotion::comes_near(const SweptSurface& surface, const OwnSheet& sheet) const {
+  double travel = 0;
+  for (auto strip = sheet.strips().rbegin(); strip != sheet.strips().rend(); ++strip) {
+    const Sheet& earlier = (*strip)->sheet;
+    for (const SweptTriangle& triangle : surface.triangles) {
+      if (travel <= kFrontShare * spacing_) break;
+      Box box;
+      for (const std::uint32_t p : triangle.points) box.extend(surface.points[p].position);
+      box.lo.array() -= spacing_;
+      box.hi.array() += spacing_;
+      bool is_near = false;
+      if (box.overlaps(earlier.bounds())) earlier.tree().for_each_overlap(box, [&](std::uint32_t) { is_near = true; });
+      if (is_near) return true;
+    }
+    travel += travel_of((*strip)->surface);
+  }
+  return false;
+}
+
+/// The strip as the first of a new sheet.
+std::unique_ptr<Strip> BladeMotion::start_anew(const SweptSurface& surface, const OwnSheet& sheet) const {
+  return std::make_unique<Strip>(with_overlap(surface, sheet), std::vector<std::array<std::uint64_t, 2>>());
+}
+
 /// The strip together with the last ones before it.
 SweptSurface BladeMotion::with_overlap(const SweptSurface& surface, const OwnSheet& sheet) const {
   double travel = 0;
@@ -178,11 +203,14 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet* sheet) {
   append(surface, seams_);
   if (sheet != nullptr && meets(surface, *sheet)) {
     move.starts_anew = true;
-    move.strip = std::make_unique<Strip>(with_overlap(surface, *sheet), std::vector<std::array<std::uint64_t, 2>>());
+    move.strip = start_anew(surface, *sheet);
   } else {
+    move.comes_near = sheet != nullptr && comes_near(surface, *sheet);
+    if (move.comes_near) move.anew = start_anew(surface, *sheet);
     move.strip = std::make_unique<Strip>(std::move(surface), inner_segments(to));
   }
   move.strip->row = to;
+  if (move.anew) move.anew->row = to;
   note_swept(to);
   for (const SosPoint& p : to) {
     reach_lo_ = reach_lo_.cwiseMin(p.position);

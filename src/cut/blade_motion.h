@@ -23,6 +23,10 @@ class BladeMotion {
     std::unique_ptr<Strip> strip;  ///< null where the blade is held
     /// The sheet so far must be finished first: the strip meets it, and starts a new one.
     bool starts_anew = false;
+    /// The strip passes so close to what was swept well before that both may cross one edge: where they do, the sheet
+    /// must be finished first as well, and `anew` is cut instead.
+    bool comes_near = false;
+    std::unique_ptr<Strip> anew;
   };
 
   /// Starts a stroke at a row of at least 2 points. `spacing`: the length of a typical edge, for all tolerances.
@@ -56,6 +60,8 @@ class BladeMotion {
   [[nodiscard]] bool returns_to_start(std::span<const Vec3> row) const;
   [[nodiscard]] SweptSurface lay(const Row& from, const Row& to) const;
   [[nodiscard]] bool meets(const SweptSurface& surface, const OwnSheet& sheet) const;
+  [[nodiscard]] bool comes_near(const SweptSurface& surface, const OwnSheet& sheet) const;
+  [[nodiscard]] std::unique_ptr<Strip> start_anew(const SweptSurface& surface, const OwnSheet& sheet) const;
   [[nodiscard]] SweptSurface with_overlap(const SweptSurface& surface, const OwnSheet& sheet) const;
   [[nodiscard]] std::vector<std::array<std::uint64_t, 2>> inner_segments(const Row& to) const;
   Move leave_slit(std::span<const Vec3> before, std::span<const Vec3> row, const Touches& touches);

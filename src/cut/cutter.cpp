@@ -209,7 +209,8 @@ class Cutter::Pipeline {
       proposal = motion_.propose(material_.wanted());
     }
     if (proposal.surface.triangles.empty()) return {};
-    BladeMotion::Move move{motion_.accept(proposal), false};
+    BladeMotion::Move move;
+    move.strip = motion_.accept(proposal);
     material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
     return follow(mesh, journal, std::move(move), times);
   }
@@ -229,6 +230,10 @@ class Cutter::Pipeline {
   }
   /// Cuts along what the blade's motion asks for.
   Status follow(TetMesh& mesh, Journal& journal, BladeMotion::Move move, StageTimes& times) {
+    if (move.comes_near && stroke_cut_.crosses_own_cut(mesh, *move.strip)) {
+      move.starts_anew = true;
+      move.strip = std::move(move.anew);
+    }
     if (move.starts_anew) {
       stroke_cut_.finish(mesh, journal, statistics_, times);
       stroke_cut_.begin(tag_);

@@ -2,6 +2,7 @@
 #include "cut/stroke_cut.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "cut/dividable.h"
@@ -18,6 +19,8 @@ namespace {
 constexpr double kSplitClamp = 0.02;
 /// Two crossings of one edge closer than this share of it are one graze, not two sheets.
 constexpr double kGrazeShare = 0.02;
+/// Two crossings of one edge in different steps that are further apart are two passes of the blade.
+constexpr double kApart = 0.05;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
 constexpr double kFinalMargin = 0.05;
@@ -188,6 +191,19 @@ std::vector<std::uint32_t> StrokeCut::recrossed_columns(const TetMesh& mesh, con
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   return columns;
+}
+
+bool StrokeCut::crosses_own_cut(const TetMesh& mesh, const Strip& strip) {
+  ++step_;
+  met_ = &walk_.find(mesh, strip, surface_, complex_, step_);
+  crossed_ = &crossings_.find(mesh, strip, *met_, complex_, step_);
+  return std::any_of(crossed_->begin(), crossed_->end(), [&](const StripCrossing& crossing) {
+    const ClosedEdge& edge = complex_.edges()[crossing.edge];
+    if (crossing.count % 2 == 0 || !edge.is_crossed || std::abs(crossing.t - edge.t) < kApart) return false;
+    bool is_done = true;
+    complex_.for_each_around(crossing.edge, [&](std::uint32_t m) { is_done &= !has_odd_face(complex_[m].flagged); });
+    return is_done;
+  });
 }
 
 bool StrokeCut::lies_on_walls(const TetMesh& mesh, std::span<const Vec3> row, double distance) const {

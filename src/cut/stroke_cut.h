@@ -41,6 +41,8 @@ class StrokeCut {
   /// The columns of a strip that would cross edges which the sheet has crossed before: there it would close the cut.
   /// Adopts what the strip meets, and changes nothing else. Cost: as `advance` without the rebuild.
   [[nodiscard]] std::vector<std::uint32_t> recrossed_columns(const TetMesh& mesh, const Strip& strip);
+  /// Whether a strip crosses an edge that the sheet has crossed elsewhere and is done with: the two would cancel there.
+  [[nodiscard]] bool crosses_own_cut(const TetMesh& mesh, const Strip& strip);
   /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
   void finish(TetMesh& mesh, Journal& journal, CutStatistics& statistics, StageTimes& times);
   /// Forgets a sheet whose cut was taken back.
