@@ -23,7 +23,7 @@ constexpr double kGrazeShare = 0.02;
 constexpr double kApart = 0.05;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
-constexpr double kFinalMargin = 0.05;
+constexpr double kFinalMargin = 0.04;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 

