@@ -268,7 +268,7 @@ void StrokeCut::finish(TetMesh& mesh, Journal& journal, CutStatistics& statistic
 
 /// The vertices that took part in the cut move onto its sheet.
 void StrokeCut::land(TetMesh& mesh, Journal& journal, CutStatistics& statistics) {
-  Transaction transaction(mesh);
+  Transaction transaction(mesh, true);
   statistics.bent_vertices += move_on_vertices(transaction, sheet_, snap(), on_, complex_);
   Step step = transaction.commit();
   if (!step.is_empty()) journal.append(std::move(step));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -17,6 +18,8 @@ namespace {
 
 constexpr TetVertices kNoVertices{};
 constexpr std::uint32_t kMaxWidth = 64;
+/// Volumes that differ by less than this share are equal up to rounding.
+constexpr double kVolumeRounding = 1e-9;
 
 void add(StateHash& hash, const Vec3& point) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -263,6 +266,37 @@ class Attributes::Stepper {
         ++families_[*parent].children;
       }
     }
+    find_pool();
+  }
+  /// Children that a front made anew fill the tets before them together, not each its own parent. Those families share
+  /// what they hold, if together they keep their volume.
+  void find_pool() {
+    double before = 0, after = 0;
+    for (Family& family : families_) {
+      family.is_pooled = std::abs(family.children_volume - family.volume) > kVolumeRounding * family.volume;
+      before += family.is_pooled ? family.volume : 0.0;
+      after += family.is_pooled ? family.children_volume : 0.0;
+    }
+    pool_volume_ = std::abs(after - before) <= kVolumeRounding * before ? after : 0.0;
+    for (Family& family : families_) family.is_pooled &= pool_volume_ > 0;
+  }
+  /// What the children of the pool lack of what its tets held, per volume. `held(i)`: by the i-th consumed tet.
+  template <class Held>
+  [[nodiscard]] double missing_density(const Held& held) const {
+    if (!(pool_volume_ > 0)) return 0;
+    double missing = 0;
+    for (std::size_t i = 0; i < families_.size(); ++i) missing += families_[i].is_pooled ? held(i) : 0.0;
+    for (std::size_t i = 0; i < step_.produced.size(); ++i) {
+      const std::uint32_t* parent = parents_.find(step_.produced[i].parent);
+      if (parent != nullptr && families_[*parent].is_pooled) missing -= held(*parent) * share_of(i);
+    }
+    return missing / pool_volume_;
+  }
+  /// What a produced tet gets of what its parent held; `missing` as above.
+  [[nodiscard]] double portion(std::size_t produced, double held, double missing) const {
+    const std::uint32_t* parent = parents_.find(step_.produced[produced].parent);
+    const bool is_pooled = parent != nullptr && families_[*parent].is_pooled;
+    return held * share_of(produced) + (is_pooled ? missing * volumes_[produced] : 0.0);
   }
   /// The part of its parent that a produced tet gets.
   [[nodiscard]] double share_of(std::size_t produced) const {
@@ -271,6 +305,7 @@ class Attributes::Stepper {
       return 0;
     }
     const Family& family = families_[*parent];
+    if (family.is_pooled) return family.volume > 0 ? volumes_[produced] / family.volume : 0.0;
     return family.children_volume > 0 ? volumes_[produced] / family.children_volume : 1.0 / family.children;
   }
 
@@ -284,8 +319,13 @@ class Attributes::Stepper {
         continue;
       }
       start(attribute, child.id.value);
-      for (std::uint32_t k = 0; attribute.spec.transfer == Transfer::kConserve && k < attribute.spec.width; ++k) {
-        to[k] = from[k] * share_of(i);
+    }
+    for (std::uint32_t k = 0; attribute.spec.transfer == Transfer::kConserve && k < attribute.spec.width; ++k) {
+      const double missing =
+          missing_density([&](std::size_t i) { return at(attribute, step_.consumed[i].id.value)[k]; });
+      for (std::size_t i = 0; i < step_.produced.size(); ++i) {
+        const ProducedTet& child = step_.produced[i];
+        at(attribute, child.id.value)[k] = portion(i, at(attribute, child.parent.value)[k], missing);
       }
     }
   }
@@ -299,7 +339,7 @@ class Attributes::Stepper {
     for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
       take_quarters(attribute, k);
       for (std::size_t i = 0; i < step_.consumed.size(); ++i) {
-        if (families_[i].children == 0) {
+        if (families_[i].children == 0 && !families_[i].is_pooled) {
           leave_behind(attribute, k, i);
           continue;
         }
@@ -307,10 +347,14 @@ class Attributes::Stepper {
           at(attribute, step_.consumed[i].vertices[c].value)[k] -= quarters_[i][c];
         }
       }
+      const auto held = [&](std::size_t i) {
+        const Weights& q = quarters_[i];
+        return q[0] + q[1] + q[2] + q[3];
+      };
+      const double missing = missing_density(held);
       for (std::size_t i = 0; i < step_.produced.size(); ++i) {
         if (const std::uint32_t* parent = parents_.find(step_.produced[i].parent)) {
-          const Weights& q = quarters_[*parent];
-          const double quarter = (q[0] + q[1] + q[2] + q[3]) * share_of(i) * 0.25;
+          const double quarter = portion(i, held(*parent), missing) * 0.25;
           for (const VertexId v : step_.produced[i].vertices) at(attribute, v.value)[k] += quarter;
         }
       }
@@ -609,6 +653,7 @@ class Attributes::Stepper {
   struct Family {
     double volume = 0, children_volume = 0;
     std::uint32_t children = 0;
+    bool is_pooled = false;  // its children do not fill it: see `find_pool`
   };
 
   Attributes& all_;
@@ -620,6 +665,7 @@ class Attributes::Stepper {
   StepTable<TetId, std::uint32_t> parents_;  // index into consumed
   std::vector<Family> families_;             // by consumed
   std::vector<double> volumes_;              // by produced
+  double pool_volume_ = 0;                   // of the children in pooled families; 0 where there are none
   std::vector<Weights> quarters_, rewired_quarters_;
   // Of the edit at work:
   std::span<const ConsumedTet> consumed_;
