@@ -57,7 +57,9 @@ struct AttributeSpec {
 /// Conserved quantities have a density at each vertex: the value by the vertex's lumped rest volume, a quarter of each
 /// of its tets. A consumed tet carries away its quarters at the densities before the step; its children get them in
 /// proportion to their rest volumes, a quarter per corner. A consumed tet without children leaves its quarters with
-/// its corners. A rewired tet takes its quarter from the old vertex to the new one. Where a vertex moves, the tets
+/// its corners. Where children fill the tets before them together, but not each its own parent, as at the front of a
+/// progressive cut, a child gets its parent's density, and what is then missing or left over goes to these children by
+/// volume. A rewired tet takes its quarter from the old vertex to the new one. Where a vertex moves, the tets
 /// around it that shrink hand material at their own densities to those that grow, so that a uniform density stays
 /// uniform and momentum Σ m·v of a linear velocity field is kept. For tets: the parent's value by volume shares, and
 /// the same exchange. Values of dead slots are 0.
