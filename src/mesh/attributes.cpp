@@ -123,7 +123,7 @@ class Attributes::Stepper {
     }
     rebuild();
     for (const MovedVertex& moved : step_.moved) {
-      exchange(moved);
+      exchange({&moved, 1});
     }
     retire();
   }
@@ -131,18 +131,33 @@ class Attributes::Stepper {
   /// One edit after the other: each finds the values and places that the one before it left.
   void apply_edits() {
     std::size_t consumed = 0, produced = 0;
-    for (const Edit& edit : step_.edits) {
+    for (std::size_t i = 0; i < step_.edits.size(); ++i) {
+      const Edit& edit = step_.edits[i];
       consumed_ = std::span(step_.edit_consumed).subspan(consumed, edit.consumed_end - consumed);
       produced_ = std::span(step_.edit_produced).subspan(produced, edit.produced_end - produced);
       consumed = edit.consumed_end;
       produced = edit.produced_end;
       if (edit.kind == Edit::Kind::kMove) {
-        resample(step_.moved[edit.vertex]);
+        const std::span<const MovedVertex> twins = twins_at(i);
+        resample(twins);
+        i += twins.size() - 1;
       } else {
         remesh(edit);
       }
     }
     retire();
+  }
+  /// The moves from an edit on that take copies of one vertex to one place: what one side of a wall loses the other wins.
+  [[nodiscard]] std::span<const MovedVertex> twins_at(std::size_t edit) const {
+    const std::size_t first = step_.edits[edit].vertex;
+    std::size_t count = 1;
+    const auto is_twin = [&](const Edit& next) {
+      const MovedVertex& moved = step_.moved[first];
+      return next.kind == Edit::Kind::kMove && next.vertex == first + count &&
+             step_.moved[next.vertex].old_rest == moved.old_rest && step_.moved[next.vertex].rest == moved.rest;
+    };
+    while (edit + count < step_.edits.size() && is_twin(step_.edits[edit + count])) ++count;
+    return std::span(step_.moved).subspan(first, count);
   }
 
   static double* at(Attribute& attribute, std::uint32_t slot) {
@@ -425,14 +440,16 @@ class Attributes::Stepper {
     }
   }
 
-  void resample(const MovedVertex& moved) {
-    all_.touch(record_, moved.id);
-    for (Attribute& attribute : all_.attributes_) {
-      if (attribute.spec.domain == Domain::kVertex && attribute.spec.transfer == Transfer::kInterpolate) {
-        mix(attribute, moved.id, moved.basis, moved.weights);
+  void resample(std::span<const MovedVertex> twins) {
+    for (const MovedVertex& moved : twins) {
+      all_.touch(record_, moved.id);
+      for (Attribute& attribute : all_.attributes_) {
+        if (attribute.spec.domain == Domain::kVertex && attribute.spec.transfer == Transfer::kInterpolate) {
+          mix(attribute, moved.id, moved.basis, moved.weights);
+        }
       }
     }
-    exchange(moved);
+    exchange(twins);
   }
 
   /// A cavity gives way to its new tets: what it held becomes theirs.
@@ -570,13 +587,16 @@ class Attributes::Stepper {
   }
 
   /// Moves a vertex with its copies; shrinking tets around it hand material to growing ones.
-  void exchange(const MovedVertex& moved) {
-    group_.assign(1, moved.id);
-    copies_.for_each(moved.id, [&](VertexId copy) { group_.push_back(copy); });
+  void exchange(std::span<const MovedVertex> twins) {
+    group_.clear();
+    for (const MovedVertex& moved : twins) {
+      group_.push_back(moved.id);
+      copies_.for_each(moved.id, [&](VertexId copy) { group_.push_back(copy); });
+    }
     find_star();
     before_.clear();
     for (const TetId tet : star_) before_.push_back(all_.volume(all_.tets_[tet]));
-    for (const VertexId v : group_) all_.rest_[v] = moved.rest;
+    for (const VertexId v : group_) all_.rest_[v] = twins.front().rest;
     after_.clear();
     double lost = 0, won = 0;
     for (std::size_t i = 0; i < star_.size(); ++i) {
