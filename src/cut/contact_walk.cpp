@@ -215,6 +215,20 @@ void ContactWalk::walk_on(const TetMesh& mesh, std::uint32_t master) {
   }
 }
 
+/// In the order of the sides, whatever that of the index: equal meshes are walked alike.
+void ContactWalk::seed_from_surface(const TetMesh& mesh, const Strip& strip, const SurfaceIndex& surface) {
+  near_.clear();
+  for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) {
+    for_each_side_near(
+        mesh, surface,
+        {strip.sheet.point(t, 0).position, strip.sheet.point(t, 1).position, strip.sheet.point(t, 2).position},
+        [&](Side side) { near_.push_back(side); });
+  }
+  std::sort(near_.begin(), near_.end());
+  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+  for (const Side side : near_) visit(mesh, side.tet());
+}
+
 const std::vector<std::uint32_t>& ContactWalk::find(const TetMesh& mesh, const Strip& strip,
                                                     const SurfaceIndex& surface, ClosedComplex& complex,
                                                     std::uint32_t step) {
@@ -228,12 +242,7 @@ const std::vector<std::uint32_t>& ContactWalk::find(const TetMesh& mesh, const S
   met_.clear();
   for (const std::uint32_t master : front_) visit(master);
   for (const std::uint32_t master : last_) visit(master);
-  for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) {
-    for_each_side_near(
-        mesh, surface,
-        {strip.sheet.point(t, 0).position, strip.sheet.point(t, 1).position, strip.sheet.point(t, 2).position},
-        [&](Side side) { visit(mesh, side.tet()); });
-  }
+  seed_from_surface(mesh, strip, surface);
   if (front_.empty() && last_.empty()) {  // a sheet that starts inside the body
     const TetId tet = locate(mesh, surface, strip.sheet.point(0, 0));
     if (tet.is_valid()) visit(mesh, tet);
