@@ -229,8 +229,8 @@ bool StrokeCut::is_near_older_wall(const TetMesh& mesh, const Vec3& place, doubl
     const std::uint32_t tag = mesh.link(side).tag();
     if (is_near || tag == 0 || tag == tag_) return;
     const auto v = mesh.vertices(side);
-    is_near = closest_on_triangle(place, mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])).distance2 <=
-              distance * distance;
+    is_near =
+        closest_on_triangle(place, mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])).distance2 <= distance * distance;
   });
   return is_near;
 }

@@ -147,7 +147,8 @@ class Attributes::Stepper {
     }
     retire();
   }
-  /// The moves from an edit on that take copies of one vertex to one place: what one side of a wall loses the other wins.
+  /// The moves from an edit on that take copies of one vertex to one place: what one side of a wall loses the other
+  /// wins.
   [[nodiscard]] std::span<const MovedVertex> twins_at(std::size_t edit) const {
     const std::size_t first = step_.edits[edit].vertex;
     std::size_t count = 1;

@@ -69,8 +69,8 @@ std::size_t inverted_now(const TetMesh& mesh) {
   return count;
 }
 
-/// Cuts three times; after each cut maintenance inverts nothing that stood upright. Where tets are inverted already, a few
-/// of them may become more.
+/// Cuts three times; after each cut maintenance inverts nothing that stood upright. Where tets are inverted already, a
+/// few of them may become more.
 void cut_and_maintain(Engine& engine, std::uint64_t seed, std::size_t more = 0) {
   Random random(seed);
   for (unsigned i = 0; i < 3; ++i) {
