@@ -42,7 +42,7 @@ struct ConsumedTet {
 
 struct ProducedTet {
   TetId id;
-  TetId parent;  ///< the consumed tet that it lies in
+  TetId parent;  ///< the consumed tet that it lies in; of several, as at a front, the one that holds its middle
   TetVertices vertices;
   std::int32_t region;
 };
