@@ -271,6 +271,48 @@ TEST(Attributes, engine_cuts_keep_mass_density_and_momentum) {
   }
 }
 
+TEST(Attributes, progressive_cuts_keep_mass_density_and_momentum_after_every_step) {
+  EngineOptions options;
+  options.maintain.merge = options.maintain.improve = false;  // it moves surfaces a little
+  Engine engine = new_engine(jittered_cube(4), options);
+  Body body(engine.mesh());
+  const Vec3 momentum = body.momentum(engine.mesh());
+  const auto blade = [](double z) {
+    return BladePose{{Vec3(0.47, -0.2, z), Vec3(0.53, 1.2, z - 0.03)}, Vec3(0, 0, -1)};
+  };
+  ASSERT_TRUE(engine.begin_stroke(blade(1.1)).ok());
+  for (unsigned i = 1; i <= 20; ++i) {
+    ASSERT_TRUE(engine.step(blade(1.1 - 0.04 * i)).ok());
+    ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+    SCOPED_TRACE("step " + std::to_string(i));
+    body.expect_uniform(engine.mesh(), momentum);
+  }
+  ASSERT_TRUE(engine.end_stroke().ok());
+  ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+  body.expect_uniform(engine.mesh(), momentum);
+}
+
+TEST(Attributes, progressive_cuts_keep_any_mass) {
+  Engine engine = new_engine(jittered_cube(4));
+  Body body(engine.mesh());
+  test::Random random(5);
+  for (double& value : body.all.values(body.mass)) value = random.real(-1, 1);
+  for (double& value : body.all.values(body.tet_mass)) value = random.real(-1, 1);
+  const double before = sum(body.all.values(body.mass)), tets_before = sum(body.all.values(body.tet_mass));
+  const auto blade = [](double z) { return BladePose{{Vec3(0.3, -0.2, z), Vec3(0.7, 1.2, z - 0.1)}, Vec3(0, 0, -1)}; };
+  ASSERT_TRUE(engine.begin_stroke(blade(1.2)).ok());
+  for (unsigned i = 1; i <= 15; ++i) {
+    ASSERT_TRUE(engine.step(blade(1.2 - 0.05 * i)).ok());
+    ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+    EXPECT_NEAR(sum(body.all.values(body.mass)), before, 1e-12) << i;
+    EXPECT_NEAR(sum(body.all.values(body.tet_mass)), tets_before, 1e-12) << i;
+  }
+  ASSERT_TRUE(engine.end_stroke().ok());
+  ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+  EXPECT_NEAR(sum(body.all.values(body.mass)), before, 1e-12);
+  EXPECT_NEAR(sum(body.all.values(body.tet_mass)), tets_before, 1e-12);
+}
+
 TEST(Attributes, engine_cuts_keep_any_mass_and_never_make_it_negative) {
   Engine engine = new_engine(jittered_cube(4));
   Body body(engine.mesh());

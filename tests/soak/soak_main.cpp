@@ -13,9 +13,8 @@
 //        incise_soak describe|minimise strokes|models SEED...
 //        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
 // INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
-// INCISE_SOAK_STROKES: `strokes` and `models` end after so many. A failure comes back with the seed that it names,
-// `--rounds 1` or
-// `--only NAME`, and the same other arguments.
+// INCISE_SOAK_STROKES: `strokes` and `models` end after so many. A failure comes back with the seed that it
+// names, `--rounds 1` or `--only NAME`, and the same other arguments.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
