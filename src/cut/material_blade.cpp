@@ -22,6 +22,8 @@ constexpr double kCone = 0.5;
 constexpr double kExitLead = 0.3;
 /// What the map of a tet says of a place outside it counts within so many spacings of what is expected.
 constexpr double kTrust = 1.0;
+/// Material stretches no more than this between the tip and the blade.
+constexpr double kGreatestStretch = 1.5;
 /// A walk from tet to tet gives up after so many.
 constexpr unsigned kMostTets = 256;
 /// Rings of cells that are looked through for the nearest surface, and rounds of drawing nearer.
@@ -216,7 +218,9 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
   const bool is_ahead = point.lead > kCone * beside;
   if (point.tet.is_valid()) {
     const bool is_new = !point.has_entered;
-    point.is_accepted = is_new || (is_ahead && (point.candidate - anchor).norm() >= kLeastStep * spacing_);
+    const double step = (point.candidate - anchor).norm();
+    const bool is_likely = step <= kGreatestStretch * way.norm() + kTrust * spacing_;  // else found in another part
+    point.is_accepted = is_new || (is_ahead && is_likely && step >= kLeastStep * spacing_);
     return;
   }
   if (!is_ahead || !(point.lead > kExitLead * spacing_ || meets_tissue(mesh, point))) return;
@@ -280,7 +284,49 @@ void MaterialBlade::locate(const TetMesh& mesh, const SurfaceIndex& surface, con
     judge(mesh, surface, point, anchors_[i]);
   }
   follow_entered(mesh, surface);
+  keep_clear(mesh, surface, 0);
+  keep_clear(mesh, surface, points_.size() - 1);
   set_course();
+}
+
+/// Whether a segment passes by the body at rest.
+bool MaterialBlade::is_clear(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, const Vec3& to) {
+  const SosPoint p{from, next_key_++}, q{to, next_key_++};
+  if (incise::locate(mesh, surface, p).is_valid() || incise::locate(mesh, surface, q).is_valid()) return false;
+  bool is_clear = true;
+  for_each_side_near(mesh, surface, {from, to, to}, [&](Side side) {
+    const auto v = mesh.vertices(side);
+    is_clear = is_clear && !segment_crosses_triangle(p, q, {mesh.rest(v[0]), v[0].value},
+                                                     {mesh.rest(v[1]), v[1].value}, {mesh.rest(v[2]), v[2].value});
+  });
+  return is_clear;
+}
+
+/// An end of the blade outside the body must not take its trace through it, or the cut would end in there: it goes
+/// with its neighbours as it may, further out if need be, or waits.
+void MaterialBlade::keep_clear(const TetMesh& mesh, const SurfaceIndex& surface, std::size_t end) {
+  Point& point = points_[end];
+  const Vec3 anchor = anchors_[end];
+  if (!point.is_accepted || point.tet.is_valid() || incise::locate(mesh, surface, {anchor, next_key_++}).is_valid() ||
+      is_clear(mesh, surface, anchor, point.candidate)) {
+    return;
+  }
+  std::size_t inner = end;
+  for (std::size_t k = 0; k < points_.size() && inner == end; ++k) {
+    const std::size_t at = end == 0 ? k : points_.size() - 1 - k;
+    if (points_[at].has_entered) inner = at;
+  }
+  const Vec3 along = points_[inner].is_accepted ? Vec3(points_[inner].candidate - anchors_[inner]) : Vec3(Vec3::Zero());
+  const Vec3 outwards = inner == end ? Vec3(Vec3::Zero()) : Vec3((anchor - anchors_[inner]).normalized());
+  for (const double reach : {0.0, 1.0, 2.0, 4.0, 8.0}) {
+    for (const Vec3& place : {point.candidate, Vec3(anchor + along)}) {
+      const Vec3 further = place + reach * spacing_ * outwards;
+      if (!is_clear(mesh, surface, anchor, further)) continue;
+      point.candidate = further;
+      return;
+    }
+  }
+  point.is_accepted = false;
 }
 
 /// The course of the cut at rest: the mean way of the points in tissue, new ones counting most.

@@ -66,6 +66,8 @@ class MaterialBlade {
   void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);
   void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   bool push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
+  [[nodiscard]] bool is_clear(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, const Vec3& to);
+  void keep_clear(const TetMesh& mesh, const SurfaceIndex& surface, std::size_t end);
   void set_course();
   void follow_entered(const TetMesh& mesh, const SurfaceIndex& surface);
   [[nodiscard]] bool meets_tissue(const TetMesh& mesh, const Point& point) const;
