@@ -296,8 +296,8 @@ bool MaterialBlade::is_clear(const TetMesh& mesh, const SurfaceIndex& surface, c
   bool is_clear = true;
   for_each_side_near(mesh, surface, {from, to, to}, [&](Side side) {
     const auto v = mesh.vertices(side);
-    is_clear = is_clear && !segment_crosses_triangle(p, q, {mesh.rest(v[0]), v[0].value},
-                                                     {mesh.rest(v[1]), v[1].value}, {mesh.rest(v[2]), v[2].value});
+    is_clear = is_clear && !segment_crosses_triangle(p, q, {mesh.rest(v[0]), v[0].value}, {mesh.rest(v[1]), v[1].value},
+                                                     {mesh.rest(v[2]), v[2].value});
   });
   return is_clear;
 }
