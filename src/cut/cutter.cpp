@@ -111,7 +111,7 @@ class Cutter::Pipeline {
         status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh)), times);
         if (status) status = end_in_older_cut(mesh, journal, times);
       }
-      if (status) stroke_cut_.finish(mesh, journal, statistics_, times);
+      if (status) finish_sheet(mesh, journal, times);
       return status;
     });
   }
@@ -228,6 +228,10 @@ class Cutter::Pipeline {
     }
     return has_held;
   }
+  void finish_sheet(TetMesh& mesh, Journal& journal, StageTimes& times) {
+    stroke_cut_.finish(mesh, journal, statistics_, times);
+    ++statistics_.sheets;
+  }
   /// Cuts along what the blade's motion asks for.
   Status follow(TetMesh& mesh, Journal& journal, BladeMotion::Move move, StageTimes& times) {
     if (move.comes_near && stroke_cut_.crosses_own_cut(mesh, *move.strip)) {
@@ -235,7 +239,7 @@ class Cutter::Pipeline {
       move.strip = std::move(move.anew);
     }
     if (move.starts_anew) {
-      stroke_cut_.finish(mesh, journal, statistics_, times);
+      finish_sheet(mesh, journal, times);
       stroke_cut_.begin(tag_);
     }
     if (move.strip == nullptr) return {};
