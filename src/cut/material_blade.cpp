@@ -68,7 +68,8 @@ TetId walk_to(const TetMesh& mesh, TetId from, const Vec3& x) {
     std::array<double, 4> weights{};
     if (!weights_in(current_of(mesh, tet), x, weights)) return {};
     std::array<unsigned, 4> order = {0, 1, 2, 3};
-    std::sort(order.begin(), order.end(), [&](unsigned a, unsigned b) { return weights[a] < weights[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](unsigned a, unsigned b) { return weights[a] != weights[b] ? weights[a] < weights[b] : a < b; });
     if (weights[order[0]] >= 0) return tet;
     TetId next;
     for (const unsigned s : order) {

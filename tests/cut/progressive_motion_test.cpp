@@ -254,9 +254,14 @@ TEST_P(Motion, over_the_same_surface_again_changes_nothing) {
     SteppedEngine stepped(jittered_cube(5, 75), options());
     stepped.run(visiting({-0.2, 1.2}));
     const auto tets = tets_by_place(stepped.mesh());
+    const std::uint64_t hash = stepped.mesh().hash();
     stepped.run(visiting({-0.2, 1.2}, 0.041, 0.47 + offset));
     EXPECT_EQ(stepped.mesh().tet_count(), tets.size());
-    EXPECT_EQ(tets_by_place(stepped.mesh()) == tets, true);
+    EXPECT_TRUE(tets_by_place(stepped.mesh()) == tets);
+    // With snapping, tets that the blade was in for a while are the same again, but in other slots.
+    if (!snaps()) {
+      EXPECT_EQ(stepped.mesh().hash(), hash);
+    }
     EXPECT_EQ(stepped.piece_count(), 2U);
   }
 }

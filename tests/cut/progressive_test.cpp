@@ -43,7 +43,7 @@ void expect_exact_front(SteppedEngine& stepped, const Stroke& stroke, std::uint3
   EXPECT_LE(walls.mean, 0.05);
   const Deviation border = border_deviation(stepped, stroke, tag);
   EXPECT_LE(border.greatest, greatest * h);
-  EXPECT_LE(border.mean, 0.2 * greatest * h);
+  EXPECT_LE(border.mean, (greatest > 0.25 ? 0.06 : 0.05) * h);
 }
 
 struct Body {
@@ -113,8 +113,10 @@ TEST_P(Progressive, blades_with_their_tip_inside_end_at_the_tip_too) {
     const Stroke stroke = fitted(
         quad_stroke(Vec3(0.48, kLow, kHigh), Vec3(0.48, kLow, tip), Vec3(0.52, 0.66, kHigh), Vec3(0.5, 0.66, tip), 20));
     const std::uint32_t tag = stepped.run(stroke);
-    // Where both strands of the border pass through one tet beside the corner, its one front point lies between them.
-    expect_exact_front(stepped, stroke, tag, 2, 0.5);
+    // Where both strands of the border pass through one tet beside the corner, its one front point lies between them:
+    // so at one place in the jittered cube.
+    const bool has_both_strands = std::string(GetParam().body.name) == "jittered" && tip == 0.35;
+    expect_exact_front(stepped, stroke, tag, 2, has_both_strands ? 0.5 : 0.25);
   }
 }
 

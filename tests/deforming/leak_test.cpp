@@ -21,10 +21,19 @@ void expect_no_leak(const LeakSettings& settings) {
 void expect_no_leaks(LeakSettings settings) {
   for (unsigned motion = 0; motion < kMotions; ++motion) {
     settings.motion = static_cast<Motion>(motion);
-    // Under strong tremor a point of the blade may be left behind at the skin of other bodies than the beam.
-    const bool is_hard = settings.motion == Motion::kStrongTremor && settings.body != BodyKind::kBeam;
-    if (!is_hard) expect_no_leak(settings);
+    // Bodies other than the beam have a test of their own for it, below.
+    if (settings.motion == Motion::kStrongTremor && settings.body != BodyKind::kBeam) continue;
+    expect_no_leak(settings);
   }
+}
+
+LeakSettings in_body(BodyKind body) {
+  LeakSettings settings;
+  settings.body = body;
+  settings.steps = 60;
+  settings.seed = 11;
+  settings.check_every = 4;
+  return settings;
 }
 
 TEST(Leaks, none_in_a_beam_under_a_solver) {
@@ -37,13 +46,15 @@ TEST(Leaks, none_in_a_beam_under_a_solver) {
 }
 
 TEST(Leaks, none_in_other_bodies_under_a_solver) {
+  for (const BodyKind body : {BodyKind::kCube, BodyKind::kBall, BodyKind::kShuffled}) expect_no_leaks(in_body(body));
+}
+
+/// Not yet: a point of the blade may be left behind at the skin, and a thread of tissue with it.
+TEST(Leaks, DISABLED_none_in_other_bodies_under_strong_tremor) {
   for (const BodyKind body : {BodyKind::kCube, BodyKind::kBall, BodyKind::kShuffled}) {
-    LeakSettings settings;
-    settings.body = body;
-    settings.steps = 60;
-    settings.seed = 11;
-    settings.check_every = 4;
-    expect_no_leaks(settings);
+    LeakSettings settings = in_body(body);
+    settings.motion = Motion::kStrongTremor;
+    expect_no_leak(settings);
   }
 }
 

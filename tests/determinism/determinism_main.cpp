@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints one line "name hash" per scene: the state of the mesh after its strokes, and after some are taken back; then
-// the same scenes maintained, at once and in portions, and a whole mesh maintained without a cut.
+// the same strokes step by step, in a body at rest and in one that sways; then the scenes maintained, at once and in
+// portions, and a whole mesh maintained without a cut.
 // The lines are equal for every compiler, optimisation level and target (tests/determinism/golden.txt).
 // usage: incise_determinism [--threads N]     the result does not depend on N
 #include <array>
@@ -93,6 +94,50 @@ bool run(const Scene& scene, Profile profile, unsigned threads) {
   return is_sound;
 }
 
+/// Where a body stands that sways: a polynomial of place and time, since no libm is called here. `time` in [0, 1].
+Vec3 swayed(const Vec3& rest, double time) {
+  const double there_and_back = 4 * time * (1 - time), reach = 0.15 * there_and_back;
+  return rest + reach * Vec3(rest.y() * rest.z(), 0.5 * rest.x() * rest.x(), rest.y() - 0.3 * rest.x());
+}
+
+void sway(Engine& engine, double time) {
+  const TetMesh& mesh = engine.mesh();
+  std::vector<Vec3> positions(mesh.vertex_slots(), Vec3::Zero());
+  mesh.for_each_vertex([&](VertexId v) { positions[v.value] = swayed(mesh.rest(v), time); });
+  static_cast<void>(engine.set_positions(positions));
+}
+
+/// The strokes of a scene step by step; a line half-way through each as well as at its end.
+bool run_steps(const Scene& scene, const char* name, double snap, bool sways, unsigned threads) {
+  EngineOptions options;
+  options.cut.snap = snap;
+  options.maintain.merge = options.maintain.improve = false;
+  options.threads = threads;
+  Result<Engine> engine = Engine::create(TetMesh::build(scene.body).value(), options);
+  bool is_sound = true;
+  for (const Stroke& stroke : scene.strokes) {
+    const std::size_t last = stroke.edges.size() - 1;
+    is_sound &= engine->begin_stroke({stroke.edges[0], Vec3::Zero()}).ok();
+    for (std::size_t i = 1; i <= last; ++i) {
+      if (sways) sway(*engine, static_cast<double>(i) / static_cast<double>(last));
+      is_sound &= engine->step({stroke.edges[i], Vec3::Zero()}).ok();
+      if (i == (last + 1) / 2) is_sound &= print(scene.name, name, "half_way", engine->mesh());
+    }
+    is_sound &= engine->end_stroke().ok();
+  }
+  return is_sound & print(scene.name, name, "stepped", engine->mesh());
+}
+
+bool run_all_steps(unsigned threads) {
+  bool is_sound = true;
+  for (const Scene& scene : scenes()) {
+    is_sound &= run_steps(scene, "steps_snap", 0.2, false, threads);
+    is_sound &= run_steps(scene, "steps_no_snap", 0, false, threads);
+    is_sound &= run_steps(scene, "steps_swaying", 0.2, true, threads);
+  }
+  return is_sound;
+}
+
 /// How a scene is maintained.
 struct Upkeep {
   const char* name;
@@ -163,6 +208,7 @@ int main(int argc, char** argv) {
     is_sound &= run(scene, incise::Profile::kIncise, threads);
     is_sound &= run(scene, incise::Profile::kPaper, threads);
   }
+  is_sound &= run_all_steps(threads);
   is_sound &= run_all_maintained(threads);
   return is_sound ? 0 : 1;
 }

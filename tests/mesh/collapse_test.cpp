@@ -233,9 +233,9 @@ TetMesh cut_body(TetSoup soup, double snap, const std::vector<Stroke>& strokes, 
   StageTimes times;
   std::uint32_t tag = 0;
   for (const Stroke& stroke : strokes) {
-    EXPECT_TRUE(cutter.cut(mesh, journal, stroke, ++tag, times).ok());
+    const Result<CutStatistics> cut = cutter.cut(mesh, journal, stroke, ++tag, times);
+    EXPECT_TRUE(cut.ok() && cut->incision_faces > 0) << "every stroke must cut";
   }
-  EXPECT_GE(journal.size(), strokes.size()) << "every stroke must cut";
   return mesh;
 }
 
