@@ -8,29 +8,15 @@
 
 namespace incise::inline v0 {
 
-bool Divider::Item::operator<(const Item& other) const {
-  if (length2 != other.length2) return length2 > other.length2;
-  if (a != other.a) return a < other.a;
-  return b < other.b;
-}
-
 std::span<const std::uint8_t> Divider::order_of(const Master& master) {
-  unsigned count = 0;
+  order_.clear();
   const unsigned split = split_edges(master);
   for (std::uint8_t e = 0; e < 6; ++e) {
     if (((split >> e) & 1U) == 0) continue;
     const ClosedEdge& edge = complex_.edges()[master.edges[e]];
-    const Item item{(mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e};
-    unsigned place = count++;
-    for (; place > 0 && item < items_[place - 1]; --place) {
-      items_[place] = items_[place - 1];
-    }
-    items_[place] = item;
+    order_.add((mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e);
   }
-  for (unsigned i = 0; i < count; ++i) {
-    order_[i] = items_[i].number;
-  }
-  return {order_.data(), count};
+  return order_.numbers();
 }
 
 const SplitTemplate& Divider::find(const Master& master) {

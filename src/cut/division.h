@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "cut/bisection_order.h"
 #include "cut/closed_complex.h"
 #include "cut/neighbourhood.h"
 
@@ -71,19 +72,12 @@ class Divider {
   [[nodiscard]] bool is_sound(const Master& master, const SplitTemplate& split, bool keeps_shape_floor) const;
 
  private:
-  struct Item {
-    double length2;
-    VertexId a, b;
-    std::uint8_t number;
-    bool operator<(const Item& other) const;
-  };
   [[nodiscard]] std::span<const std::uint8_t> order_of(const Master& master);
 
   const TetMesh& mesh_;
   SplitTemplates& templates_;
   const ClosedComplex& complex_;
-  std::array<Item, 6> items_;
-  std::array<std::uint8_t, 6> order_{};
+  BisectionOrder order_;
 };
 
 /// Blocks the flagged edges of every master in the list that would get an unsound child, or was flat at load. Returns

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "cut/sheet_crossing.h"
 #include "incise/core/grow_array.h"
 #include "incise/mesh/tet_mesh.h"
 
@@ -14,17 +15,14 @@ namespace incise::inline v0 {
 /// A mesh edge near the blade, with what the blade did to it. `a` has the lower slot.
 struct CutEdge {
   VertexId a, b;
-  std::uint32_t crossings = 0;        ///< by the sheet
-  double t = 0.5;                     ///< of the first crossing, from a to b, in [0, 1]
-  double t_second = 0.5;              ///< of the last crossing; the same where there is one
-  std::uint32_t triangle = 0;         ///< of the sheet, crossed first
-  std::uint32_t triangle_second = 0;  ///< crossed last
-  VertexId split;                     ///< the vertex that splits it, once made
-  Vec3 position = Vec3::Zero();       ///< of that vertex at rest
-  bool is_planned = false;            ///< to be split
-  bool is_blocked = false;            ///< splitting it would make a tet that is not sound
+  SheetCrossings crossings;      ///< by the sheet
+  double t = 0.5;                ///< where it is split, from a to b
+  VertexId split;                ///< the vertex that splits it, once made
+  Vec3 position = Vec3::Zero();  ///< of that vertex at rest
+  bool is_planned = false;       ///< to be split
+  bool is_blocked = false;       ///< splitting it would make a tet that is not sound
 
-  [[nodiscard]] bool is_flagged() const { return (crossings & 1U) != 0; }
+  [[nodiscard]] bool is_flagged() const { return crossings.is_odd(); }
 };
 
 /// Edges with what is known about them, each once, found by their ends. `Edge` has members `a` and `b`.

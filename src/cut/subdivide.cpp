@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cut/bisection_order.h"
 #include "incise/geom/predicates.h"
 
 namespace incise::inline v0 {
@@ -27,52 +28,31 @@ void place_split_points(const TetMesh& mesh, EdgeTable& edges) {
   for (CutEdge& edge : edges.edges()) {
     if (edge.is_flagged()) {
       edge.is_blocked = mesh.touched_itself_at_load() && mesh.is_overshared_at_load(edge.a, edge.b);
-      const double t = edge.crossings > 1 ? 0.5 * (edge.t + edge.t_second) : edge.t;
-      edge.t = t;
+      edge.t = edge.crossings.count > 1 ? 0.5 * (edge.crossings.t + edge.crossings.t_last) : edge.crossings.t;
       edge.position = mesh.rest(edge.a) + edge.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
     }
   }
 }
 
-/// The planned edges of a tet, first bisected first: longest first, ties by ends. A total order of the mesh's edges.
-class BisectionOrder {
+/// The planned edges of tets, first bisected first.
+class PlannedOrder {
  public:
-  explicit BisectionOrder(const TetMesh& mesh, const Neighbourhood& near) : mesh_(mesh), near_(near) {}
+  explicit PlannedOrder(const TetMesh& mesh, const Neighbourhood& near) : mesh_(mesh), near_(near) {}
   [[nodiscard]] std::span<const std::uint8_t> of(const NearTet& tet) {
-    unsigned count = 0;
+    order_.clear();
     for (std::uint8_t e = 0; e < 6; ++e) {
       const CutEdge& edge = near_.edges[tet.edges[e]];
-      if (!edge.is_planned) {
-        continue;
+      if (edge.is_planned) {
+        order_.add((mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e);
       }
-      const Item item{(mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e};
-      unsigned place = count++;
-      for (; place > 0 && item < items_[place - 1]; --place) {
-        items_[place] = items_[place - 1];
-      }
-      items_[place] = item;
     }
-    for (unsigned i = 0; i < count; ++i) {
-      order_[i] = items_[i].number;
-    }
-    return {order_.data(), count};
+    return order_.numbers();
   }
 
  private:
-  struct Item {
-    double length2;
-    VertexId a, b;
-    std::uint8_t number;
-    bool operator<(const Item& other) const {
-      if (length2 != other.length2) return length2 > other.length2;
-      if (a != other.a) return a < other.a;
-      return b < other.b;
-    }
-  };
   const TetMesh& mesh_;
   const Neighbourhood& near_;
-  std::array<Item, 6> items_;
-  std::array<std::uint8_t, 6> order_{};
+  BisectionOrder order_;
 };
 
 /// Marks the tets that the sheet cuts through and plans the splits that they need.
@@ -123,7 +103,7 @@ bool children_are_sound(const SplitTemplate& split, const TetMesh& mesh, const N
 /// Blocks the planned edges of every tet that would get an unsound child. Returns how many.
 std::uint64_t block_unsound(const TetMesh& mesh, SplitTemplates& templates, Neighbourhood& near) {
   std::uint64_t blocked = 0;
-  BisectionOrder order(mesh, near);
+  PlannedOrder order(mesh, near);
   for (const NearTet& tet : near.tets) {
     const auto planned = order.of(tet);
     if (planned.empty() || children_are_sound(templates.find(planned), mesh, tet, near)) {
@@ -169,7 +149,7 @@ class Subdivider {
     }
   }
   void make_children() {
-    BisectionOrder order(mesh_, near_);
+    PlannedOrder order(mesh_, near_);
     subdivided_.assign(near_.tets.size(), kInvalidIndex);
     for (std::uint32_t n = 0; n < near_.tets.size(); ++n) {
       const auto planned = order.of(near_.tets[n]);

@@ -157,14 +157,14 @@ class Separator {
       for (unsigned k = 0; k < 3; ++k) {
         const VertexId a = std::min(v[k], v[(k + 1) % 3]), b = std::max(v[k], v[(k + 1) % 3]);
         CutEdge& edge = edges_[edges_.find_or_add(a, b)];
-        ++edge.crossings;
+        ++edge.crossings.count;
         edge.is_blocked |= keeps_edge(face, a, b);
       }
     }
     for (const CutEdge& edge : edges_.edges()) {
       const bool is_on_surface = (mesh_.shape_of(edge.a) & mesh_.shape_of(edge.b)) != 0;
-      const bool may_be_pinched = edge.is_blocked && (edge.crossings > 1 || is_on_surface);
-      if (may_be_pinched || edge.crossings > 2 || (edge.crossings == 2 && is_on_surface)) {
+      const bool may_be_pinched = edge.is_blocked && (edge.crossings.count > 1 || is_on_surface);
+      if (may_be_pinched || edge.crossings.count > 2 || (edge.crossings.count == 2 && is_on_surface)) {
         suspects.push_back({edge.a, edge.b});
       }
     }
