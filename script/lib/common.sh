@@ -105,7 +105,7 @@ use_corpus() {
 # shellcheck disable=SC2034  # read by the scripts
 build_packages=(
   cmake ninja-build g++ ccache git ca-certificates
-  libeigen3-dev libtbb-dev libpugixml-dev zlib1g-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
+  libeigen3-dev libtbb-dev libhwy-dev libpugixml-dev zlib1g-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
   libgtest-dev libgmock-dev librapidcheck-dev
 )
 # shellcheck disable=SC2034

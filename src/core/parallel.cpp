@@ -6,6 +6,7 @@
 #if INCISE_WITH_TBB
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 #endif
 
@@ -30,6 +31,37 @@ void parallel_blocks(std::size_t count, unsigned threads,
   for (std::size_t block = 0; block < blocks; ++block) {
     run(block);
   }
+}
+
+#if INCISE_WITH_TBB
+struct WorkPair::Arena {
+  tbb::task_arena arena{2};
+};
+#else
+struct WorkPair::Arena {};
+#endif
+
+WorkPair::WorkPair(unsigned threads) {
+#if INCISE_WITH_TBB
+  if (threads > 1 && tbb::info::default_concurrency() > 1) arena_ = std::make_unique<Arena>();
+#else
+  static_cast<void>(threads);
+#endif
+}
+
+WorkPair::WorkPair(WorkPair&&) noexcept = default;
+WorkPair& WorkPair::operator=(WorkPair&&) noexcept = default;
+WorkPair::~WorkPair() = default;
+
+void WorkPair::run(const std::function<void()>& first, const std::function<void()>& second) {
+#if INCISE_WITH_TBB
+  if (arena_ != nullptr) {
+    arena_->arena.execute([&] { tbb::parallel_invoke(first, second); });
+    return;
+  }
+#endif
+  first();
+  second();
 }
 
 }  // namespace incise::inline v0

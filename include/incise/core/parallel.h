@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace incise::inline v0 {
 
@@ -21,5 +22,23 @@ constexpr std::size_t block_count(std::size_t count) {
 /// Cost: a few µs for starting, where there is more than one block and thread.
 void parallel_blocks(std::size_t count, unsigned threads,
                      const std::function<void(std::size_t block, std::size_t begin, std::size_t end)>& work);
+
+/// Runs two pieces of work at once, again and again.
+///
+/// The work must not throw, and neither piece may depend on the other. Without oneTBB (WebAssembly), or with one
+/// thread, they run one after the other. Cost: about 1 µs per call once the second thread is awake.
+class WorkPair {
+ public:
+  explicit WorkPair(unsigned threads);
+  WorkPair(WorkPair&&) noexcept;
+  WorkPair& operator=(WorkPair&&) noexcept;
+  ~WorkPair();
+
+  void run(const std::function<void()>& first, const std::function<void()>& second);
+
+ private:
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+};
 
 }  // namespace incise::inline v0

@@ -8,5 +8,6 @@ namespace incise::inline v0 {
 
 /// A point or a vector in space; unit: the mesh's length unit.
 using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
 
 }  // namespace incise::inline v0

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// One step in time: implicit Euler by vertex block descent.
+#include <cmath>
+#include <limits>
+
+#include "sim/body_state.h"
+#include "sim/position_based.h"
+
+namespace incise::inline v0 {
+
+using Part = detail::SweepOrder::Part;
+
+namespace {
+constexpr std::array<Part, 3> kAllParts = {Part::kFirst, Part::kSecond, Part::kSeam};
+}
+
+Result<AdvanceReport> DeformableBody::advance(double dt) {
+  if (!(dt > 0 && dt <= 1)) {
+    return Error{ErrorCode::kBadArgument, "the time step must lie in (0, 1] s", {}};
+  }
+  State& s = *state_;
+  s.prepare_pulls();
+  s.order.refresh();
+  s.label_stale_pieces();
+  AdvanceReport report;
+  report.active_vertices = s.order.awake_count();
+  s.for_each_awake([&](std::uint32_t v) { s.travelled[VertexId(v)] = 0; });
+  const double h = dt / s.options.substeps;
+  for (unsigned i = 0; i < s.options.substeps; ++i) {
+    s.expect_motion(h);
+    s.begin_substep(h);
+    s.descend(h);
+    s.end_substep(h, report.fastest);
+    s.correct_motion(h);
+  }
+  report.fastest *= s.unit();
+  s.fall_asleep();
+  return report;
+}
+
+detail::Descent DeformableBody::State::descent() {
+  return {floats.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
+}
+
+void DeformableBody::State::round_place(VertexId v) {
+  const Vec3 p = places[v.value] - middle;
+  for (unsigned i = 0; i < 3; ++i) floats[std::size_t{4} * v.value + i] = static_cast<float>(p[i]);
+}
+
+/// Single precision is spent on the body's size, not on where it is.
+void DeformableBody::State::centre() {
+  const double inf = std::numeric_limits<double>::infinity();
+  Vec3 low = Vec3::Constant(inf), high = -low;
+  for (std::uint32_t v = 0; v < places.size(); ++v) {
+    if (!is_live(VertexId(v))) continue;
+    low = low.cwiseMin(places[v]);
+    high = high.cwiseMax(places[v]);
+  }
+  if (low.x() <= high.x()) middle = 0.5 * (low + high);
+  for (std::uint32_t v = 0; v < places.size(); ++v) round_place(VertexId(v));
+}
+
+// --- pulls
+
+namespace {
+
+detail::PullTerm term_of(const Pull& pull, const Vec3& middle) {
+  detail::PullTerm term;
+  Vec3 target = pull.target;
+  for (unsigned i = 0; i < 4; ++i) {
+    if (!pull.vertices[i].is_valid() || pull.stiffness == 0) continue;
+    term.vertices[i] = pull.vertices[i].value;
+    term.weights[i] = pull.weights[i];
+    target -= pull.weights[i] * middle;
+  }
+  term.target = target;
+  term.axis = pull.axis;
+  term.has_axis = !pull.axis.isZero(0);
+  term.pushes_only = pull.pushes_only && term.has_axis;
+  term.stiffness = pull.stiffness;
+  return term;
+}
+
+}  // namespace
+
+void DeformableBody::State::wake_pulled(const Pull& pull) {
+  for (unsigned i = 0; i < 4; ++i) {
+    if (pull.weights[i] != 0 && pull.stiffness > 0) order.wake(pull.vertices[i]);
+  }
+}
+
+/// Lists what pulls at each vertex: springs that hold and pulls alike.
+void DeformableBody::State::prepare_pulls() {
+  for (const detail::PullTerm& term : terms) {
+    for (unsigned i = 0; i < 4; ++i) {
+      if (term.weights[i] != 0) motions[VertexId(term.vertices[i])].pulls = 0;
+    }
+  }
+  terms.clear();
+  uses.clear();
+  for (const Pull& pull : pulls) terms.push_back(term_of(pull, middle));
+  for (const auto& [v, hold] : holds) {
+    if (!hold.is_rigid()) {
+      terms.push_back(term_of({{VertexId(v)}, {1, 0, 0, 0}, hold.target, Vec3::Zero(), hold.stiffness, false}, middle));
+    }
+  }
+  list_uses();
+}
+
+void DeformableBody::State::list_uses() {
+  const auto for_each_use = [&](const auto& visit) {
+    for (std::uint32_t t = 0; t < terms.size(); ++t) {
+      for (unsigned i = 0; i < 4; ++i) {
+        if (terms[t].weights[i] != 0) visit(t, VertexId(terms[t].vertices[i]), terms[t].weights[i]);
+      }
+    }
+  };
+  for_each_use([&](std::uint32_t /*t*/, VertexId v, double /*w*/) { ++motions[v].pulls; });
+  std::uint32_t next = 0;
+  for_each_use([&](std::uint32_t /*t*/, VertexId v, double /*w*/) {
+    detail::Motion& motion = motions[v];
+    if (motion.pulls == 0) return;
+    motion.first_pull = next;
+    next += motion.pulls;
+    motion.pulls = 0;
+  });
+  uses.resize(next);
+  for_each_use([&](std::uint32_t t, VertexId v, double w) {
+    detail::Motion& motion = motions[v];
+    uses[motion.first_pull + motion.pulls++] = {t, w};
+  });
+  for (const Pull& pull : pulls) wake_pulled(pull);
+}
+
+// --- one substep
+
+/// Everything starts where its velocity takes it.
+void DeformableBody::State::begin_substep(double h) {
+  const double kept = 1 / (1 + options.damping * h);
+  const Vec3 fall = h * h / unit() * options.gravity;
+  const double* mass = masses();
+  for_each_awake([&](std::uint32_t slot) {
+    const VertexId v(slot);
+    detail::Motion& motion = motions[v];
+    const Vec3 way = h * kept / mass[slot] * momentum_of(v);
+    motion.weight = mass[slot] / (h * h);
+    float* x = floats.data() + std::size_t{4} * slot;
+    for (unsigned i = 0; i < 3; ++i) {
+      motion.start[i] = x[i];
+      motion.aim[i] = static_cast<float>(way[i] + fall[i]);
+      x[i] = static_cast<float>(static_cast<double>(x[i]) + way[i]);
+    }
+  });
+}
+
+/// The two parts at once, the seam after them.
+void DeformableBody::State::descend(double h) {
+  const detail::Descent d = descent();
+  const auto visit = [&](const auto& work) {
+    pair.run([&] { work(order.awake(Part::kFirst)); }, [&] { work(order.awake(Part::kSecond)); });
+    work(order.awake(Part::kSeam));
+  };
+  if (options.relaxation == Relaxation::kPositionBased) {
+    detail::project(*this, h);
+    return;
+  }
+  visit([&](std::span<const std::uint32_t> part) { detail::pick_starts(d, part); });
+  for (unsigned i = 0; i < options.iterations; ++i) {
+    visit([&](std::span<const std::uint32_t> part) { detail::sweep(d, part, i % 2 == 1); });
+  }
+}
+
+/// Places are kept in double precision: the descent tells by how much they changed.
+void DeformableBody::State::end_substep(double h, double& fastest) {
+  const double* mass = masses();
+  double fastest2 = fastest * fastest;
+  for_each_awake([&](std::uint32_t slot) {
+    const VertexId v(slot);
+    const float* x = floats.data() + std::size_t{4} * slot;
+    const auto& start = motions[v].start;
+    Vec3 way;
+    for (unsigned i = 0; i < 3; ++i) way[i] = static_cast<double>(x[i]) - static_cast<double>(start[i]);
+    places[slot] += way;
+    set_momentum(v, mass[slot] / h * way);
+    const double way2 = way.squaredNorm();
+    travelled[v] += static_cast<float>(way2);
+    fastest2 = std::max(fastest2, way2 / (h * h));
+    round_place(v);
+  });
+  fastest = std::sqrt(fastest2);
+}
+
+/// Lets vertices go towards their balance with what stands around them, without inertia.
+void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsigned sweeps) {
+  if (vertices.empty()) return;
+  for (const std::uint32_t slot : vertices) {
+    detail::Motion& motion = motions[VertexId(slot)];
+    motion.weight = 0;
+    motion.pulls = 0;
+  }
+  const detail::Descent d = descent();
+  for (unsigned i = 0; i < sweeps; ++i) detail::sweep(d, vertices, i % 2 == 1);
+  for (const std::uint32_t slot : vertices) {
+    const float* x = floats.data() + std::size_t{4} * slot;
+    for (unsigned i = 0; i < 3; ++i) places[slot][i] = middle[i] + static_cast<double>(x[i]);
+  }
+}
+
+void DeformableBody::State::fall_asleep() {
+  if (options.sleep_below <= 0) return;
+  const auto least = static_cast<float>(16 * options.sleep_below * options.sleep_below);
+  const auto moved = [&](VertexId v) {  // reach is a quarter of the local edge length
+    return travelled[v] * static_cast<float>(options.substeps) > least * motions[v].reach * motions[v].reach;
+  };
+  order.cool(stars, moved, [&](VertexId v) { set_momentum(v, Vec3::Zero()); });
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Free pieces move as rigid bodies must: what the unfinished descent takes from their momentum is given back.
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "sim/body_state.h"
+
+namespace incise::inline v0 {
+
+using detail::Piece;
+
+namespace {
+
+/// The number of the piece that each vertex is in, by flooding over tets.
+std::uint32_t flood(DeformableBody::State& s, VertexId seed, std::uint32_t piece, std::vector<VertexId>& stack) {
+  std::uint32_t count = 0;
+  stack.assign(1, seed);
+  s.piece_of[seed] = piece;
+  while (!stack.empty()) {
+    const VertexId v = stack.back();
+    stack.pop_back();
+    ++count;
+    detail::SweepOrder::for_each_neighbour(s.stars, v, [&](VertexId n) {
+      if (s.piece_of[n] == piece) return;
+      s.piece_of[n] = piece;
+      stack.push_back(n);
+    });
+  }
+  return count;
+}
+
+/// The turning that a piece needs besides its own, about its centre: inertia · ω = the angular momentum that is
+/// missing.
+Vec3 turn_for(const Vec3& missing, const Mat3& inertia) {
+  const Eigen::FullPivLU<Mat3> lu(inertia);
+  return lu.isInvertible() ? Vec3(lu.solve(missing)) : Vec3(Vec3::Zero());
+}
+
+}  // namespace
+
+void DeformableBody::State::label_pieces() {
+  pieces.clear();
+  stale_pieces = 0;
+  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::fill(piece_of.begin(), piece_of.end(), kNone);
+  std::vector<VertexId> stack;
+  for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
+    if (piece_of[VertexId(v)] != kNone || !is_live(VertexId(v))) continue;
+    flood(*this, VertexId(v), static_cast<std::uint32_t>(pieces.size()), stack);
+    pieces.emplace_back();
+  }
+}
+
+/// Flooding costs O(body): a large body waits a few steps before its new pieces are told apart.
+void DeformableBody::State::label_stale_pieces() {
+  constexpr std::size_t kVerticesPerStep = 20000;
+  if (stale_pieces > 0 && stale_pieces++ > places.size() / kVerticesPerStep) label_pieces();
+  for (Piece& piece : pieces) piece.is_free = true;
+  for (const auto& [v, hold] : holds) pieces[piece_of[VertexId(v)]].is_free = false;
+  for (const detail::PullTerm& term : terms) {
+    for (unsigned i = 0; i < 4; ++i) {
+      if (term.weights[i] != 0) pieces[piece_of[VertexId(term.vertices[i])]].is_free = false;
+    }
+  }
+  has_free_piece = std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.is_free; });
+}
+
+/// What each piece's momentum must be after a substep of h, and its angular momentum about its centre.
+void DeformableBody::State::expect_motion(double h) {
+  if (!has_free_piece) return;
+  const double kept = 1 / (1 + options.damping * h);
+  const Vec3 fall = h / unit() * options.gravity;
+  for (Piece& piece : pieces) piece = {piece.is_free};
+  for_each_awake([&](std::uint32_t slot) {
+    Piece& piece = pieces[piece_of[VertexId(slot)]];
+    const double m = mass_of(VertexId(slot));
+    const Vec3 p = momentum_of(VertexId(slot));
+    piece.mass += m;
+    piece.momentum += p;
+    piece.centre += m * places[slot];
+    piece.spin += (places[slot] - middle).cross(p);
+  });
+  for (Piece& piece : pieces) {
+    if (piece.mass == 0) continue;
+    const Vec3 arm = piece.centre / piece.mass - middle;
+    piece.spin = kept * (piece.spin - arm.cross(piece.momentum));
+    piece.momentum = kept * piece.momentum + piece.mass * fall;
+  }
+}
+
+/// Shifts and turns each free piece rigidly so that its momenta are what they must be.
+void DeformableBody::State::correct_motion(double h) {
+  if (!has_free_piece) return;
+  struct Found {
+    Vec3 momentum = Vec3::Zero(), centre = Vec3::Zero(), spin = Vec3::Zero(), shift = Vec3::Zero(), turn = Vec3::Zero();
+    Mat3 inertia = Mat3::Zero();
+  };
+  std::vector<Found> found(pieces.size());
+  for_each_awake([&](std::uint32_t slot) {
+    const std::uint32_t i = piece_of[VertexId(slot)];
+    if (pieces[i].is_free) found[i].centre += mass_of(VertexId(slot)) * (places[slot] - middle);
+  });
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].mass > 0) found[i].centre /= pieces[i].mass;
+  }
+  for_each_awake([&](std::uint32_t slot) {
+    const std::uint32_t i = piece_of[VertexId(slot)];
+    if (!pieces[i].is_free) return;
+    const Vec3 arm = places[slot] - middle - found[i].centre, p = momentum_of(VertexId(slot));
+    found[i].momentum += p;
+    found[i].spin += arm.cross(p);
+    found[i].inertia += mass_of(VertexId(slot)) * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  });
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!pieces[i].is_free || pieces[i].mass == 0) continue;
+    found[i].shift = (pieces[i].momentum - found[i].momentum) / pieces[i].mass;
+    found[i].turn = turn_for(pieces[i].spin - found[i].spin, found[i].inertia);
+  }
+  for_each_awake([&](std::uint32_t slot) {
+    const VertexId v(slot);
+    const std::uint32_t i = piece_of[v];
+    if (!pieces[i].is_free) return;
+    const Vec3 more = found[i].shift + found[i].turn.cross(places[slot] - middle - found[i].centre);
+    places[slot] += h * more;
+    set_momentum(v, momentum_of(v) + mass_of(v) * more);
+    round_place(v);
+  });
+}
+
+}  // namespace incise::inline v0

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a deformable body holds, for the files that implement it: following the journal, moving on, questions.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "incise/core/parallel.h"
+#include "incise/mesh/attributes.h"
+#include "incise/sim/body.h"
+#include "sim/star_kernel.h"
+#include "sim/stars.h"
+#include "sim/sweep_order.h"
+
+namespace incise::inline v0 {
+namespace detail {
+
+/// A vertex that is held where it is: `stiffness` in N/m, infinite for rigidly.
+struct Hold {
+  double stiffness = 0;
+  Vec3 target = Vec3::Zero();
+  [[nodiscard]] bool is_rigid() const { return !(stiffness < kRigid); }
+  static constexpr double kRigid = 1e30;
+};
+
+/// A part of the body that hangs together through vertices.
+struct Piece {
+  bool is_free = true;  ///< nothing holds or pulls it
+  double mass = 0;
+  Vec3 momentum = Vec3::Zero(), centre = Vec3::Zero(), spin = Vec3::Zero();  ///< as they must be; centre: mass · place
+};
+
+/// The tets and vertices that stand otherwise than at the last `follow`.
+struct Touched {
+  std::vector<std::uint32_t> tets, vertices;
+  std::vector<std::uint32_t> fresh;  ///< vertices that were put where they are
+
+  void add(const Step& step);
+  void sort();  ///< ascending, each once
+};
+
+}  // namespace detail
+
+/// Arrays go by slot. Units: the mesh's length unit L, kg and s: so forces are in kg L/s², energies in kg L²/s².
+struct DeformableBody::State {
+  State(const TetMesh& mesh, std::size_t journal_position, Materials given, const BodyOptions& chosen)
+      : options(chosen), materials(std::move(given)), attributes(mesh, journal_position), pair(chosen.threads) {}
+
+  BodyOptions options;
+  Materials materials;
+
+  // the mesh as it was at the last `follow`
+  IdArray<TetId, TetVertices> tets;  // the first one is invalid where the slot is free
+  IdArray<TetId, std::int32_t> regions;
+  IdArray<VertexId, Vec3> rest;
+  std::uint64_t rewinds = 0;
+
+  // state in time
+  std::vector<Vec3> places;
+  Attributes attributes;  // mass and momentum of the vertices: kept through every edit
+  AttributeId mass_id, momentum_id;
+  std::map<std::uint32_t, detail::Hold> holds;
+  std::vector<Pull> pulls;
+  Vec3 middle = Vec3::Zero();  // that single-precision places count from
+
+  // the descent
+  detail::Stars stars;
+  detail::SweepOrder order;
+  GrowArray<float> floats;  // places against the middle, 4 per vertex
+  IdArray<VertexId, detail::Motion> motions;
+  std::vector<detail::PullTerm> terms;
+  std::vector<detail::PullUse> uses;
+  IdArray<VertexId, float> travelled;  // squared, in this `advance`
+  WorkPair pair;
+
+  // free pieces
+  IdArray<VertexId, std::uint32_t> piece_of;
+  std::vector<detail::Piece> pieces;
+  bool has_free_piece = false;
+  unsigned stale_pieces = 0;  // `advance`s since tets changed; 0: none did
+
+  std::size_t position = 0;            // in the journal
+  std::vector<std::uint32_t> changed;  // vertices whose stars `follow` changed
+
+  [[nodiscard]] bool is_live(VertexId v) const { return v.value < places.size() && stars.of(v).lanes > 0; }
+  [[nodiscard]] double unit() const { return options.length_unit; }
+  [[nodiscard]] double* masses() { return attributes.values(mass_id).data(); }
+  [[nodiscard]] const double* masses() const { return attributes.values(mass_id).data(); }
+  [[nodiscard]] double* momenta() { return attributes.values(momentum_id).data(); }
+  [[nodiscard]] const double* momenta() const { return attributes.values(momentum_id).data(); }
+  [[nodiscard]] double mass_of(VertexId v) const { return masses()[v.value]; }
+  [[nodiscard]] Vec3 momentum_of(VertexId v) const {
+    const double* p = momenta() + std::size_t{3} * v.value;
+    return {p[0], p[1], p[2]};
+  }
+  void set_momentum(VertexId v, const Vec3& momentum) {
+    double* p = momenta() + std::size_t{3} * v.value;
+    for (unsigned i = 0; i < 3; ++i) p[i] = momentum[i];
+  }
+  [[nodiscard]] std::array<Vec3, 4> corners_at_rest(TetId t) const;
+  [[nodiscard]] std::array<Vec3, 4> corners(TetId t) const;
+  [[nodiscard]] detail::Element element(TetId t) const;
+  [[nodiscard]] detail::Descent descent();
+  void round_place(VertexId v);
+
+  // building and following (body_follow.cpp)
+  void build(const TetMesh& mesh);
+  void ensure(const TetMesh& mesh);
+  void lay_out_stars();
+  void replace(const TetMesh& mesh, const detail::Touched& touched, bool has_rewound, FollowReport& report);
+  bool add_tet(const TetMesh& mesh, TetId t);
+  bool remove_tet(TetId t);
+  void settle_vertex(VertexId v);
+  void release_lost_holds();
+
+  // moving on (body_advance.cpp)
+  template <class Visit>
+  void for_each_awake(Visit&& visit) const {
+    for (std::size_t part = 0; part < detail::SweepOrder::kParts; ++part) {
+      for (const std::uint32_t v : order.awake(static_cast<detail::SweepOrder::Part>(part))) visit(v);
+    }
+  }
+  void centre();
+  void prepare_pulls();
+  void wake_pulled(const Pull& pull);
+  void list_uses();
+  void begin_substep(double h);
+  void descend(double h);
+  void end_substep(double h, double& fastest);
+  void relax(std::span<const std::uint32_t> vertices, unsigned sweeps);
+  void fall_asleep();
+
+  // free pieces (body_pieces.cpp)
+  void label_pieces();
+  void label_stale_pieces();
+  void expect_motion(double h);
+  void correct_motion(double h);
+};
+
+}  // namespace incise::inline v0
