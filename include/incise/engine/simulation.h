@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "incise/core/result.h"
+#include "incise/engine/engine.h"
+#include "incise/sim/body.h"
+#include "incise/sim/contact.h"
+#include "incise/sim/haptic_snapshot.h"
+
+namespace incise::inline v0 {
+
+struct SimulationOptions {
+  /// `engine.maintain.work_units` is the budget of each frame: a stroke's maintenance goes on in the frames after it.
+  EngineOptions engine;
+  BodyOptions body;
+  Materials materials;
+  double frame_seconds = 1.0 / 60;  ///< in (0, 1]
+  double contact_stiffness = 0;     ///< N/m per touched vertex; 0: ten times what the tissue itself has
+  double flat_height = 0;           ///< of the blade behind its edge, length unit; 0: the flat touches nothing
+};
+
+/// A grip on the tissue: a hook, a pair of forceps. It takes hold, where it first appears, of all vertices within
+/// `radius` of where it is, and lets go where it appears no more.
+struct Hook {
+  std::uint32_t id = 0;          ///< the same from frame to frame, and once per frame
+  Vec3 position = Vec3::Zero();  ///< length unit
+  double radius = 0;             ///< length unit, above 0; where no vertex is within it, the nearest one is taken
+  double stiffness = 100;        ///< N/m per vertex, above 0
+};
+
+/// What the hands do in one frame: everything that they hold, where it is at the end of the frame.
+struct FrameInput {
+  /// The blade. Its first frame puts it in place and cuts nothing; frame by frame it cuts on; where it is gone, the
+  /// stroke has ended. All poses of a stroke have the same number of points.
+  std::optional<BladePose> blade;
+  std::vector<Hook> hooks;
+  std::vector<Tool> tools;  ///< what presses on the surface in this frame, tables and walls included
+};
+
+/// The blade and the tissue at the end of a frame. SI units.
+struct BladeState {
+  bool touches = false;       ///< some of the edge is in the tissue, or presses on it
+  bool yields = false;        ///< somewhere the tissue gave way in this frame
+  Vec3 force = Vec3::Zero();  ///< of the tissue on the edge, N
+  double engaged_length = 0;  ///< of the edge, m
+  double fracture_work = 0;   ///< toughness · new area, in this frame, J
+  double friction_work = 0;   ///< rubbed off while cutting, in this frame, J
+  double tool_work = 0;       ///< that the hand did with the edge in this frame, J
+};
+
+/// What one frame did.
+struct FrameReport {
+  CutStatistics cut;
+  MaintainStatistics maintain;
+  StageTimes times;  ///< relax: solver and following; the others as the engine has them
+  AdvanceReport relax;
+  BladeState blade;
+  std::vector<Vec3> hook_forces;  ///< of the tissue on each hook of the input, N
+  std::uint32_t stroke = 0;       ///< the stroke under way, from 1; 0: none
+  std::size_t contacts = 0;       ///< vertices that tools touch
+};
+
+/// A body that is cut while it deforms: the paper's whole pipeline (Figure 1), frame by frame.
+///
+/// In each frame the tissue moves on under its own weight, hooks and tools (relaxation); then the blade cuts it where
+/// it stands, and the solver follows the mesh; between strokes the mesh is maintained within the budget of the frame.
+/// Where a material has toughness or friction the tissue resists: the edge presses it ahead until the force per length
+/// of edge reaches what the material bears, and then cuts on just as far as that force allows (`docs/coupling.md`). The
+/// front of the cut lives in the tissue and moves with it. *Differs* from the paper, whose blade cuts rigid tissue.
+/// One writer; the same calls give the same bits on every compiler and number of threads. No clock is read but to
+/// report times.
+class Simulation {
+ public:
+  /// Takes the mesh, at rest. Errors: kBadArgument for options out of range.
+  static Result<Simulation> create(TetMesh mesh, SimulationOptions options);
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
+
+  /// One frame. Errors: kBadArgument for malformed input, and nothing changes; kOutOfMemory where ids run out: the
+  /// stroke ends there. Cost: the relaxation's, plus O(tets that the blade touches), plus O(vertices), about 5 ns each.
+  Result<FrameReport> frame(const FrameInput& input);
+
+  /// Lets the body come to rest under gravity and its holds, before anything is done to it: frames without input and
+  /// with velocities halved, until nothing moves faster than `speed` m/s, at most `max_frames`. Returns the frames.
+  Result<unsigned> settle(unsigned max_frames, double speed = 1e-4);
+
+  /// Takes the last stroke back, with its maintenance; a stroke under way as well. The tissue stays where it stands.
+  /// Returns false where there is none.
+  bool undo();
+  bool redo();
+
+  [[nodiscard]] const SimulationOptions& options() const;
+  [[nodiscard]] const Engine& engine() const;
+  [[nodiscard]] const TetMesh& mesh() const;
+  [[nodiscard]] const DeformableBody& body() const;
+  /// To hold and release vertices; follow the journal by `frame` alone.
+  [[nodiscard]] DeformableBody& body();
+  /// Frames done.
+  [[nodiscard]] std::uint64_t frames() const;
+  /// What the 1 kHz loop of force feedback goes by until the next frame. Cost: O(1).
+  [[nodiscard]] const HapticSnapshot& haptic_snapshot() const;
+  /// Of the mesh and of the body's state. Cost: O(slots).
+  [[nodiscard]] std::uint64_t hash() const;
+
+ private:
+  struct State;
+  explicit Simulation(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace incise::inline v0
