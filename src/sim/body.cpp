@@ -34,6 +34,7 @@ Status check(const Pull& pull, std::size_t index, const DeformableBody::State& s
   const auto bad_pull = [&](const char* what) { return bad("pull " + std::to_string(index) + ": " + what); };
   if (!(pull.stiffness >= 0 && std::isfinite(pull.stiffness))) return bad_pull("the stiffness must be at least 0 N/m");
   if (!pull.target.allFinite()) return bad_pull("the target is not finite");
+  if (!(pull.limit >= 0)) return bad_pull("the limit must be at least 0 N");
   const double length2 = pull.axis.squaredNorm();
   if (!(length2 == 0 || std::abs(length2 - 1) < 1e-6)) return bad_pull("the axis must be of length 1, or zero");
   bool has_vertex = false;
@@ -117,19 +118,34 @@ const std::vector<Pull>& DeformableBody::pulls() const {
   return state_->pulls;
 }
 
-/// What a pull does at its point, in kg L/s².
-static Vec3 pull_force_of(const DeformableBody::State& s, const Pull& pull) {
+namespace {
+
+/// From a pull's target to its point.
+Vec3 off_target(const DeformableBody::State& s, const Pull& pull) {
   Vec3 off = -pull.target;
   for (unsigned i = 0; i < 4; ++i) {
     if (pull.weights[i] != 0 && pull.stiffness > 0) off += pull.weights[i] * s.places[pull.vertices[i].value];
   }
-  if (pull.axis.isZero(0)) return -pull.stiffness * off;
-  const double along = pull.axis.dot(off);
-  return pull.pushes_only && along >= 0 ? Vec3(Vec3::Zero()) : Vec3(-pull.stiffness * along * pull.axis);
+  return off;
 }
 
+/// In kg L²/s²: k/2 x², and linear beyond the limit.
+double energy_of(const DeformableBody::State& s, const Pull& pull) {
+  if (pull.stiffness <= 0) return 0;
+  const Vec3 off = off_target(s, pull);
+  const double force = detail::pull_state(detail::term_of(pull, Vec3::Zero(), s.unit()), off).slope.norm();
+  const double reached = force / pull.stiffness;
+  const double beyond = force > 0 && !pull.axis.isZero(0) ? std::abs(pull.axis.dot(off)) - reached : 0;
+  return 0.5 * force * reached + force * std::max(beyond, 0.0);
+}
+
+}  // namespace
+
 Vec3 DeformableBody::pull_force(std::size_t index) const {
-  return state_->unit() * pull_force_of(*state_, state_->pulls[index]);
+  const Pull& pull = state_->pulls[index];
+  if (pull.stiffness <= 0) return Vec3::Zero();
+  const detail::PullTerm term = detail::term_of(pull, Vec3::Zero(), state_->unit());
+  return -state_->unit() * detail::pull_state(term, off_target(*state_, pull)).slope;
 }
 
 Vec3 DeformableBody::force_on_holds() const {
@@ -228,7 +244,7 @@ BodyEnergy DeformableBody::energy() const {
     if (!hold.is_rigid()) energy.held += 0.5 * to_joule * hold.stiffness * (s.places[slot] - hold.target).squaredNorm();
   }
   for (const Pull& pull : s.pulls) {
-    if (pull.stiffness > 0) energy.pulled += 0.5 * to_joule * pull_force_of(s, pull).squaredNorm() / pull.stiffness;
+    energy.pulled += to_joule * energy_of(s, pull);
   }
   return energy;
 }

@@ -62,9 +62,7 @@ void DeformableBody::State::centre() {
 
 // --- pulls
 
-namespace {
-
-detail::PullTerm term_of(const Pull& pull, const Vec3& middle) {
+detail::PullTerm detail::term_of(const Pull& pull, const Vec3& middle, double unit) {
   detail::PullTerm term;
   Vec3 target = pull.target;
   for (unsigned i = 0; i < 4; ++i) {
@@ -78,10 +76,9 @@ detail::PullTerm term_of(const Pull& pull, const Vec3& middle) {
   term.has_axis = !pull.axis.isZero(0);
   term.pushes_only = pull.pushes_only && term.has_axis;
   term.stiffness = pull.stiffness;
+  term.limit = pull.limit / unit;
   return term;
 }
-
-}  // namespace
 
 void DeformableBody::State::wake_pulled(const Pull& pull) {
   for (unsigned i = 0; i < 4; ++i) {
@@ -98,10 +95,11 @@ void DeformableBody::State::prepare_pulls() {
   }
   terms.clear();
   uses.clear();
-  for (const Pull& pull : pulls) terms.push_back(term_of(pull, middle));
+  for (const Pull& pull : pulls) terms.push_back(detail::term_of(pull, middle, unit()));
   for (const auto& [v, hold] : holds) {
     if (!hold.is_rigid()) {
-      terms.push_back(term_of({{VertexId(v)}, {1, 0, 0, 0}, hold.target, Vec3::Zero(), hold.stiffness, false}, middle));
+      terms.push_back(
+          detail::term_of({{VertexId(v)}, {1, 0, 0, 0}, hold.target, Vec3::Zero(), hold.stiffness}, middle, unit()));
     }
   }
   list_uses();

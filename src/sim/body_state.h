@@ -30,6 +30,9 @@ struct Piece {
   Vec3 momentum = Vec3::Zero(), centre = Vec3::Zero(), spin = Vec3::Zero();  ///< as they must be; centre: mass · place
 };
 
+/// A pull as the descent sees it, limits in kg L/s².
+[[nodiscard]] PullTerm term_of(const Pull& pull, const Vec3& middle, double unit);
+
 /// The tets and vertices that stand otherwise than at the last `follow`.
 struct Touched {
   std::vector<std::uint32_t> tets, vertices;

@@ -115,8 +115,11 @@ class Projection {
     }
     if (term.has_axis) off = term.axis.dot(off) * term.axis;
     if (term.pushes_only && term.axis.dot(off) >= 0) return;
-    const Vec3 more = -(off + compliance * multiplier) / sum;
-    multiplier += more;
+    const Vec3 before = multiplier;
+    multiplier -= (off + compliance * multiplier) / sum;
+    const double most = term.limit * h_ * h_;  // multipliers are forces times h²
+    if (term.has_axis && multiplier.norm() > most) multiplier *= most / multiplier.norm();
+    const Vec3 more = multiplier - before;
     for (unsigned i = 0; i < 4; ++i) {
       if (term.weights[i] != 0) x_[term.vertices[i]] += weights_[term.vertices[i]] * term.weights[i] * more;
     }

@@ -181,27 +181,33 @@ HWY_EXPORT(find_quadratic);
 #define INCISE_DISPATCH(function) plain::function
 #endif
 
-Vec3 pull_slope(const PullTerm& term, const float* places) {
+PullState pull_state(const PullTerm& term, const Vec3& off) {
+  if (!term.has_axis) return {term.stiffness * off, term.stiffness};
+  const double along = term.axis.dot(off), slope = term.stiffness * along;
+  if (term.pushes_only && along >= 0) return {};
+  if (slope > term.limit) return {term.limit * term.axis, 0};
+  if (slope < -term.limit) return {-term.limit * term.axis, 0};
+  return {slope * term.axis, term.stiffness};
+}
+
+static Vec3 off_target(const PullTerm& term, const float* places) {
   Vec3 off = -term.target;
   for (unsigned i = 0; i < 4; ++i) {
     if (term.weights[i] == 0) continue;
     const float* p = places + std::size_t{4} * term.vertices[i];
     off += term.weights[i] * Vec3(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
   }
-  if (!term.has_axis) return term.stiffness * off;
-  const double along = term.axis.dot(off);
-  return term.pushes_only && along >= 0 ? Vec3(Vec3::Zero()) : Vec3(term.stiffness * along * term.axis);
+  return off;
 }
 
 void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q) {
   for (std::uint32_t i = 0; i < motion.pulls; ++i) {
     const PullUse& use = descent.uses[motion.first_pull + i];
     const PullTerm& term = descent.terms[use.term];
-    const Vec3 slope = pull_slope(term, descent.places);
-    if (term.pushes_only && slope.isZero(0)) continue;
+    const PullState pull = pull_state(term, off_target(term, descent.places));
     const Mat3 along = term.has_axis ? Mat3(term.axis * term.axis.transpose()) : Mat3(Mat3::Identity());
-    const Mat3 bend = term.stiffness * use.weight * use.weight * along;
-    for (int k = 0; k < 3; ++k) q.slope[static_cast<std::size_t>(k)] += use.weight * slope[k];
+    const Mat3 bend = pull.stiffness * use.weight * use.weight * along;
+    for (int k = 0; k < 3; ++k) q.slope[static_cast<std::size_t>(k)] += use.weight * pull.slope[k];
     const std::array<double, 6> upper = {bend(0, 0), bend(0, 1), bend(0, 2), bend(1, 1), bend(1, 2), bend(2, 2)};
     for (unsigned k = 0; k < 6; ++k) q.curvature[k] += upper[k];
   }

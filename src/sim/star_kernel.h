@@ -30,6 +30,7 @@ struct PullTerm {
   Vec3 target = Vec3::Zero();
   Vec3 axis = Vec3::Zero();
   double stiffness = 0;
+  double limit = 0;  ///< of the force along the axis
   bool has_axis = false, pushes_only = false;
 };
 
@@ -55,8 +56,14 @@ struct Quadratic {
   std::array<double, 6> curvature{};
 };
 
-/// Where a pull's point is, and the force's slope there: k (a − target), along the axis where there is one.
-[[nodiscard]] Vec3 pull_slope(const PullTerm& term, const float* places);
+/// What a pull does at its point as it stands: the slope of its energy, and how stiff it is there: 0 where it does not
+/// push, or has reached its limit.
+struct PullState {
+  Vec3 slope = Vec3::Zero();
+  double stiffness = 0;
+};
+/// `off`: from the target to the point.
+[[nodiscard]] PullState pull_state(const PullTerm& term, const Vec3& off);
 
 /// Adds what pulls a vertex to its quadratic.
 void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q);

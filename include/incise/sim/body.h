@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -43,6 +44,8 @@ struct Pull {
   Vec3 axis = Vec3::Zero();  ///< a unit vector, or zero: in all directions
   double stiffness = 0;      ///< N/m, at least 0
   bool pushes_only = false;  ///< with an axis: acts only where axis · (a − target) < 0
+  /// With an axis: N, at least 0; where the spring would pull harder it gives way, and pulls with this.
+  double limit = std::numeric_limits<double>::infinity();
 };
 
 /// What following the journal changed.
