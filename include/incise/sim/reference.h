@@ -68,6 +68,8 @@ class ReferenceSolver {
 
   /// Finds the equilibrium near where the body stands.
   ///
+  /// From rest it is found with slivers of any kind; from a start that scrambles the mesh only while no tet is thinner
+  /// than about 1/100 of its edges.
   /// @param positions  in: where to start, finite; out: the best found, converged or not. Slots without tets stay.
   /// Errors: kBadArgument for a wrong count, a position that is not finite, bad limits, or a part of the body that
   /// fewer than three held vertices carry: it has no equilibrium. Cost: per iteration one or two solves.
