@@ -3,32 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <limits>
 #include <new>
 
 #include "incise/sim/simulated_operator.h"
+#include "sim/allocation_count.h"
 #include "sim/haptic_scenes.h"
-
-namespace {
-
-std::atomic<std::size_t> g_allocations{0};
-
-}  // namespace
-
-// Counts every allocation of this program.
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
 
 namespace incise {
 namespace {
@@ -174,15 +154,15 @@ TEST(HapticTool, EqualInputsGiveEqualBits) {
 TEST(HapticTool, TicksAllocateNothing) {
   HapticTool tool;
   HapticSnapshot snapshot = liver_at(Vec3::Zero());
-  const std::size_t before = g_allocations;
+  const std::size_t before = test::allocation_count();
   for (int i = 0; i < 500; ++i) {
     snapshot.serial = static_cast<std::uint64_t>(i + 1);
     if (i % 17 == 0) tool.accept(snapshot);
     tool.tick(kDt, Vec3(0, 0, -1e-5 * i), Vec3(0, 0, -0.01));
   }
-  EXPECT_EQ(g_allocations, before);
+  EXPECT_EQ(test::allocation_count(), before);
   ::operator delete(::operator new(8));
-  EXPECT_GT(g_allocations, before);  // the count does count
+  EXPECT_GT(test::allocation_count(), before);  // the count does count
 }
 
 TEST(HapticTool, TheControllerLeavesSlowPressingAlone) {
