@@ -199,6 +199,12 @@ Status DeformableBody::set_velocity(VertexId vertex, const Vec3& velocity) {
   return {};
 }
 
+void DeformableBody::slow_down(double factor) {
+  for (std::uint32_t v = 0; v < state_->places.size(); ++v) {
+    state_->set_momentum(VertexId(v), factor * state_->momentum_of(VertexId(v)));
+  }
+}
+
 double DeformableBody::mass(VertexId vertex) const {
   return state_->is_live(vertex) ? state_->mass_of(vertex) : 0.0;
 }

@@ -70,8 +70,10 @@ std::array<Vec3, 4> DeformableBody::State::corners(TetId t) const {
 
 detail::Element DeformableBody::State::element(TetId t) const {
   const Material& material = materials.of(regions[t]);
-  // Pa are kg/(m s²): by metres per unit they become kg/(L s²).
-  return detail::element_of(corners_at_rest(t), material.lambda() * unit(), material.mu() * unit(), options.thinnest);
+  // Pa are kg/(m s²): by metres per unit they become kg/(L s²). The energy's own λ is Lamé's + μ: only then are small
+  // strains Hooke's (Smith et al. 2018, section 3.4).
+  const double mu = material.mu() * unit(), lambda = material.lambda() * unit() + mu;
+  return detail::element_of(corners_at_rest(t), lambda, mu, options.thinnest);
 }
 
 void DeformableBody::State::ensure(const TetMesh& mesh) {

@@ -66,8 +66,8 @@ class Projection {
     strain.to_rest = edges.inverse();
     const double volume = six_volumes(p) / 6;
     strain.mu_v = material.mu() * s_.unit() * volume;
-    strain.lambda_v = material.lambda() * s_.unit() * volume;
-    strain.wanted = strain.lambda_v > 0 ? 1 + strain.mu_v / strain.lambda_v : 1;
+    strain.lambda_v = (material.lambda() + material.mu()) * s_.unit() * volume;  // the energy's own λ
+    strain.wanted = 1 + strain.mu_v / strain.lambda_v;
     strains_.push_back(strain);
   }
 
@@ -83,7 +83,6 @@ class Projection {
     if (norm > 0) solve(strain, Mat3(f / norm), norm, strain.mu_v, strain.stretch);
   }
   void swell(Strain& strain) {
-    if (strain.lambda_v <= 0) return;
     const Mat3 f = gradient(strain.v, strain.to_rest);
     Mat3 cofactor;
     for (Eigen::Index i = 0; i < 3; ++i) cofactor.col(i) = f.col((i + 1) % 3).cross(f.col((i + 2) % 3));

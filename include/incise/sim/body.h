@@ -130,6 +130,8 @@ class DeformableBody {
   [[nodiscard]] Vec3 velocity(VertexId vertex) const;  ///< m/s
   /// Gives a vertex a velocity, m/s, and wakes it. Errors: kBadArgument where it is not live, or not finite.
   Status set_velocity(VertexId vertex, const Vec3& velocity);
+  /// Multiplies all velocities by `factor`, in [0, 1]: what comes to rest in a hurry.
+  void slow_down(double factor);
   [[nodiscard]] double mass(VertexId vertex) const;  ///< kg
   [[nodiscard]] double mass() const;                 ///< kg
   [[nodiscard]] Vec3 momentum() const;               ///< kg m/s

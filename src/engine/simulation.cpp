@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/engine/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "engine/blade_coupling.h"
+#include "incise/core/hash.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+Error bad(std::string message) {
+  return {ErrorCode::kBadArgument, std::move(message), {}};
+}
+
+/// What a hook has hold of, and where from it.
+struct Grip {
+  std::vector<VertexId> vertices;
+  std::vector<Vec3> offsets;
+};
+
+double mean_edge(const TetMesh& mesh) {
+  double sum = 0;
+  std::size_t count = 0;
+  mesh.for_each_tet([&](TetId t) {
+    for (const auto& [a, b] : kEdgeCorners)
+      sum += (mesh.rest(mesh.vertices(t)[a]) - mesh.rest(mesh.vertices(t)[b])).norm();
+    count += 6;
+  });
+  return count > 0 ? sum / static_cast<double>(count) : 1.0;
+}
+
+double stiffest(const Materials& materials) {
+  double young = materials.fallback.young;
+  for (const Materials::Entry& entry : materials.by_region) young = std::max(young, entry.material.young);
+  return young;
+}
+
+Status check(const SimulationOptions& options) {
+  if (!(options.frame_seconds > 0 && options.frame_seconds <= 1)) return bad("a frame must last between 0 and 1 s");
+  if (!(options.contact_stiffness >= 0 && std::isfinite(options.contact_stiffness))) {
+    return bad("the contact stiffness must be at least 0 N/m");
+  }
+  if (!(options.flat_height >= 0 && std::isfinite(options.flat_height))) {
+    return bad("the height of the blade's flat must be at least 0");
+  }
+  return {};
+}
+
+Status check(const Hook& hook) {
+  const std::string name = "hook " + std::to_string(hook.id);
+  if (!hook.position.allFinite()) return bad(name + ": its position is not finite");
+  if (!(hook.radius > 0 && std::isfinite(hook.radius))) return bad(name + ": its radius must be above 0");
+  if (!(hook.stiffness > 0 && std::isfinite(hook.stiffness))) return bad(name + ": its stiffness must be above 0 N/m");
+  return {};
+}
+
+Status check(const FrameInput& input) {
+  for (std::size_t i = 0; i < input.hooks.size(); ++i) {
+    if (Status status = check(input.hooks[i]); !status) return status;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (input.hooks[j].id == input.hooks[i].id)
+        return bad("hook " + std::to_string(input.hooks[i].id) + " comes twice");
+    }
+  }
+  for (const Tool& tool : input.tools) {
+    if (Status status = check(tool); !status) return status;
+  }
+  return {};
+}
+
+}  // namespace
+
+struct Simulation::State {
+  State(Engine taken, DeformableBody made, SimulationOptions chosen)
+      : engine(std::move(taken)), body(std::move(made)), options(std::move(chosen)) {}
+
+  Engine engine;
+  DeformableBody body;
+  SimulationOptions options;
+  double spacing = 1;
+  double contact_stiffness = 0;  // N/m
+  std::uint64_t frames = 0;
+  bool is_in_stroke = false;
+  std::vector<Vec3> blade_before;
+  detail::BladeCoupling coupling;
+  std::map<std::uint32_t, Grip> grips;
+  HapticSnapshot snapshot;
+
+  Status start_blade(const FrameInput& input);
+  Status press(const FrameInput& input, FrameReport& report);
+  void hold_with_hooks(const FrameInput& input, std::vector<Pull>& pulls);
+  Grip grab(const Hook& hook) const;
+  void add_flat(const FrameInput& input, std::vector<Tool>& tools) const;
+  Status relax(FrameReport& report);
+  Status cut(const FrameInput& input, FrameReport& report);
+  Status lift_blade(FrameReport& report);
+  void maintain(FrameReport& report);
+  Status follow(FrameReport& report);
+  Status hand_over();
+};
+
+// --- the frame, as the paper's Figure 1 has it
+
+Result<FrameReport> Simulation::frame(const FrameInput& input) {
+  State& s = *state_;
+  if (Status status = check(input); !status) return status.error();
+  FrameReport report;
+  if (Status status = s.start_blade(input); !status) return status.error();
+  if (Status status = s.press(input, report); !status) return status.error();
+  if (Status status = s.relax(report); !status) return status.error();
+  if (Status status = s.cut(input, report); !status) return status.error();
+  s.maintain(report);
+  if (Status status = s.follow(report); !status) return status.error();
+  report.stroke = s.is_in_stroke ? s.engine.stroke_count() + 1 : 0;
+  ++s.frames;
+  s.snapshot.serial = s.frames;
+  return report;
+}
+
+/// A blade that appears is put in place; a pose that does not fit the stroke is refused before anything happens.
+Status Simulation::State::start_blade(const FrameInput& input) {
+  if (!input.blade) return {};
+  const BladePose& pose = *input.blade;
+  const auto is_finite = [](const Vec3& point) { return point.allFinite(); };
+  if (pose.edge.size() < 2 || !std::all_of(pose.edge.begin(), pose.edge.end(), is_finite) ||
+      !is_finite(pose.direction)) {
+    return bad("the blade's edge must have at least 2 points, and all of it must be finite");
+  }
+  if (is_in_stroke) {
+    return pose.edge.size() == blade_before.size()
+               ? Status{}
+               : Status{bad("all poses of a stroke must have the same number of points")};
+  }
+  coupling.begin(pose, options.materials, options.body.length_unit, spacing);
+  BladePose first = pose;
+  if (coupling.resists()) first = coupling.yield(engine.mesh(), body.positions());
+  first.direction = pose.direction;
+  if (const auto begun = engine.begin_stroke(first); !begun) return begun.error();
+  is_in_stroke = true;
+  blade_before = pose.edge;
+  return {};
+}
+
+/// Collision: what touches the tissue, and presses on it while it relaxes.
+Status Simulation::State::press(const FrameInput& input, FrameReport& report) {
+  const StageZone zone(report.times, Stage::kCollision);
+  std::vector<Pull> pulls;
+  hold_with_hooks(input, pulls);
+  if (input.blade && coupling.resists()) coupling.press(*input.blade, engine.mesh(), body.positions(), pulls);
+  std::vector<Tool> tools = input.tools;
+  add_flat(input, tools);
+  const std::size_t others = pulls.size();
+  find_contacts(engine.mesh(), body.positions(), tools, contact_stiffness, 0.1 * spacing, pulls);
+  report.contacts = pulls.size() - others;
+  return body.set_pulls(std::move(pulls));
+}
+
+Grip Simulation::State::grab(const Hook& hook) const {
+  Grip grip;
+  VertexId nearest;
+  double least = 0;
+  engine.mesh().for_each_vertex([&](VertexId v) {
+    if (!engine.mesh().tet_of(v).is_valid()) return;
+    const double distance2 = (body.positions()[v.value] - hook.position).squaredNorm();
+    if (!nearest.is_valid() || distance2 < least) {
+      nearest = v;
+      least = distance2;
+    }
+    if (distance2 <= hook.radius * hook.radius) grip.vertices.push_back(v);
+  });
+  if (grip.vertices.empty() && nearest.is_valid()) grip.vertices.push_back(nearest);
+  for (const VertexId v : grip.vertices) grip.offsets.push_back(body.positions()[v.value] - hook.position);
+  return grip;
+}
+
+void Simulation::State::hold_with_hooks(const FrameInput& input, std::vector<Pull>& pulls) {
+  std::erase_if(grips, [&](const auto& grip) {
+    return std::none_of(input.hooks.begin(), input.hooks.end(),
+                        [&](const Hook& hook) { return hook.id == grip.first; });
+  });
+  for (const Hook& hook : input.hooks) {
+    auto at = grips.find(hook.id);
+    if (at == grips.end()) at = grips.emplace(hook.id, grab(hook)).first;
+    const Grip& grip = at->second;
+    for (std::size_t i = 0; i < grip.vertices.size(); ++i) {
+      if (!engine.mesh().is_live(grip.vertices[i])) continue;
+      Pull pull;
+      pull.vertices[0] = grip.vertices[i];
+      pull.target = hook.position + grip.offsets[i];
+      pull.stiffness = hook.stiffness;
+      pulls.push_back(pull);
+    }
+  }
+}
+
+/// Walls are kept on their sides of the blade that is between them.
+void Simulation::State::add_flat(const FrameInput& input, std::vector<Tool>& tools) const {
+  if (!input.blade || options.flat_height <= 0) return;
+  Vec3 way = input.blade->direction;
+  if (way.isZero(0)) {
+    for (std::size_t i = 0; i < blade_before.size(); ++i) way += input.blade->edge[i] - blade_before[i];
+  }
+  if (!(way.norm() > 0)) return;
+  tools.emplace_back(FlatTool{input.blade->edge, -options.flat_height * way.normalized(), 0});
+}
+
+Status Simulation::State::relax(FrameReport& report) {
+  const StageZone zone(report.times, Stage::kRelax);
+  Result<AdvanceReport> advanced = body.advance(options.frame_seconds);
+  if (!advanced) return advanced.error();
+  report.relax = *advanced;
+  return hand_over();
+}
+
+Status Simulation::State::hand_over() {
+  return engine.set_positions(body.positions());
+}
+
+/// The blade cuts the tissue where it stands now.
+Status Simulation::State::cut(const FrameInput& input, FrameReport& report) {
+  snapshot = {};
+  if (!input.blade) return is_in_stroke ? lift_blade(report) : Status{};
+  BladePose pose = *input.blade;
+  blade_before = pose.edge;
+  if (coupling.resists()) pose = coupling.yield(engine.mesh(), body.positions());
+  const Result<StepReport> step = engine.step(pose);
+  if (!step) {
+    is_in_stroke = false;
+    return step.error();
+  }
+  report.cut = step->cut;
+  report.times += step->times;
+  if (!coupling.resists()) return {};
+  const StageZone zone(report.times, Stage::kCollision);
+  coupling.take_hold(engine.mesh(), body.positions());
+  report.blade = coupling.state();
+  return {};
+}
+
+Status Simulation::State::lift_blade(FrameReport& report) {
+  is_in_stroke = false;
+  const Result<StrokeReport> stroke = engine.end_stroke();
+  if (!stroke) return stroke.error();
+  report.cut = stroke->cut;
+  report.maintain = stroke->maintain;
+  report.times += stroke->times;
+  return {};
+}
+
+/// What a stroke's maintenance has left goes on in the frames after it.
+void Simulation::State::maintain(FrameReport& report) {
+  if (is_in_stroke || !engine.has_maintenance() || report.maintain.work_units > 0) return;
+  const MaintainReport more = engine.maintain(options.engine.maintain.work_units);
+  report.maintain += more.maintain;
+  report.times += more.times;
+}
+
+Status Simulation::State::follow(FrameReport& report) {
+  const StageZone zone(report.times, Stage::kRelax);
+  const Result<FollowReport> followed = body.follow(engine.journal(), engine.mesh());
+  if (!followed) return followed.error();
+  if (is_in_stroke && coupling.resists()) snapshot = coupling.snapshot(body, engine.mesh());
+  return followed->fresh_vertices > 0 ? hand_over() : Status{};
+}
+
+// --- the rest
+
+Result<Simulation> Simulation::create(TetMesh mesh, SimulationOptions options) {
+  if (Status status = check(options); !status) return status.error();
+  Result<DeformableBody> body = DeformableBody::create(mesh, 0, options.materials, options.body);
+  if (!body) return body.error();
+  const double spacing = mean_edge(mesh);
+  Result<Engine> engine = Engine::create(std::move(mesh), options.engine);
+  if (!engine) return engine.error();
+  auto state = std::make_unique<State>(std::move(engine).value(), std::move(body).value(), std::move(options));
+  state->spacing = spacing;
+  const SimulationOptions& o = state->options;
+  state->contact_stiffness =
+      o.contact_stiffness > 0 ? o.contact_stiffness : 10 * stiffest(o.materials) * spacing * o.body.length_unit;
+  return Simulation(std::move(state));
+}
+
+Simulation::Simulation(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+Result<unsigned> Simulation::settle(unsigned max_frames, double speed) {
+  State& s = *state_;
+  for (unsigned i = 0; i < max_frames; ++i) {
+    Result<AdvanceReport> advanced = s.body.advance(s.options.frame_seconds);
+    if (!advanced) return advanced.error();
+    if (Status status = s.hand_over(); !status) return status.error();
+    if (advanced->fastest < speed) return i + 1;
+    s.body.slow_down(0.5);
+  }
+  return max_frames;
+}
+
+bool Simulation::undo() {
+  State& s = *state_;
+  s.is_in_stroke = false;
+  if (!s.engine.undo()) return false;
+  return s.body.follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
+}
+
+bool Simulation::redo() {
+  State& s = *state_;
+  if (!s.engine.redo()) return false;
+  return s.body.follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
+}
+
+const SimulationOptions& Simulation::options() const {
+  return state_->options;
+}
+const Engine& Simulation::engine() const {
+  return state_->engine;
+}
+const TetMesh& Simulation::mesh() const {
+  return state_->engine.mesh();
+}
+const DeformableBody& Simulation::body() const {
+  return state_->body;
+}
+DeformableBody& Simulation::body() {
+  return state_->body;
+}
+std::uint64_t Simulation::frames() const {
+  return state_->frames;
+}
+const HapticSnapshot& Simulation::haptic_snapshot() const {
+  return state_->snapshot;
+}
+
+std::uint64_t Simulation::hash() const {
+  StateHash hash;
+  hash.add(state_->engine.mesh().hash());
+  hash.add(state_->body.hash());
+  return hash.value();
+}
+
+}  // namespace incise::inline v0
