@@ -72,13 +72,13 @@ struct BodyEnergy {
 
 /// An elastic body that follows a tetrahedral mesh through its journal: the paper's relaxation.
 ///
-/// Stable neo-Hookean tissue, ψ = μ/2 (|F|² − 3) + λ/2 (J − 1)² − μ (J − 1), implicit Euler in time. Seen from one
-/// vertex this energy is exactly quadratic, so that a visit is one 3×3 solve (vertex block descent, Chen et al. 2024,
-/// in a split form whose stretch part is a constant Laplacian and whose volume part needs no deformation gradient).
-/// Mass, momentum and rest volume are kept through every step of the journal. Free pieces fall as they must: what the
-/// unfinished descent takes from the momentum of a piece is given back to it rigidly.
-/// Positions are in the mesh's length unit, all else in SI units. Not thread-safe. The same calls give the same bits
-/// on every compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
+/// Stable neo-Hookean tissue, ψ = μ/2 (|F|² − 3) + λ/2 (J − 1)² − μ (J − 1), λ being Lamé's + μ, implicit Euler in
+/// time. Seen from one vertex this energy is exactly quadratic, so that a visit is one 3×3 solve (vertex block descent,
+/// Chen et al. 2024, in a split form whose stretch part is a constant Laplacian and whose volume part needs no
+/// deformation gradient). Mass, momentum and rest volume are kept through every step of the journal. Free pieces fall
+/// as they must: what the unfinished descent takes from the momentum of a piece is given back to it rigidly. Positions
+/// are in the mesh's length unit, all else in SI units. Not thread-safe. The same calls give the same bits on every
+/// compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
 class DeformableBody {
  public:
   /// Takes the body as it stands, at rest or not, without velocity. The journal stands at `position`.
@@ -149,6 +149,7 @@ class DeformableBody {
   [[nodiscard]] std::uint64_t hash() const;
 
   struct State;  ///< how it is done; not for users
+  [[nodiscard]] const State& state() const { return *state_; }
 
  private:
   explicit DeformableBody(std::unique_ptr<State> state);

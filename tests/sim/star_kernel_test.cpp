@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/star_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "../geom/random.h"
+#include "incise/mesh/shapes.h"
+#include "incise/mesh/tet_mesh.h"
+#include "plain_kernel.h"
+
+#if INCISE_WITH_HIGHWAY
+#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)  // as in star_kernel.cpp
+#include <hwy/targets.h>
+#endif
+
+namespace incise {
+namespace {
+
+using detail::Descent;
+using detail::Quadratic;
+using test::Random;
+
+/// A small body whose vertices stand anywhere, move anyhow, and are pulled in every way.
+struct Scene {
+  static constexpr std::size_t kPulls = 12;
+
+  explicit Scene(std::uint64_t seed, double size = 0.1) : random(seed) {
+    TetSoup soup = kuhn_cube(3);
+    jitter(soup, 0.15, seed);
+    mesh = *TetMesh::build(std::move(soup));
+    stars.ensure(mesh.vertex_slots(), mesh.tet_slots());
+    mesh.for_each_tet([&](TetId t) {
+      elements.push_back(detail::element_of(corners(t, true), 3e3, 1e3, 0.05));
+      stars.add(t, mesh.vertices(t), elements.back());
+    });
+    for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+      const Vec3 place = mesh.rest(VertexId(v)) + random.point(-size, size);
+      for (int i = 0; i < 3; ++i) places.push_back(static_cast<float>(place[i]));
+      places.push_back(0);
+      order.push_back(v);
+      motions.push_back(any_motion(VertexId(v)));
+    }
+    add_pulls();
+  }
+
+  [[nodiscard]] std::array<Vec3, 4> corners(TetId t, bool at_rest = false) const {
+    std::array<Vec3, 4> p;
+    for (unsigned c = 0; c < 4; ++c) p[c] = at_rest ? mesh.rest(mesh.vertices(t)[c]) : place(mesh.vertices(t)[c]);
+    return p;
+  }
+  [[nodiscard]] Vec3 place(VertexId v) const {
+    const float* p = places.data() + std::size_t{4} * v.value;
+    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+  }
+  detail::Motion any_motion(VertexId v) {
+    detail::Motion motion;
+    for (unsigned i = 0; i < 3; ++i) {
+      motion.start[i] = places[std::size_t{4} * v.value + i] + static_cast<float>(random.real(-0.01, 0.01));
+      motion.aim[i] = static_cast<float>(random.real(-0.01, 0.01));
+    }
+    motion.weight = random.real(10, 1000);
+    motion.diagonal = stars.diagonal(v);
+    motion.reach = 0.1F;
+    return motion;
+  }
+  void add_pulls() {
+    for (std::size_t i = 0; i < kPulls; ++i) {
+      detail::PullTerm term;
+      const TetVertices& v = mesh.vertices(TetId(static_cast<std::uint32_t>(13 * i)));
+      const double w = random.real(0, 1);
+      for (unsigned c = 0; c < 4; ++c) term.vertices[c] = v[c].value;
+      term.weights = {w, 1 - w, 0, 0};
+      term.target = random.point(-1, 1);
+      term.stiffness = random.real(100, 1000);
+      term.has_axis = i % 3 != 0;
+      if (term.has_axis) term.axis = random.point(-1, 1).normalized();
+      term.pushes_only = i % 3 == 1;
+      term.limit = i % 2 == 0 ? 1e30 : 1.0;
+      terms.push_back(term);
+    }
+    for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+      motions[v].first_pull = static_cast<std::uint32_t>(uses.size());
+      for (std::uint32_t t = 0; t < terms.size(); ++t) {
+        for (unsigned c = 0; c < 2; ++c) {
+          if (terms[t].vertices[c] == v) uses.push_back({t, terms[t].weights[c]});
+        }
+      }
+      motions[v].pulls = static_cast<std::uint32_t>(uses.size()) - motions[v].first_pull;
+    }
+  }
+  [[nodiscard]] Descent descent() {
+    return {places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
+  }
+  [[nodiscard]] test::PlainDescent plain_descent() {
+    return {places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
+  }
+
+  Random random;
+  TetMesh mesh;
+  detail::Stars stars;
+  std::vector<detail::Element> elements;
+  std::vector<float> places;
+  std::vector<detail::Motion> motions;
+  std::vector<detail::PullTerm> terms;
+  std::vector<detail::PullUse> uses;
+  std::vector<std::uint32_t> order;
+};
+
+/// The vertex' energy as its definition says, in double precision, against nothing.
+double energy_at(const Scene& s, VertexId v, const Vec3& at) {
+  const detail::Motion& motion = s.motions[v.value];
+  double energy = 0;
+  s.stars.for_each_tet(v, [&](TetId t) {
+    std::array<Vec3, 4> p = s.corners(t);
+    p[s.mesh.corner_of(t, v)] = at;
+    energy += detail::energy_of(s.elements[t.value], p);
+  });
+  Vec3 off = at;
+  for (unsigned i = 0; i < 3; ++i) off[i] -= static_cast<double>(motion.start[i]) + static_cast<double>(motion.aim[i]);
+  return energy + 0.5 * motion.weight * off.squaredNorm();
+}
+
+TEST(StarKernel, QuadraticIsTheEnergysUpToSinglePrecision) {
+  Scene s(1);
+  for (detail::Motion& motion : s.motions) motion.pulls = 0;
+  for (const std::uint32_t slot : s.order) {
+    const VertexId v(slot);
+    const Quadratic q = detail::quadratic_of(s.descent(), slot);
+    Vec3 slope = Vec3::Zero();
+    double size = 0;
+    s.stars.for_each_tet(v, [&](TetId t) {
+      const Vec3 part = detail::slope_of(s.elements[t.value], s.corners(t), s.mesh.corner_of(t, v));
+      slope += part;
+      size += part.norm();
+    });
+    for (unsigned i = 0; i < 3; ++i) {
+      const detail::Motion& m = s.motions[slot];
+      slope[i] += m.weight * (s.place(v)[i] - static_cast<double>(m.start[i]) - static_cast<double>(m.aim[i]));
+    }
+    for (unsigned i = 0; i < 3; ++i) EXPECT_NEAR(q.slope[i], slope[i], 3e-6 * (size + slope.norm()));
+    const double here = energy_at(s, v, s.place(v));
+    for (int k = 0; k < 5; ++k) {
+      const Vec3 d = s.random.point(-0.3, 0.3);
+      const auto& [xx, xy, xz, yy, yz, zz] = q.curvature;
+      const Vec3 bent(xx * d.x() + xy * d.y() + xz * d.z(), xy * d.x() + yy * d.y() + yz * d.z(),
+                      xz * d.x() + yz * d.y() + zz * d.z());
+      const double expected = energy_at(s, v, s.place(v) + d) - here;
+      EXPECT_NEAR(slope.dot(d) + 0.5 * d.dot(bent), expected, 3e-6 * d.dot(bent));
+    }
+  }
+}
+
+TEST(StarKernel, PullsAddTheSlopeOfTheirEnergy) {
+  Scene s(2);
+  for (const std::uint32_t slot : s.order) {
+    detail::Motion motion = s.motions[slot];
+    Quadratic sum;
+    detail::add_pulls(s.descent(), motion, sum);
+    Vec3 expected = Vec3::Zero();
+    for (std::uint32_t i = 0; i < motion.pulls; ++i) {
+      const detail::PullUse& use = s.uses[motion.first_pull + i];
+      const detail::PullTerm& term = s.terms[use.term];
+      const Vec3 off = term.weights[0] * s.place(VertexId(term.vertices[0])) +
+                       term.weights[1] * s.place(VertexId(term.vertices[1])) - term.target;
+      if (!term.has_axis) {
+        expected += use.weight * term.stiffness * off;
+        continue;
+      }
+      const double along = term.axis.dot(off);
+      if (term.pushes_only && along >= 0) continue;
+      const double force = std::min(std::abs(term.stiffness * along), term.limit);
+      expected += use.weight * (along < 0 ? -force : force) * term.axis;
+    }
+    for (unsigned i = 0; i < 3; ++i) EXPECT_NEAR(sum.slope[i], expected[i], 1e-12 * (1 + expected.norm()));
+  }
+}
+
+TEST(StarKernel, AVisitMovesAVertexToItsLeastEnergyOrAsFarAsItMay) {
+  Scene s(3, 0.02);
+  for (detail::Motion& motion : s.motions) motion.pulls = 0;
+  unsigned free = 0;
+  for (const std::uint32_t slot : s.order) {
+    const VertexId v(slot);
+    const Vec3 before = s.place(v);
+    const double high = energy_at(s, v, before);
+    detail::sweep(s.descent(), std::span(&slot, 1), false);
+    const double low = energy_at(s, v, s.place(v)), reach = static_cast<double>(s.motions[slot].reach);
+    EXPECT_LE(low, high + 1e-6 * std::abs(high));
+    const double way = (s.place(v) - before).norm();
+    EXPECT_LE(way, reach * (1 + 1e-5));
+    if (way > 0.99 * reach) continue;
+    ++free;
+    for (int i = 0; i < 6; ++i)
+      EXPECT_GE(energy_at(s, v, s.place(v) + s.random.point(-0.01, 0.01)), low - 1e-5 * std::abs(high));
+  }
+  EXPECT_GT(free, s.order.size() / 2);
+}
+
+TEST(StarKernel, VerticesThatCostLessAtTheirStartGoBackThere) {
+  Scene s(4, 0.02);
+  for (detail::Motion& motion : s.motions) motion.pulls = 0;
+  unsigned back = 0, there = 0;
+  for (const std::uint32_t slot : s.order) {
+    const VertexId v(slot);
+    const auto& start = s.motions[slot].start;
+    const Vec3 from(static_cast<double>(start[0]), static_cast<double>(start[1]), static_cast<double>(start[2]));
+    const double at_start = energy_at(s, v, from), here = energy_at(s, v, s.place(v));
+    if (std::abs(at_start - here) < 1e-5 * std::abs(here)) continue;
+    detail::pick_starts(s.descent(), std::span(&slot, 1));
+    EXPECT_EQ(s.place(v) == from, at_start < here);
+    ++(s.place(v) == from ? back : there);
+  }
+  EXPECT_GT(back, 5U);
+  EXPECT_GT(there, 5U);
+}
+
+/// What a few sweeps and picks make of a scene.
+template <class Sweep, class Pick>
+std::vector<float> outcome(Scene& scene, const Sweep& sweep, const Pick& pick) {
+  pick(std::span<const std::uint32_t>(scene.order));
+  for (unsigned i = 0; i < 6; ++i) sweep(std::span<const std::uint32_t>(scene.order), i % 2 == 1);
+  return scene.places;
+}
+
+std::vector<float> outcome_here(std::uint64_t seed) {
+  Scene scene(seed);
+  const Descent d = scene.descent();
+  return outcome(
+      scene, [&](auto order, bool backward) { detail::sweep(d, order, backward); },
+      [&](auto order) { detail::pick_starts(d, order); });
+}
+
+std::vector<float> plain_outcome(std::uint64_t seed) {
+  Scene scene(seed);
+  const test::PlainDescent d = scene.plain_descent();
+  return outcome(
+      scene, [&](auto order, bool backward) { test::plain_sweep(d, order, backward); },
+      [&](auto order) { test::plain_pick_starts(d, order); });
+}
+
+bool is_same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+TEST(StarKernel, PlainCodeGivesTheSameBits) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const std::vector<float> places = outcome_here(seed);
+    EXPECT_FALSE(is_same_bits(places, Scene(seed).places));
+    EXPECT_TRUE(is_same_bits(places, plain_outcome(seed))) << seed;
+  }
+}
+
+#if INCISE_WITH_HIGHWAY
+TEST(StarKernel, EveryInstructionSetGivesTheSameBits) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  std::string names;
+  for (const std::int64_t target : targets) {
+    names += std::string(" ") + hwy::TargetName(target);
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(target);
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      EXPECT_TRUE(is_same_bits(outcome_here(seed), plain_outcome(seed))) << hwy::TargetName(target) << ' ' << seed;
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+  RecordProperty("targets", names);
+  EXPECT_FALSE(targets.empty());
+}
+#endif
+
+}  // namespace
+}  // namespace incise
