@@ -10,11 +10,13 @@ namespace detail {
 
 namespace {
 
-constexpr double kGiveAt = 0.1;  // of the spacing: by how much the spring is pressed where the tissue yields
-constexpr double kAhead = 0.05;  // of the spacing: how far ahead of the front the edge has hold of the tissue
-constexpr double kSpan = 0.5;    // of the spacing: between points of the edge
-constexpr double kLetGo = 0.5;   // of the spacing: withdrawn so far, the blade has let go of the tissue
+constexpr double kGiveAt = 0.1;   // of the spacing: by how much the spring is pressed where the tissue yields
+constexpr double kAhead = 0.05;   // of the spacing: how far ahead of the front the edge has hold of the tissue
+constexpr double kBehind = 0.25;  // of the spacing: how far behind the front an edge is told to be that does not yield
+constexpr double kSpan = 0.5;     // of the spacing: between points of the edge
+constexpr double kLetGo = 0.5;    // of the spacing: withdrawn so far, the blade has let go of the tissue
 constexpr std::size_t kMostSamples = 64;
+constexpr std::size_t kMostTets = 200;  // that are looked at for material that has come into another tet
 
 double resistance(const Material& material) {
   return material.toughness + material.cut_friction;
@@ -95,13 +97,14 @@ TetId BladeCoupling::any_grip() const {
 
 void BladeCoupling::grip(Sample& sample, const TissuePoint& point, const TetMesh& mesh) {
   sample.grip = point;
+  sample.rest = point.place(mesh, BodyShape::kRest);
   const Material& material = materials_->of(mesh.region(point.tet));
   sample.toughness = material.toughness;
   sample.friction = material.cut_friction;
 }
 
 /// Points of the edge that were outside and are in tissue now.
-void BladeCoupling::enter(const TetMesh& mesh, std::span<const Vec3> positions) {
+void BladeCoupling::enter(const TetMesh& mesh) {
   std::vector<std::size_t> outside;
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -111,33 +114,32 @@ void BladeCoupling::enter(const TetMesh& mesh, std::span<const Vec3> positions) 
   }
   if (outside.empty()) return;
   const TetId near = any_grip();
-  const auto found = near.is_valid() ? std::vector<std::optional<TissuePoint>>{} : find_tissue(mesh, positions, places);
+  const auto found =
+      near.is_valid() ? std::vector<std::optional<TissuePoint>>{} : find_tissue(mesh, BodyShape::kCurrent, places);
   for (std::size_t k = 0; k < outside.size(); ++k) {
-    const auto inside = near.is_valid() ? walk_to(mesh, positions, places[k], near) : found[k];
-    if (inside) enter(samples_[outside[k]], *inside, mesh, positions);
+    const auto inside = near.is_valid() ? walk_to(mesh, BodyShape::kCurrent, places[k], near) : found[k];
+    if (inside) enter(samples_[outside[k]], *inside, mesh);
   }
 }
 
 /// Where the point's way met the tissue: there it takes hold, and has cut nothing yet.
-void BladeCoupling::enter(Sample& sample, const TissuePoint& inside, const TetMesh& mesh,
-                          std::span<const Vec3> positions) {
+void BladeCoupling::enter(Sample& sample, const TissuePoint& inside, const TetMesh& mesh) {
   double out = 0, in = 1;
   TissuePoint entry = inside;
   for (unsigned i = 0; i < 10; ++i) {
     const double half = 0.5 * (out + in);
-    const auto found = walk_to(mesh, positions, sample.cut + half * (sample.place - sample.cut), entry.tet);
+    const auto found = walk_to(mesh, BodyShape::kCurrent, sample.cut + half * (sample.place - sample.cut), entry.tet);
     if (found) entry = *found;
     (found ? in : out) = half;
   }
   sample.cut += out * (sample.place - sample.cut);
-  sample.ahead = direction_.dot(entry.place(mesh, positions) - sample.cut);
+  sample.ahead = direction_.dot(entry.place(mesh) - sample.cut);
   grip(sample, entry, mesh);
 }
 
-void BladeCoupling::press(const BladePose& pose, const TetMesh& mesh, std::span<const Vec3> positions,
-                          std::vector<Pull>& pulls) {
+void BladeCoupling::press(const BladePose& pose, const TetMesh& mesh, std::vector<Pull>& pulls) {
   move_to(pose);
-  enter(mesh, positions);
+  enter(mesh);
   for (const Sample& s : samples_) {
     if (!s.grip || s.limit() <= 0) continue;
     Pull pull;
@@ -152,52 +154,82 @@ void BladeCoupling::press(const BladePose& pose, const TetMesh& mesh, std::span<
   }
 }
 
-BladePose BladeCoupling::yield(const TetMesh& mesh, std::span<const Vec3> positions) {
+/// What does not yield stays behind the front: the engine cuts on where the edge is ahead of it alone.
+BladePose BladeCoupling::yield(const TetMesh& mesh) {
   state_ = {};
+  const double most = kGiveAt * spacing_;
+  for (Sample& s : samples_) {
+    s.force_before = std::exchange(s.force, 0.0);
+    s.has_slipped = !s.grip;
+    s.retreat = 0;
+    if (!s.grip) continue;
+    const double lag = direction_.dot(s.place - s.grip->place(mesh)) + s.ahead;
+    const double pressed = std::min(most, std::max(lag, 0.0));
+    s.has_slipped = lag > most;
+    s.retreat = s.has_slipped ? most : std::max(lag, 0.0) + s.ahead + kBehind * spacing_;
+    s.force = stiffness(s) * pressed * unit_;
+    account(s);
+  }
+  retreat_outside();
   BladePose pose;
   pose.direction = direction_;
   for (Sample& s : samples_) {
-    s.force_before = std::exchange(s.force, 0.0);
-    if (!s.grip) {
-      s.cut = s.place;
-      pose.edge.push_back(s.cut);
-      continue;
-    }
-    const double lag = direction_.dot(s.place - s.grip->place(mesh, positions)) + s.ahead;
-    const double most = kGiveAt * spacing_;
-    s.cut = s.place - std::min(most, std::max(lag, 0.0)) * direction_;
-    s.force = stiffness(s) * std::min(most, std::max(lag, 0.0)) * unit_;
-    account(s, std::max(lag - most, 0.0));
-    if (lag < -kLetGo * spacing_) s.grip.reset();
+    s.cut = s.place - s.retreat * direction_;
     pose.edge.push_back(s.cut);
+    if (s.grip && direction_.dot(s.place - s.grip->place(mesh)) + s.ahead < -kLetGo * spacing_) s.grip.reset();
   }
   return pose;
 }
 
-void BladeCoupling::account(Sample& sample, double slip) {
-  state_.touches = state_.touches || sample.force > 0;
-  state_.yields = state_.yields || slip > 0;
-  state_.engaged_length += sample.length;
-  state_.force -= sample.force * direction_;
-  state_.fracture_work += sample.toughness * sample.length * slip * unit_;
-  state_.friction_work += sample.friction * sample.length * slip * unit_;
-  const double way = direction_.dot(sample.place - sample.before) * unit_;
-  state_.tool_work += 0.5 * (sample.force + sample.force_before) * way;
+/// Points outside the tissue go with the nearest one inside: the edge between them would cut where nothing bears it.
+void BladeCoupling::retreat_outside() {
+  const auto go_with = [](Sample& sample, const Sample& before) {
+    if (!sample.grip) sample.retreat = std::max(sample.retreat, before.retreat);
+  };
+  for (std::size_t i = 1; i < samples_.size(); ++i) go_with(samples_[i], samples_[i - 1]);
+  for (std::size_t i = samples_.size() - 1; i > 0; --i) go_with(samples_[i - 1], samples_[i]);
 }
 
-void BladeCoupling::take_hold(const TetMesh& mesh, std::span<const Vec3> positions) {
-  for (Sample& s : samples_) {
-    if (!s.grip) continue;
-    TetId near = s.grip->tet;
-    if (!mesh.is_live(near)) near = any_grip();
-    const Vec3 ahead = s.cut + kAhead * spacing_ * direction_;
-    auto found = mesh.is_live(near) ? walk_to(mesh, positions, ahead, near) : std::nullopt;
-    if (!found) found = find_tissue(mesh, positions, {&ahead, 1})[0];
-    s.grip.reset();
-    if (!found) continue;
-    s.ahead = kAhead * spacing_;
-    grip(s, *found, mesh);
+void BladeCoupling::account(Sample& sample) {
+  const double way = direction_.dot(sample.place - sample.before) * unit_;
+  state_.touches = state_.touches || sample.force > 0;
+  state_.yields = state_.yields || sample.has_slipped;
+  state_.engaged_length += sample.length;
+  state_.force -= sample.force * direction_;
+  state_.tool_work += 0.5 * (sample.force + sample.force_before) * way;
+  if (sample.has_slipped) state_.friction_work += sample.friction * sample.length * std::max(way, 0.0);
+}
+
+void BladeCoupling::pay_for(double area) {
+  double toughness = 0, length = 0;
+  for (const Sample& s : samples_) {
+    if (!s.has_slipped || s.length <= 0 || s.limit() <= 0) continue;
+    toughness += s.toughness * s.length;
+    length += s.length;
   }
+  if (length > 0) state_.fracture_work += toughness / length * area * unit_ * unit_;
+}
+
+void BladeCoupling::take_hold(const TetMesh& mesh, std::span<const TetId> fresh) {
+  for (Sample& s : samples_) {
+    if (s.grip) take_hold(s, mesh, fresh);
+  }
+}
+
+/// What has not slipped keeps its material, in whichever tet that is now.
+void BladeCoupling::take_hold(Sample& sample, const TetMesh& mesh, std::span<const TetId> fresh) {
+  if (!sample.has_slipped && sample.grip->holds(mesh)) {
+    grip(sample, *sample.grip, mesh);
+    return;
+  }
+  const BodyShape shape = sample.has_slipped ? BodyShape::kCurrent : BodyShape::kRest;
+  const Vec3 place = sample.has_slipped ? Vec3(sample.cut + kAhead * spacing_ * direction_) : sample.rest;
+  auto found = find_among(mesh, shape, place, fresh);
+  if (!found) found = find_around(mesh, shape, place, sample.grip->vertices, kMostTets);
+  sample.grip.reset();
+  if (!found) return;
+  if (sample.has_slipped) sample.ahead = kAhead * spacing_;
+  grip(sample, *found, mesh);
 }
 
 HapticSnapshot BladeCoupling::snapshot(const DeformableBody& body, const TetMesh& mesh) const {

@@ -27,11 +27,14 @@ class BladeCoupling {
   [[nodiscard]] bool resists() const { return resists_; }
 
   /// Moves the blade on; appends what presses on the tissue during the next relaxation.
-  void press(const BladePose& pose, const TetMesh& mesh, std::span<const Vec3> positions, std::vector<Pull>& pulls);
-  /// After the relaxation: where the edge has come to in the tissue, for `Engine::step`. `positions` as they are now.
-  [[nodiscard]] BladePose yield(const TetMesh& mesh, std::span<const Vec3> positions);
-  /// After the cut: takes hold of what is ahead of the edge now.
-  void take_hold(const TetMesh& mesh, std::span<const Vec3> positions);
+  void press(const BladePose& pose, const TetMesh& mesh, std::vector<Pull>& pulls);
+  /// After the relaxation: where the edge has come to in the tissue, for `Engine::step`.
+  [[nodiscard]] BladePose yield(const TetMesh& mesh);
+  /// After the cut: takes hold of what is ahead of the edge now. `fresh`: the tets that the cut made.
+  void take_hold(const TetMesh& mesh, std::span<const TetId> fresh);
+
+  /// Pays for `area` of new cut face, in squared length units at rest: the toughness where the edge has yielded.
+  void pay_for(double area);
 
   /// Forces and work of the last frame.
   [[nodiscard]] const BladeState& state() const { return state_; }
@@ -46,7 +49,10 @@ class BladeCoupling {
     Vec3 place = Vec3::Zero(), before = Vec3::Zero();  // of the blade, now and in the frame before
     Vec3 cut = Vec3::Zero();                           // how far the tissue is cut
     std::optional<TissuePoint> grip;                   // the material that it presses on
+    Vec3 rest = Vec3::Zero();                          // its place at rest
     double ahead = 0;                                  // of `cut`, along the direction: where the grip was taken
+    bool has_slipped = false;                          // in this frame
+    double retreat = 0;                                // of `cut` behind `place`, along the direction
     double length = 0;                                 // of edge that it stands for, m
     double toughness = 0, friction = 0;                // N/m, of the material at the grip
     double force = 0, force_before = 0;                // N
@@ -56,11 +62,13 @@ class BladeCoupling {
 
   void sample(const BladePose& pose, double spacing);
   void move_to(const BladePose& pose);
-  void enter(const TetMesh& mesh, std::span<const Vec3> positions);
-  void enter(Sample& sample, const TissuePoint& inside, const TetMesh& mesh, std::span<const Vec3> positions);
+  void retreat_outside();
+  void enter(const TetMesh& mesh);
+  void enter(Sample& sample, const TissuePoint& inside, const TetMesh& mesh);
   void grip(Sample& sample, const TissuePoint& point, const TetMesh& mesh);
+  void take_hold(Sample& sample, const TetMesh& mesh, std::span<const TetId> fresh);
   [[nodiscard]] double stiffness(const Sample& sample) const;
-  void account(Sample& sample, double slip);
+  void account(Sample& sample);
   [[nodiscard]] TetId any_grip() const;
 
   const Materials* materials_ = nullptr;

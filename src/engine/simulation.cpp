@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/blade_coupling.h"
+#include "engine/wall_area.h"
 #include "incise/core/hash.h"
 
 namespace incise::inline v0 {
@@ -72,6 +73,15 @@ Status check(const FrameInput& input) {
     if (Status status = check(tool); !status) return status;
   }
   return {};
+}
+
+/// The tets that the latest steps made; some may be gone again.
+std::vector<TetId> fresh_tets(const Journal& journal, std::size_t first_step) {
+  std::vector<TetId> tets;
+  for (std::size_t i = first_step; i < journal.position(); ++i) {
+    for (const ProducedTet& tet : journal.step(i).produced) tets.push_back(tet.id);
+  }
+  return tets;
 }
 
 }  // namespace
@@ -139,7 +149,7 @@ Status Simulation::State::start_blade(const FrameInput& input) {
   }
   coupling.begin(pose, options.materials, options.body.length_unit, spacing);
   BladePose first = pose;
-  if (coupling.resists()) first = coupling.yield(engine.mesh(), body.positions());
+  if (coupling.resists()) first = coupling.yield(engine.mesh());
   first.direction = pose.direction;
   if (const auto begun = engine.begin_stroke(first); !begun) return begun.error();
   is_in_stroke = true;
@@ -152,7 +162,7 @@ Status Simulation::State::press(const FrameInput& input, FrameReport& report) {
   const StageZone zone(report.times, Stage::kCollision);
   std::vector<Pull> pulls;
   hold_with_hooks(input, pulls);
-  if (input.blade && coupling.resists()) coupling.press(*input.blade, engine.mesh(), body.positions(), pulls);
+  if (input.blade && coupling.resists()) coupling.press(*input.blade, engine.mesh(), pulls);
   std::vector<Tool> tools = input.tools;
   add_flat(input, tools);
   const std::size_t others = pulls.size();
@@ -228,7 +238,8 @@ Status Simulation::State::cut(const FrameInput& input, FrameReport& report) {
   if (!input.blade) return is_in_stroke ? lift_blade(report) : Status{};
   BladePose pose = *input.blade;
   blade_before = pose.edge;
-  if (coupling.resists()) pose = coupling.yield(engine.mesh(), body.positions());
+  if (coupling.resists()) pose = coupling.yield(engine.mesh());
+  const std::size_t first_step = engine.journal().position();
   const Result<StepReport> step = engine.step(pose);
   if (!step) {
     is_in_stroke = false;
@@ -238,7 +249,8 @@ Status Simulation::State::cut(const FrameInput& input, FrameReport& report) {
   report.times += step->times;
   if (!coupling.resists()) return {};
   const StageZone zone(report.times, Stage::kCollision);
-  coupling.take_hold(engine.mesh(), body.positions());
+  coupling.pay_for(detail::wall_growth(engine.journal(), first_step, engine.mesh(), engine.stroke_count() + 1));
+  coupling.take_hold(engine.mesh(), fresh_tets(engine.journal(), first_step));
   report.blade = coupling.state();
   return {};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One tet of stable neo-Hookean tissue, ψ = μ/2 (|F|² − 3) + λ/2 (J − 1)² − μ (J − 1), split into what each corner sees
-// of it (Smith et al. 2018 for the energy; Chen et al. 2024 for block descent). Linear in the corner:
+// of it (Smith et al. 2018 for the energy, whose λ is Lamé's + μ; Chen et al. 2024 for block descent). Linear in the
+// corner:
 //   stretch  Σ_j laplacian(i, j) x_j, a constant finite-element Laplacian;
 //   swelling (bulk · V − pressure) n, V six volumes as they stand, n their slope in the corner.
 #pragma once

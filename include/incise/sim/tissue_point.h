@@ -11,27 +11,40 @@
 
 namespace incise::inline v0 {
 
+/// Which of its two shapes a body is looked at in.
+enum class BodyShape : std::uint8_t { kRest, kCurrent };
+
 /// A point of the material: it moves with the tet that it is in.
 struct TissuePoint {
   TetId tet;
+  TetVertices vertices{};           ///< of the tet when the point was found: they tell whether it is still the same
   std::array<double, 4> weights{};  ///< barycentric, sum 1
 
-  /// Where it stands.
-  [[nodiscard]] Vec3 place(const TetMesh& mesh, std::span<const Vec3> positions) const;
+  [[nodiscard]] Vec3 place(const TetMesh& mesh, BodyShape shape = BodyShape::kCurrent) const;
+  /// Whether the tet is as it was.
+  [[nodiscard]] bool holds(const TetMesh& mesh) const;
 };
 
-/// Finds the tissue at a place as the body stands (`positions`: one per vertex slot), walking from tet to tet.
+/// Finds the tissue at a place, walking from tet to tet.
 ///
 /// @param near  a live tet to start from; the nearer the faster.
 /// @return nothing where the walk leaves the body, or goes astray among tets that are turned inside out: in a body that
 ///   is not convex it may leave and the place be inside all the same.
 /// Cost: O(tets on the way), about 50 ns each. Thread-safe. **Source:** the visibility walk of Devillers et al. 2001.
-[[nodiscard]] std::optional<TissuePoint> walk_to(const TetMesh& mesh, std::span<const Vec3> positions,
-                                                 const Vec3& place, TetId near);
+[[nodiscard]] std::optional<TissuePoint> walk_to(const TetMesh& mesh, BodyShape shape, const Vec3& place, TetId near);
+
+/// The first of some tets that holds a place; those that are not live are passed over. Cost: about 10 ns each.
+[[nodiscard]] std::optional<TissuePoint> find_among(const TetMesh& mesh, BodyShape shape, const Vec3& place,
+                                                    std::span<const TetId> tets);
+
+/// The first tet that holds a place, of those that are near some vertices: at most `most`, nearest by neighbourhood
+/// first. Vertices that are not live are passed over. Cost: about 30 ns per tet.
+[[nodiscard]] std::optional<TissuePoint> find_around(const TetMesh& mesh, BodyShape shape, const Vec3& place,
+                                                     std::span<const VertexId> vertices, std::size_t most);
 
 /// Finds the tissue at each of some places, or nothing where there is none. Cost: O(tets), about 5 ns each where they
 /// are far from all places.
-[[nodiscard]] std::vector<std::optional<TissuePoint>> find_tissue(const TetMesh& mesh, std::span<const Vec3> positions,
+[[nodiscard]] std::vector<std::optional<TissuePoint>> find_tissue(const TetMesh& mesh, BodyShape shape,
                                                                   std::span<const Vec3> places);
 
 }  // namespace incise::inline v0
