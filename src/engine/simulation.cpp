@@ -23,6 +23,7 @@ Error bad(std::string message) {
 struct Grip {
   std::vector<VertexId> vertices;
   std::vector<Vec3> offsets;
+  std::size_t first_pull = 0, pulls = 0;  // in this frame
 };
 
 double mean_edge(const TetMesh& mesh) {
@@ -107,6 +108,7 @@ struct Simulation::State {
   void hold_with_hooks(const FrameInput& input, std::vector<Pull>& pulls);
   Grip grab(const Hook& hook) const;
   void add_flat(const FrameInput& input, std::vector<Tool>& tools) const;
+  std::vector<Vec3> hook_forces(const FrameInput& input) const;
   Status relax(FrameReport& report);
   Status cut(const FrameInput& input, FrameReport& report);
   Status lift_blade(FrameReport& report);
@@ -124,6 +126,7 @@ Result<FrameReport> Simulation::frame(const FrameInput& input) {
   if (Status status = s.start_blade(input); !status) return status.error();
   if (Status status = s.press(input, report); !status) return status.error();
   if (Status status = s.relax(report); !status) return status.error();
+  report.hook_forces = s.hook_forces(input);
   if (Status status = s.cut(input, report); !status) return status.error();
   s.maintain(report);
   if (Status status = s.follow(report); !status) return status.error();
@@ -197,7 +200,8 @@ void Simulation::State::hold_with_hooks(const FrameInput& input, std::vector<Pul
   for (const Hook& hook : input.hooks) {
     auto at = grips.find(hook.id);
     if (at == grips.end()) at = grips.emplace(hook.id, grab(hook)).first;
-    const Grip& grip = at->second;
+    Grip& grip = at->second;
+    grip.first_pull = pulls.size();
     for (std::size_t i = 0; i < grip.vertices.size(); ++i) {
       if (!engine.mesh().is_live(grip.vertices[i])) continue;
       Pull pull;
@@ -206,7 +210,19 @@ void Simulation::State::hold_with_hooks(const FrameInput& input, std::vector<Pul
       pull.stiffness = hook.stiffness;
       pulls.push_back(pull);
     }
+    grip.pulls = pulls.size() - grip.first_pull;
   }
+}
+
+/// What the tissue does to each hook.
+std::vector<Vec3> Simulation::State::hook_forces(const FrameInput& input) const {
+  std::vector<Vec3> forces;
+  for (const Hook& hook : input.hooks) {
+    const Grip& grip = grips.at(hook.id);
+    Vec3& force = forces.emplace_back(Vec3::Zero());
+    for (std::size_t i = 0; i < grip.pulls; ++i) force -= body.pull_force(grip.first_pull + i);
+  }
+  return forces;
 }
 
 /// Walls are kept on their sides of the blade that is between them.

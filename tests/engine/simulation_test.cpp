@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/engine/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "incise/mesh/components.h"
+#include "incise/mesh/shapes.h"
+#include "incise/mesh/validate.h"
+
+namespace incise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A block of 40 × 20 × 20 mm, held at its bottom and at both ends, and a blade that comes down on it along y.
+class Block {
+ public:
+  static constexpr unsigned kCells = 6;  // across the block
+
+  explicit Block(double young = 300e3, double toughness = 0, unsigned threads = 1) {
+    SimulationOptions options;
+    options.body.gravity = Vec3::Zero();
+    options.body.threads = options.engine.threads = threads;
+    options.engine.maintain.work_units = 20000;
+    options.materials.fallback.young = young;
+    options.materials.fallback.toughness = toughness;
+    Result<TetMesh> mesh = TetMesh::build(kuhn_box(Vec3::Zero(), {0.04, 0.02, 0.02}, {2 * kCells, kCells, kCells}));
+    simulation_.emplace(Simulation::create(std::move(mesh).value(), options).value());
+    sim().mesh().for_each_vertex([&](VertexId v) {
+      const Vec3& p = sim().mesh().rest(v);
+      if (p.z() < 1e-9 || p.x() < 1e-9 || p.x() > 0.04 - 1e-9) {
+        EXPECT_TRUE(sim().body().hold(v, kInfinity).ok());
+      }
+    });
+  }
+
+  [[nodiscard]] Simulation& sim() { return *simulation_; }
+
+  static BladePose pose(double z) { return {{{0.0203, -0.001, z}, {0.0203, 0.021, z}}, -Vec3::UnitZ()}; }
+  static FrameInput blade_at(double z) {
+    FrameInput input;
+    input.blade = pose(z);
+    return input;
+  }
+  /// One frame, which must succeed and leave a valid mesh.
+  FrameReport frame(const FrameInput& input) {
+    const Result<FrameReport> report = sim().frame(input);
+    EXPECT_TRUE(report.ok()) << report.error().message;
+    EXPECT_TRUE(validate(sim().mesh(), ValidateLevel::kGeometry).ok);
+    return report.ok() ? *report : FrameReport{};
+  }
+  /// Moves the blade from `from` to `to` and lifts it.
+  void cut(double from, double to, unsigned frames) {
+    for (unsigned i = 0; i <= frames; ++i) frame(blade_at(from + (to - from) * i / frames));
+    frame({});
+  }
+
+ private:
+  std::optional<Simulation> simulation_;
+};
+
+double wall_area(const TetMesh& mesh) {
+  double area = 0;
+  mesh.for_each_tet([&](TetId t) {
+    for (unsigned side = 0; side < 4; ++side) {
+      const Link link = mesh.links(t)[side];
+      if (!link.is_boundary() || link.tag() == 0) continue;
+      const auto v = mesh.vertices(Side(t, side));
+      area += 0.25 * (mesh.rest(v[1]) - mesh.rest(v[0])).cross(mesh.rest(v[2]) - mesh.rest(v[0])).norm();
+    }
+  });
+  return area;
+}
+
+TEST(Simulation, TissueWithoutToughnessIsCutToWhereTheBladeIs) {
+  Block block;
+  block.cut(0.021, 0.008, 20);
+  EXPECT_NEAR(wall_area(block.sim().mesh()), 0.02 * 0.012, 0.02 * 0.001);
+  EXPECT_EQ(find_components(block.sim().mesh()).count(), 1U);
+  EXPECT_EQ(block.sim().engine().stroke_count(), 1U);
+}
+
+TEST(Simulation, AThroughCutLeavesTwoPieces) {
+  Block block;
+  block.cut(0.021, -0.001, 25);
+  EXPECT_EQ(find_components(block.sim().mesh()).count(), 2U);
+}
+
+TEST(Simulation, ToughTissueDentsBeforeItIsCut) {
+  Block block(300e3, 200);
+  double strongest = 0;
+  bool has_dented = false;
+  for (unsigned i = 0; i <= 40; ++i) {
+    const FrameReport report = block.frame(Block::blade_at(0.021 - 0.0002 * i));
+    strongest = std::max(strongest, report.blade.force.z());
+    if (report.blade.touches && !report.blade.yields && report.cut.cut_tets == 0) has_dented = true;
+  }
+  EXPECT_TRUE(has_dented);
+  EXPECT_GT(wall_area(block.sim().mesh()), 0);
+  EXPECT_NEAR(strongest, 200 * 0.02, 0.1 * 200 * 0.02);  // toughness · length of the edge
+}
+
+TEST(Simulation, WorkAtTheHoldsPaysForTheCut) {
+  Block block(300e3, 200);
+  const double stored = block.sim().body().energy().total();
+  double work = 0, fracture = 0, last_force = 0, last_z = 0.021;
+  for (unsigned i = 0; i <= 60; ++i) {
+    const double z = 0.021 - 0.015 * i / 60;
+    fracture += block.frame(Block::blade_at(z)).blade.fracture_work;
+    const double force = block.sim().body().force_on_holds().z();
+    work += 0.5 * (force + last_force) * (z - last_z);
+    last_force = force;
+    last_z = z;
+  }
+  const double area = wall_area(block.sim().mesh());
+  EXPECT_NEAR(fracture, 200 * area, 0.05 * 200 * area);
+  EXPECT_NEAR(work, 200 * area + block.sim().body().energy().total() - stored, 0.1 * work);
+}
+
+TEST(Simulation, TheSameFramesGiveTheSameBitsOnOneThreadAndTwo) {
+  Block one(100e3, 100, 1), two(100e3, 100, 2);
+  one.cut(0.021, 0.006, 15);
+  two.cut(0.021, 0.006, 15);
+  EXPECT_EQ(one.sim().hash(), two.sim().hash());
+}
+
+TEST(Simulation, UndoTakesTheStrokeBackAndLeavesTheTissueWhereItIs) {
+  Block block;
+  const std::uint64_t before = block.sim().mesh().hash();
+  block.cut(0.021, 0.008, 15);
+  const std::uint64_t after = block.sim().mesh().hash();
+  ASSERT_TRUE(block.sim().undo());
+  EXPECT_EQ(block.sim().mesh().hash(), before);
+  block.frame({});
+  EXPECT_TRUE(block.sim().body().is_finite());
+  ASSERT_TRUE(block.sim().redo());
+  EXPECT_EQ(block.sim().mesh().hash(), after);
+  block.frame({});
+}
+
+TEST(Simulation, AHookTakesHoldPullsAndLetsGo) {
+  Block block(20e3);
+  const Vec3 top(0.02, 0.01, 0.02);
+  FrameInput input;
+  input.hooks.push_back({7, top, 0.004, 50});
+  block.frame(input);
+  Vec3 force = Vec3::Zero();
+  for (unsigned i = 1; i <= 20; ++i) {
+    input.hooks[0].position = top + Vec3(0, 0, 0.0002 * i);
+    force = block.frame(input).hook_forces.at(0);
+  }
+  EXPECT_LT(force.z(), -0.01);  // the tissue pulls it back
+  for (unsigned i = 0; i < 60; ++i) block.frame({});
+  EXPECT_LT(block.sim().body().energy().elastic, 1e-6);
+}
+
+TEST(Simulation, ABallDentsTheSurface) {
+  Block block(20e3);
+  FrameInput input;
+  for (unsigned i = 1; i <= 20; ++i) {
+    input.tools = {BallTool{{0.02, 0.01, 0.03 - 0.00015 * i}, 0.01}};
+    block.frame(input);
+  }
+  double deepest = 0;
+  block.sim().mesh().for_each_vertex([&](VertexId v) {
+    const double depth = 0.01 - (block.sim().mesh().current(v) - Vec3(0.02, 0.01, 0.027)).norm();
+    deepest = std::max(deepest, depth);
+  });
+  EXPECT_LT(deepest, 0.0006);
+  EXPECT_GT(block.sim().body().energy().elastic, 0);
+}
+
+TEST(Simulation, BadInputIsRefusedAndChangesNothing) {
+  Block block;
+  block.frame(Block::blade_at(0.021));
+  const std::uint64_t before = block.sim().hash();
+  FrameInput input = Block::blade_at(0.02);
+  input.blade->edge.emplace_back(0, 0, 0);
+  EXPECT_NE(block.sim().frame(input).error().message.find("same number of points"), std::string::npos);
+  input = Block::blade_at(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(block.sim().frame(input).ok());
+  input = Block::blade_at(0.02);
+  input.hooks = {{1, Vec3::Zero(), 1, 1}, {1, Vec3::Zero(), 1, 1}};
+  EXPECT_NE(block.sim().frame(input).error().message.find("comes twice"), std::string::npos);
+  input.hooks = {{1, Vec3::Zero(), 0, 1}};
+  EXPECT_NE(block.sim().frame(input).error().message.find("radius"), std::string::npos);
+  input.hooks.clear();
+  input.tools = {PlaneTool{Vec3(0, 0, 2), 0}};
+  EXPECT_NE(block.sim().frame(input).error().message.find("normal"), std::string::npos);
+  EXPECT_EQ(block.sim().hash(), before);
+}
+
+TEST(Simulation, OptionsOutOfRangeAreRefused) {
+  SimulationOptions options;
+  options.frame_seconds = 0;
+  Result<TetMesh> mesh = TetMesh::build(kuhn_box(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}));
+  EXPECT_FALSE(Simulation::create(*mesh, options).ok());
+  options = {};
+  options.materials.fallback.young = -1;
+  EXPECT_FALSE(Simulation::create(*mesh, options).ok());
+  options = {};
+  options.engine.cut.snap = 2;
+  EXPECT_FALSE(Simulation::create(*mesh, options).ok());
+}
+
+TEST(Simulation, TheSnapshotForForceFeedbackIsSound) {
+  Block block(300e3, 200);
+  for (unsigned i = 0; i <= 30; ++i) {
+    block.frame(Block::blade_at(0.021 - 0.0003 * i));
+    ASSERT_TRUE(check(block.sim().haptic_snapshot()).ok()) << check(block.sim().haptic_snapshot()).error().message;
+  }
+  EXPECT_TRUE(block.sim().haptic_snapshot().touches);
+  EXPECT_GT(block.sim().haptic_snapshot().engaged_length, 0.015);
+}
+
+}  // namespace
+}  // namespace incise
