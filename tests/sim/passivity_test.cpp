@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <ostream>
 #include <string>
 
 #include "geom/random.h"
@@ -134,8 +135,8 @@ struct NastyScene {
   bool leaks;        ///< without controller more comes out than went in
 };
 
-void PrintTo(const NastyScene& scene, std::ostream* out) {
-  *out << scene.name;
+std::ostream& operator<<(std::ostream& out, const NastyScene& scene) {
+  return out << scene.name;
 }
 
 class PassivityInScenes : public testing::TestWithParam<NastyScene> {
