@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "command_support.h"
 #include "incise/app/blade_file.h"
 #include "incise/app/convert.h"
 #include "incise/app/cut_job.h"
@@ -22,36 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace incise;
-
-int fail(const Terminal& terminal, const Error& error, ExitCode code) {
-  terminal.error(error.message);
-  return code;
-}
-
-int fail(const Terminal& terminal, const std::string& message, ExitCode code) {
-  terminal.error(message);
-  return code;
-}
-
-/// How an error of a stage that reads and writes files ends the program.
-ExitCode exit_of(const Error& error) {
-  switch (error.code) {
-    case ErrorCode::kBadArgument:
-      return kUsage;
-    case ErrorCode::kIo:
-    case ErrorCode::kInternal:
-      return kFailure;
-    case ErrorCode::kBadFile:
-    case ErrorCode::kUnsupported:
-    case ErrorCode::kOutOfMemory:
-      return kBadInput;
-  }
-  return kFailure;
-}
-
-void print_notes(const std::vector<std::string>& notes, const std::string& file, const Terminal& terminal) {
-  for (const std::string& text : notes) terminal.note(file + ": " + text);
-}
 
 constexpr const char* kNoBudgetAsPaper =
     "--budget-us has no effect with --profile paper, which maintains the mesh in one go";
@@ -76,12 +47,6 @@ std::optional<Plane> parse_plane(const std::string& text) {
   return Plane{normal, numbers[3]};
 }
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code code;
-  if (fs::exists(a, code) && fs::exists(b, code)) return fs::equivalent(a, b, code);
-  return fs::absolute(a, code).lexically_normal() == fs::absolute(b, code).lexically_normal();
-}
-
 /// Whether the recording would take the place of something else that the command reads or writes.
 bool takes_a_place(const CutArguments& a) {
   for (const std::string& other : {a.mesh, a.blade, a.output, a.report}) {
@@ -101,14 +66,6 @@ std::string usage_problem(const CutArguments& a) {
   return {};
 }
 
-/// Whether the folder of an output exists: found out before the work, not after.
-bool has_folder(const std::string& file) {
-  if (file.empty() || file == "-") return true;
-  const fs::path folder = fs::path(file).parent_path();
-  std::error_code code;
-  return folder.empty() || fs::is_directory(folder, code);
-}
-
 /// Whether outputs can be written, as far as their names tell; else says why and gives the exit code.
 std::optional<ExitCode> refuse_outputs(const std::string& mesh, const std::vector<std::string>& others,
                                        const Terminal& terminal) {
@@ -124,10 +81,6 @@ std::optional<ExitCode> refuse_outputs(const std::string& mesh, const std::vecto
     return kFailure;
   }
   return std::nullopt;
-}
-
-Profile profile_of(const std::string& name) {
-  return name == "paper" ? Profile::kPaper : Profile::kIncise;
 }
 
 /// Says which of the flags change nothing beside the others.

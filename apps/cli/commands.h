@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "terminal.h"
@@ -35,6 +36,16 @@ struct ReplayArguments {
   bool verify = false;
 };
 
+struct SimulateArguments {
+  std::string scene, output, report, record;
+  std::string profile;                // empty: the scene's
+  std::uint64_t frames = 0;           // 0: the scene's
+  std::uint64_t every = 0;            // 0: as `SimulateJob`
+  std::uint64_t budget_us = 0;        // 0: the scene's work units
+  std::optional<std::uint64_t> seed;  // unset: the scene's
+  unsigned threads = 1;
+};
+
 struct ConvertArguments {
   std::string in, out;
 };
@@ -44,6 +55,7 @@ int run_info(const InfoArguments& arguments, const Terminal& terminal);
 int run_check(const InfoArguments& arguments, const Terminal& terminal);
 int run_cut(const CutArguments& arguments, const Terminal& terminal);
 int run_improve(const ImproveArguments& arguments, const Terminal& terminal);
+int run_simulate(const SimulateArguments& arguments, const Terminal& terminal);
 int run_replay(const ReplayArguments& arguments, const Terminal& terminal);
 int run_convert(const ConvertArguments& arguments, const Terminal& terminal);
 

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "incise/app/cut_job.h"
+#include "incise/app/scene.h"
 #include "incise/version.h"
 #include "terminal.h"
 
@@ -18,6 +19,7 @@ struct Arguments {
   InfoArguments info, check;
   CutArguments cut;
   ImproveArguments improve;
+  SimulateArguments simulate;
   ReplayArguments replay;
   ConvertArguments convert;
   std::string unbuilt_picture;
@@ -99,12 +101,39 @@ void add_improve(CLI::App& root, Arguments& a) {
       "Microseconds for the work, 1 to 3600000000; the worst tets come first, what is not done is left as it was");
 }
 
+void add_simulate(CLI::App& root, Arguments& a) {
+  CLI::App* simulate = add_command(
+      root, "simulate", "Run a scene: a soft body that is held, pulled and cut while it deforms (docs/scenes.md)",
+      "  incise simulate scenes/sim_cube.json\n"
+      "  incise simulate scenes/sim_cube.json -o cube.pvd --report cube.json\n"
+      "  incise simulate scenes/sim_skin.json --frames 60 --report -\n"
+      "  incise simulate scenes/sim_cube.json --profile paper --threads 2\n"
+      "  incise simulate scenes/sim_cube.json --record cube.jsonl && incise replay cube.jsonl --verify");
+  SimulateArguments& s = a.simulate;
+  simulate->add_option("SCENE", s.scene, "Scene file: JSON of format incise-scene")->required();
+  simulate->add_option("--frames", s.frames, "Frames to run, instead of the scene's")
+      ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
+  simulate->add_option("-o,--output", s.output, "Write the body over time: NAME.pvd with the folder NAME_frames");
+  simulate->add_option("--every", s.every, "Frames from one file of -o to the next (default: about 100 files)")
+      ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
+  simulate->add_option("--report", s.report, "Write figures as JSON; - for stdout");
+  simulate->add_option("--record", s.record, "Record every frame as JSON lines, for incise replay");
+  simulate->add_option("--profile", s.profile, "incise, or paper: the published method; instead of the scene's")
+      ->check(CLI::IsMember({"incise", "paper"}));
+  add_budget(*simulate, s.budget_us,
+             "Microseconds for maintenance per frame, 1 to 3600000000, taken as 50 work units each: no clock is read");
+  simulate->add_option("--seed", s.seed, "Seed, instead of the scene's");
+  simulate->add_option("--threads", s.threads, "Worker threads, 1 to 256; the result does not depend on it")
+      ->check(CLI::Range(1, 256));
+}
+
 void add_replay(CLI::App& root, Arguments& a) {
   CLI::App* replay =
       add_command(root, "replay", "Do again what was recorded with --record; exit 4 where it comes out differently",
                   "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu");
-  replay->add_option("REC", a.replay.recording, "Recording: JSON lines of format incise-recording")->required();
-  replay->add_flag("--verify", a.replay.verify, "Compare the mesh after every step, not only at the end");
+  replay->add_option("REC", a.replay.recording, "Recording: JSON lines of format incise-recording or incise-simulation")
+      ->required();
+  replay->add_flag("--verify", a.replay.verify, "Compare after every step or frame, not only at the end");
   replay->add_option("-o,--output", a.replay.output, "Write the mesh at the end; the extension names the format");
 }
 
@@ -116,14 +145,8 @@ void add_convert(CLI::App& root, Arguments& a) {
   convert->add_option("OUT", a.convert.out, "File to write; the extension names the format")->required();
 }
 
-/// Commands of the contract that later versions bring: they are named, and refuse.
-void add_unbuilt(CLI::App& root) {
-  root.add_subcommand("simulate", "(not built yet)")->allow_extras()->prefix_command();
-}
-
 /// The first thing that was asked for but is not built, or nothing.
 std::string find_unbuilt(const CLI::App& root) {
-  if (root.got_subcommand("simulate")) return "the command simulate";
   return root.get_subcommand("cut")->count("--picture") > 0 ? "--picture" : "";
 }
 
@@ -135,6 +158,7 @@ int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
   if (root.got_subcommand("info")) return run_info(a.info, terminal);
   if (root.got_subcommand("check")) return run_check(a.check, terminal);
   if (root.got_subcommand("improve")) return run_improve(a.improve, terminal);
+  if (root.got_subcommand("simulate")) return run_simulate(a.simulate, terminal);
   if (root.got_subcommand("replay")) return run_replay(a.replay, terminal);
   if (root.got_subcommand("convert")) return run_convert(a.convert, terminal);
   a.cut.has_snap = root.get_subcommand("cut")->count("--snap") > 0;
@@ -155,9 +179,9 @@ int run(int argc, char** argv) {
   add_info(root, arguments);
   add_cut(root, arguments);
   add_improve(root, arguments);
+  add_simulate(root, arguments);
   add_replay(root, arguments);
   add_convert(root, arguments);
-  add_unbuilt(root);
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

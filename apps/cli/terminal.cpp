@@ -95,6 +95,10 @@ void catch_interrupts() {
   std::signal(SIGTERM, on_signal);
 }
 
+bool interrupt_waits() {
+  return pending_signal != 0;
+}
+
 WritingZone::WritingZone() {
   is_writing = 1;
 }

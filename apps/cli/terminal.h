@@ -38,6 +38,9 @@ class Terminal {
 /// the write.
 void catch_interrupts();
 
+/// Whether an interrupt waits for the end of a `WritingZone`: long work in one asks, and stops early.
+bool interrupt_waits();
+
 /// While it lives, an interrupt waits.
 class WritingZone {
  public:

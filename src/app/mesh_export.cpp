@@ -29,13 +29,13 @@ std::int32_t origin_of(const TetMesh& mesh, VertexId vertex, const std::vector<s
 
 }  // namespace
 
-io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces,
-                          const std::vector<std::uint32_t>& file_vertex) {
+io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces, const std::vector<std::uint32_t>& file_vertex,
+                          MeshPose pose) {
   io::MeshData data;
   std::vector<std::uint32_t> number(mesh.vertex_slots(), kInvalidIndex);
   mesh.for_each_vertex([&](VertexId v) {
     number[v.value] = static_cast<std::uint32_t>(data.soup.points.size());
-    data.soup.points.push_back(mesh.rest(v));
+    data.soup.points.push_back(pose == MeshPose::kAtRest ? mesh.rest(v) : mesh.current(v));
     data.origin_vertex.push_back(origin_of(mesh, v, file_vertex));
   });
   mesh.for_each_tet([&](TetId tet) {

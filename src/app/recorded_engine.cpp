@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/app/recorded_engine.h"
 
-#include <system_error>
 #include <utility>
 
 #include "app/job_internal.h"
+#include "app/recording_path.h"
 
 namespace incise::inline v0 {
 namespace app {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// The mesh's path as seen from the recording's folder, so that both can be moved together.
-std::string seen_from(const fs::path& recording, const fs::path& mesh_file) {
-  if (mesh_file.empty()) return {};
-  std::error_code code;
-  const fs::path folder = recording.parent_path().empty() ? fs::path(".") : recording.parent_path();
-  const fs::path seen = fs::proximate(mesh_file, folder, code);
-  return (code ? mesh_file : seen).generic_string();
-}
 
 RecordingHeader header_of(const Engine& engine, const RecordTo& to) {
   RecordingHeader header;

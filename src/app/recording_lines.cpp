@@ -5,8 +5,8 @@
 #include <cstring>
 #include <utility>
 
-#include "app/json_tree.h"
 #include "app/json_write.h"
+#include "app/line_reader.h"
 #include "incise/io/base64.h"
 #include "incise/version.h"
 
@@ -17,30 +17,12 @@ namespace {
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kMaxPoints = std::size_t{1} << 20U;  // of a pose, and times of a stroke
 constexpr std::size_t kBytesPerPoint = 24;
-constexpr JsonLimits kLimits = {std::size_t{1} << 30U, std::size_t{1} << 24U, 16};
 
 constexpr std::array<const char*, 9> kCallNames = {"begin", "step",     "end",     "cut",      "undo",
                                                    "redo",  "maintain", "improve", "positions"};
-constexpr std::array<const char*, 6> kErrorNames = {"bad_argument",  "bad_file", "unsupported",
-                                                    "out_of_memory", "io",       "internal"};
 constexpr std::array<const char*, 2> kProfileNames = {"paper", "incise"};
 
-/// The value of an enumeration that has a name, by its place among them.
-template <class Enum, std::size_t kCount>
-bool find_name(const std::array<const char*, kCount>& names, const std::string& name, Enum& out) {
-  for (std::size_t i = 0; i < kCount; ++i) {
-    if (name != names[i]) continue;
-    out = static_cast<Enum>(i);
-    return true;
-  }
-  return false;
-}
-
 // ---- writing ----
-
-std::string line_of(const Json& root) {
-  return root.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
 
 Json encode_limit(std::uint64_t work_units) {
   return work_units == kUnlimitedWork ? Json() : Json(work_units);
@@ -104,47 +86,6 @@ void add_arguments(const RecordedCall& call, Json& root) {
 
 // ---- reading ----
 
-/// What both kinds of lines are read with.
-class LineReader {
- public:
-  explicit LineReader(std::string_view file_name) : read_(file_name) {}
-
-  [[nodiscard]] const Error& error() const { return read_.error(); }
-
- protected:
-  bool read_text(const JsonValue& root, const std::string& path, const char* key, std::string& out) {
-    const JsonValue* value = read_.member(root, path, key);
-    return value != nullptr && read_.text(*value, key, out);
-  }
-  bool read_whole(const JsonValue& root, const std::string& path, const char* key, std::uint64_t& out) {
-    const JsonValue* value = read_.member(root, path, key);
-    return value != nullptr && read_.whole(*value, key, out);
-  }
-  bool read_flag(const JsonValue& root, const std::string& path, const char* key, bool& out) {
-    const JsonValue* value = read_.member(root, path, key);
-    return value != nullptr && read_.boolean(*value, key, out);
-  }
-  /// Work units; null where there is no limit.
-  bool read_limit(const JsonValue& root, const std::string& path, const char* key, std::uint64_t& out) {
-    const JsonValue* value = read_.member(root, path, key);
-    if (value == nullptr) return false;
-    out = kUnlimitedWork;
-    return value->kind == JsonValue::Kind::kNull || read_.whole(*value, key, out);
-  }
-  bool read_hash(const JsonValue& root, const std::string& path, std::uint64_t& out) {
-    const JsonValue* value = read_.member(root, path, "hash");
-    std::string text;
-    if (value == nullptr || !read_.text(*value, "hash", text)) return false;
-    if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos) {
-      return read_.fail(*value, "hash", "must be 16 hexadecimal digits in lower case");
-    }
-    out = std::stoull(text, nullptr, 16);
-    return true;
-  }
-
-  JsonReader read_;
-};
-
 class HeaderReader : public LineReader {
  public:
   using LineReader::LineReader;
@@ -189,7 +130,7 @@ class CallReader : public LineReader {
   using LineReader::LineReader;
 
   bool run(const JsonValue& root, RecordedCall& call) {
-    return read_kind(root, call) && read_arguments(root, call) && read_error(root, call) &&
+    return read_kind(root, call) && read_arguments(root, call) && read_error(root, call.error) &&
            read_hash(root, kPath, call.hash);
   }
 
@@ -275,24 +216,12 @@ class CallReader : public LineReader {
     std::memcpy(&out, &bits, sizeof out);
     return true;
   }
-  bool read_error(const JsonValue& root, RecordedCall& call) {
-    const JsonValue* value = root.find("error");
-    std::string name;
-    if (value == nullptr) return true;
-    if (!read_.text(*value, "error", name)) return false;
-    return find_name(kErrorNames, name, call.error.emplace()) ||
-           read_.fail(*value, "error", "\"" + name + "\" is unknown");
-  }
 };
 
 }  // namespace
 
 const char* name_of(CallKind kind) {
   return kCallNames[static_cast<std::size_t>(kind)];
-}
-
-const char* name_of(ErrorCode code) {
-  return kErrorNames[static_cast<std::size_t>(code)];
 }
 
 std::string to_line(const RecordingHeader& header) {
@@ -319,12 +248,8 @@ std::string to_line(const RecordedCall& call) {
   return line_of(root);
 }
 
-bool is_whole_json(std::string_view text) {
-  return Json::accept(text);
-}
-
 Result<RecordingHeader> parse_header(std::string_view text, std::string_view file_name) {
-  const Result<JsonValue> root = parse_json(text, file_name, kLimits);
+  const Result<JsonValue> root = parse_json(text, file_name, kLineLimits);
   if (!root.ok()) return root.error();
   RecordingHeader header;
   HeaderReader reader(file_name);
@@ -333,7 +258,7 @@ Result<RecordingHeader> parse_header(std::string_view text, std::string_view fil
 }
 
 Result<RecordedCall> parse_call(std::string_view text, std::string_view file_name, std::uint32_t line) {
-  const Result<JsonValue> root = parse_json(text, file_name, kLimits, line);
+  const Result<JsonValue> root = parse_json(text, file_name, kLineLimits, line);
   if (!root.ok()) return root.error();
   RecordedCall call;
   call.line = line;

@@ -13,15 +13,10 @@ namespace app {
 
 /// The name of a call in recordings and messages.
 [[nodiscard]] const char* name_of(CallKind kind);
-/// The name of an error in recordings and messages.
-[[nodiscard]] const char* name_of(ErrorCode code);
 
 /// One line, with a newline at the end.
 [[nodiscard]] std::string to_line(const RecordingHeader& header);
 [[nodiscard]] std::string to_line(const RecordedCall& call);
-
-/// Whether a text can be the whole of a line: JSON that was cut off never is. Cost: O(size).
-[[nodiscard]] bool is_whole_json(std::string_view text);
 
 /// Errors: kBadFile "FILE:LINE: what".
 [[nodiscard]] Result<RecordingHeader> parse_header(std::string_view text, std::string_view file_name);

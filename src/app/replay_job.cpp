@@ -8,8 +8,11 @@
 
 #include "app/job_internal.h"
 #include "app/json_write.h"
+#include "app/line_reader.h"
 #include "app/recording_lines.h"
+#include "app/simulation_replay.h"
 #include "incise/app/mesh_export.h"
+#include "incise/app/simulation_recording.h"
 
 namespace incise::inline v0 {
 namespace app {
@@ -173,6 +176,7 @@ Result<std::optional<ReplayDifference>> replay_call(Engine& engine, const Record
 }
 
 Result<ReplayResult> run_replay(const ReplayJob& job) {
+  if (is_simulation_recording(job.recording)) return run_simulation_replay(job);
   Result<RecordingReader> reader = RecordingReader::open(job.recording);
   if (!reader.ok()) return reader.error();
   Result<LoadedMesh> loaded = load_recorded_mesh(reader->header(), job.recording);

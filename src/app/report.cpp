@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/json_write.h"
+#include "app/report_tree.h"
 #include "incise/version.h"
 
 namespace incise::inline v0 {
@@ -18,10 +18,6 @@ constexpr std::size_t kMaxPiecesShown = 8;
 
 Json json_of(const MeshCounts& counts) {
   return {{"vertices", counts.vertices}, {"tets", counts.tets}, {"components", counts.components}};
-}
-
-Json json_of(const Percentiles& p) {
-  return {{"p50", p.p50}, {"p99", p.p99}, {"p999", p.p999}, {"max", p.max}};
 }
 
 Json options_json(const JobReport& report) {
@@ -89,7 +85,7 @@ Json stage_percentiles(const std::vector<StageTimes>& samples) {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     std::vector<double> of_stage;
     for (const StageTimes& sample : samples) of_stage.push_back(sample.ms[i]);
-    root[kStageNames[i]] = json_of(percentiles(std::move(of_stage)));
+    root[kStageNames[i]] = encode(percentiles(std::move(of_stage)));
   }
   return root;
 }
@@ -169,6 +165,10 @@ std::string quality_text(const JobReport& report) {
 
 }  // namespace
 
+Json encode(const Percentiles& p) {
+  return {{"p50", p.p50}, {"p99", p.p99}, {"p999", p.p999}, {"max", p.max}};
+}
+
 Percentiles percentiles(std::vector<double> sample) {
   if (sample.empty()) return {};
   std::sort(sample.begin(), sample.end());
@@ -179,7 +179,7 @@ Percentiles percentiles(std::vector<double> sample) {
   return {rank(0.5), rank(0.99), rank(0.999), sample.back()};
 }
 
-std::string to_json(const JobReport& report) {
+Json report_tree(const JobReport& report) {
   Json root;
   root["format"] = "incise-report";
   root["version"] = 1;
@@ -197,10 +197,14 @@ std::string to_json(const JobReport& report) {
                     {"relative_error", encode(relative_error(report))}};
   root["validity"] = validity_json(report);
   root["time_ms"] = json_of(report.times, report.total_ms);
-  root["step_ms"] = json_of(percentiles(report.step_ms));
+  root["step_ms"] = encode(percentiles(report.step_ms));
   root["stage_ms"] = stage_percentiles(report.stage_ms);
   root["hash"] = hash_text(report.hash);
-  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return root;
+}
+
+std::string to_json(const JobReport& report) {
+  return report_tree(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_text(const JobReport& report) {

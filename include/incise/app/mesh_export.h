@@ -11,7 +11,10 @@
 namespace incise::inline v0 {
 namespace app {
 
-/// Packs a mesh for a file: live vertices and tets in the order of their slots, at rest; region and piece per tet; a
+/// Which of its two positions a vertex has in a file.
+enum class MeshPose : std::uint8_t { kAtRest, kAsItStands };
+
+/// Packs a mesh for a file: live vertices and tets in the order of their slots; region and piece per tet; a
 /// triangle with its stroke's number for every side of a cut wall; the input's number of each vertex, -1 where a cut
 /// made it.
 ///
@@ -19,7 +22,8 @@ namespace app {
 /// @param file_vertex  as in `LoadedMesh`: the file's number of each input vertex, or empty.
 /// Cost: O(slots).
 [[nodiscard]] io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces,
-                                        const std::vector<std::uint32_t>& file_vertex = {});
+                                        const std::vector<std::uint32_t>& file_vertex = {},
+                                        MeshPose pose = MeshPose::kAtRest);
 
 /// The boundary of a mesh, skin and cut walls, as triangles that turn counter-clockwise seen from outside.
 /// Cost: O(slots).

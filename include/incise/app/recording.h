@@ -77,11 +77,17 @@ class RecordingWriter {
   std::string header_;  // until it has been written
 };
 
+class LineSource;
+
 /// Reads a recording line by line, so that it may be longer than memory.
 ///
 /// The last line may be cut off anywhere: it is left out, and `is_cut_off` says so. All else is strict.
 class RecordingReader {
  public:
+  RecordingReader(RecordingReader&&) noexcept;
+  RecordingReader& operator=(RecordingReader&&) noexcept;
+  ~RecordingReader();
+
   /// Opens a file and reads its header. Errors: kBadFile "FILE:LINE: what; remedy" where it cannot be read, the header
   /// is not whole, of another format or version, or has an unknown key. Cost: O(1).
   static Result<RecordingReader> open(const std::filesystem::path& path);
@@ -89,25 +95,20 @@ class RecordingReader {
   static Result<RecordingReader> open(std::unique_ptr<std::istream> text, std::string file_name);
 
   [[nodiscard]] const RecordingHeader& header() const { return header_; }
-  [[nodiscard]] const std::string& file_name() const { return file_name_; }
+  [[nodiscard]] const std::string& file_name() const;
 
   /// The next call, or nothing at the end. Errors: kBadFile "FILE:LINE: what", for instance for an unknown call or key,
   /// a number that is not finite, or a line of more than 1 GiB. Cost: O(line).
   Result<std::optional<RecordedCall>> next();
   /// Whether the end, once it was reached, was within a line.
-  [[nodiscard]] bool is_cut_off() const { return is_cut_off_; }
+  [[nodiscard]] bool is_cut_off() const;
 
  private:
-  RecordingReader(std::unique_ptr<std::istream> text, std::string file_name);
+  explicit RecordingReader(LineSource lines);
+  static Result<RecordingReader> open(LineSource lines);
 
-  Result<bool> read_line(std::string& line);
-
-  std::unique_ptr<std::istream> text_;
-  std::string file_name_;
+  std::unique_ptr<LineSource> lines_;
   RecordingHeader header_;
-  std::uint32_t line_ = 0;    // that was read last
-  bool has_line_end_ = true;  // and whether it was whole
-  bool is_cut_off_ = false;
 };
 
 }  // namespace app

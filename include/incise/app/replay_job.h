@@ -37,11 +37,12 @@ struct ReplayResult {
   MeshCounts before, after;
   std::uint64_t calls = 0;    ///< that were made
   std::uint64_t strokes = 0;  ///< that stand at the end: undone ones not counted
-  std::uint64_t hash = 0;     ///< of the mesh at the end
+  std::uint64_t hash = 0;     ///< of the mesh at the end; of a simulation's mesh and body
   bool is_cut_off = false;    ///< the recording ends within a line, which was left out
   bool is_in_stroke = false;  ///< the recording ends within a stroke
   std::optional<ReplayDifference> difference;
-  io::MeshData mesh;  ///< as in `JobResult`; empty where not asked for, or where there is a difference
+  /// As in `JobResult`, a simulation's as it stands; empty where not asked for, or where there is a difference.
+  io::MeshData mesh;
 };
 
 /// Makes one recorded call on an engine.
@@ -54,8 +55,8 @@ struct ReplayResult {
 Result<std::optional<ReplayDifference>> replay_call(Engine& engine, const RecordedCall& call, bool verify,
                                                     std::string_view file_name);
 
-/// Does what was recorded again, on the mesh that the recording names: looked for from the recording's folder first,
-/// then as its path stands.
+/// Does what was recorded again, with an engine or in a simulation, on the mesh that the recording names: looked for
+/// from the recording's folder first, then as its path stands.
 ///
 /// With `verify` it stops at the first difference; without, the hash is compared after the last call alone. A recording
 /// whose last line was cut off is replayed up to the line before.

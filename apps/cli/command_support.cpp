@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_support.h"
+
+#include <filesystem>
+#include <system_error>
+
+namespace incise_cli {
+
+namespace fs = std::filesystem;
+using namespace incise;
+
+int fail(const Terminal& terminal, const Error& error, ExitCode code) {
+  terminal.error(error.message);
+  return code;
+}
+
+int fail(const Terminal& terminal, const std::string& message, ExitCode code) {
+  terminal.error(message);
+  return code;
+}
+
+ExitCode exit_of(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::kBadArgument:
+      return kUsage;
+    case ErrorCode::kIo:
+    case ErrorCode::kInternal:
+      return kFailure;
+    case ErrorCode::kBadFile:
+    case ErrorCode::kUnsupported:
+    case ErrorCode::kOutOfMemory:
+      return kBadInput;
+  }
+  return kFailure;
+}
+
+void print_notes(const std::vector<std::string>& notes, const std::string& file, const Terminal& terminal) {
+  for (const std::string& text : notes) terminal.note(file + ": " + text);
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code code;
+  if (fs::exists(a, code) && fs::exists(b, code)) return fs::equivalent(a, b, code);
+  return fs::absolute(a, code).lexically_normal() == fs::absolute(b, code).lexically_normal();
+}
+
+bool has_folder(const std::string& file) {
+  if (file.empty() || file == "-") return true;
+  const fs::path folder = fs::path(file).parent_path();
+  std::error_code code;
+  return folder.empty() || fs::is_directory(folder, code);
+}
+
+Profile profile_of(const std::string& name) {
+  return name == "paper" ? Profile::kPaper : Profile::kIncise;
+}
+
+}  // namespace incise_cli

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <utility>
+
+#include "command_support.h"
+#include "commands.h"
+#include "incise/app/scene_simulation.h"
+#include "incise/app/simulate_job.h"
+#include "incise/app/text_file.h"
+
+namespace incise_cli {
+namespace {
+
+using namespace incise;
+
+/// Whether the recording would take the place of something else that the command reads or writes.
+bool takes_a_place(const SimulateArguments& a, const std::string& model) {
+  for (const std::string& other : {a.scene, a.output, a.report, model}) {
+    if (!a.record.empty() && !other.empty() && is_same_file(a.record, other)) return true;
+  }
+  return false;
+}
+
+/// What is wrong with the arguments, or nothing.
+std::string usage_problem(const SimulateArguments& a) {
+  if (!a.output.empty() && std::filesystem::path(a.output).extension() != ".pvd") {
+    return a.output + ": unknown extension; a simulation is written as .pvd, with a folder of .vtu files beside";
+  }
+  if (a.every > 0 && a.output.empty()) return "--every is about the files of -o OUT.pvd; give both";
+  return {};
+}
+
+/// The scene with what the arguments ask for instead.
+app::Scene overridden(app::Scene scene, const SimulateArguments& a) {
+  EngineOptions& engine = scene.options.engine;
+  if (a.frames > 0) scene.frames = a.frames;
+  if (a.seed) scene.seed = *a.seed;
+  if (!a.profile.empty()) engine.cut.profile = profile_of(a.profile);
+  if (a.budget_us > 0) engine.maintain.work_units = app::kWorkUnitsPerUs * a.budget_us;
+  return scene;
+}
+
+app::SimulateJob job_of(const SimulateArguments& a, const Terminal& terminal) {
+  app::SimulateJob job;
+  job.scene_file = a.scene;
+  job.run.threads = a.threads;
+  job.run.log = terminal.log_sink();
+  job.run.record = a.record;
+  job.output = a.output;
+  job.every = a.every;
+  job.budget_us = a.budget_us;
+  job.progress = [&terminal](std::size_t done, std::size_t total) { terminal.progress(done, total, "frames"); };
+  job.should_stop = interrupt_waits;
+  return job;
+}
+
+Status write_report(const std::string& file, const app::SimulationReport& report, const Terminal& terminal) {
+  if (file == "-") {
+    terminal.data(app::to_json(report));
+  } else if (!file.empty()) {
+    return app::write_text_file(file, app::to_json(report));
+  }
+  return {};
+}
+
+int finish(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
+  print_notes(report.job.notes, report.job.input, terminal);
+  if (const Status status = write_report(a.report, report, terminal); !status.ok()) {
+    return fail(terminal, status.error(), kFailure);
+  }
+  if (a.report != "-" && !terminal.is_quiet) terminal.data(app::to_text(report));
+  if (report.job.change.ok) return kDone;
+  return fail(terminal,
+              "the simulation broke the validity contract, so no series was written; see `validity` in the report "
+              "(--report)",
+              kCheckFailed);
+}
+
+/// Says why outputs cannot be written, as far as their names tell; nothing where they can.
+std::string output_problem(const SimulateArguments& a) {
+  for (const std::string& file : {a.output, a.report, a.record}) {
+    if (!has_folder(file)) return file + ": its folder does not exist; create it first";
+  }
+  return {};
+}
+
+}  // namespace
+
+int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
+  if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
+  if (const std::string problem = output_problem(arguments); !problem.empty()) return fail(terminal, problem, kFailure);
+  Result<app::Scene> read = app::read_scene(arguments.scene);
+  if (!read.ok()) return fail(terminal, read.error(), kBadInput);
+  const app::Scene scene = overridden(std::move(read).value(), arguments);
+  const Result<std::filesystem::path> model = app::find_model(scene);
+  if (!scene.model.file.empty() && !model.ok()) return fail(terminal, model.error(), kBadInput);
+  if (takes_a_place(arguments, scene.model.file.empty() ? "" : model->string())) {
+    return fail(terminal,
+                "--record " + arguments.record + " is another file of this command; give it a name of its own", kUsage);
+  }
+  const WritingZone zone;  // an interrupt ends the run between two frames, and leaves no part of a series
+  const Result<app::SimulateResult> result = app::run_simulate(scene, job_of(arguments, terminal));
+  if (!result.ok()) {
+    const bool is_bad = result.error().code == ErrorCode::kBadArgument;
+    return fail(terminal, result.error(), is_bad ? kBadInput : exit_of(result.error()));
+  }
+  return result->was_stopped ? int{kInterrupted} : finish(arguments, result->report, terminal);
+}
+
+}  // namespace incise_cli

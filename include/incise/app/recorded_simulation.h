@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "incise/app/scene.h"
+#include "incise/app/simulation_recording.h"
+#include "incise/core/log.h"
+
+namespace incise::inline v0 {
+namespace app {
+
+/// Where and how a scene's simulation runs, beside what the scene says.
+struct SceneRun {
+  unsigned threads = 1;          ///< in [1, 256]; the result does not depend on them
+  LogSink log = {};              ///< hears what a stroke could not do as asked
+  std::filesystem::path record;  ///< the recording; empty: none is made
+};
+
+/// A scene's simulation that keeps a recording of what is asked of it: `run_replay` does the same again.
+///
+/// Each call does what the call of `Simulation` of the same name does, and fails as it does. Then its line is written,
+/// as in `RecordedEngine`: where that fails, the error is kIo and names the file, the call has taken effect, and
+/// nothing more is recorded. A call refused with kBadArgument has no line, nor has an undo or redo where there is none.
+/// One writer. Cost: the simulation's, plus one hash of mesh and body and one write per call that is recorded.
+class RecordedSimulation {
+ public:
+  /// @param mesh  as `load_model` gave it. Errors: as `make_simulation`.
+  static Result<RecordedSimulation> create(const Scene& scene, TetMesh mesh, const SceneRun& run = {});
+
+  [[nodiscard]] const Simulation& simulation() const { return simulation_; }
+
+  Result<FrameReport> frame(const FrameInput& input);
+  Result<unsigned> settle(const SceneSettle& settle);
+  Result<bool> undo();
+  Result<bool> redo();
+
+  /// Milliseconds that the simulation took for the last call, recording not counted.
+  [[nodiscard]] double last_ms() const { return last_ms_; }
+
+ private:
+  RecordedSimulation(Simulation simulation, std::optional<SimulationWriter> writer);
+
+  template <class Call>
+  auto timed(const Call& call);
+  template <class Outcome>
+  Outcome recorded(SimulationCall call, Outcome outcome);
+
+  Simulation simulation_;
+  std::optional<SimulationWriter> writer_;
+  double last_ms_ = 0;
+};
+
+}  // namespace app
+}  // namespace incise::inline v0

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/json_write.h"
+#include "incise/app/report.h"
+
+namespace incise::inline v0 {
+namespace app {
+
+Json encode(const Percentiles& percentiles);
+/// What `to_json` prints.
+[[nodiscard]] Json report_tree(const JobReport& report);
+
+}  // namespace app
+}  // namespace incise::inline v0
