@@ -237,9 +237,9 @@ HapticSnapshot BladeCoupling::snapshot(const DeformableBody& body, const TetMesh
   Mat3 stiffness = Mat3::Zero();
   double limit = 0, friction = 0, held = 0;
   for (const Sample& s : samples_) {
+    snapshot.tool_position += unit_ / static_cast<double>(samples_.size()) * s.place;
     if (!s.grip) continue;
     held += 1;
-    snapshot.tool_position += unit_ * s.place;
     snapshot.contact_point += unit_ * s.cut;
     limit += s.toughness * s.length;
     friction += s.friction * s.length;
@@ -250,9 +250,9 @@ HapticSnapshot BladeCoupling::snapshot(const DeformableBody& body, const TetMesh
   if (held == 0 || direction_.isZero(0)) return snapshot;
   snapshot.touches = true;
   snapshot.ruptured = state_.yields;
-  snapshot.tool_position /= held;
   snapshot.contact_point /= held;
   snapshot.force = state_.force;
+  stiffness.diagonal().array() += 1e-6 * stiffness.trace() + 1e-6;  // no compliance at all would mean a rigid wall
   const Eigen::FullPivLU<Mat3> lu(stiffness);
   if (lu.isInvertible()) snapshot.compliance = lu.inverse();
   snapshot.compliance = (0.5 * (snapshot.compliance + snapshot.compliance.transpose())).eval();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints one line "name hash" per scene: the state of the mesh after its strokes, and after some are taken back; then
 // the same strokes step by step, in a body at rest and in one that sways; then the scenes maintained, at once and in
-// portions, and a whole mesh maintained without a cut.
+// portions, and a whole mesh maintained without a cut; then bodies that are cut while they deform.
 // The lines are equal for every compiler, optimisation level and target (tests/determinism/golden.txt).
 // usage: incise_determinism [--threads N]     the result does not depend on N
 #include <array>
@@ -17,6 +17,7 @@
 #include "incise/engine/engine.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/validate.h"
+#include "simulated.h"
 
 namespace incise::test {
 namespace {
@@ -210,5 +211,6 @@ int main(int argc, char** argv) {
   }
   is_sound &= run_all_steps(threads);
   is_sound &= run_all_maintained(threads);
+  is_sound &= run_all_simulated(threads);
   return is_sound ? 0 : 1;
 }

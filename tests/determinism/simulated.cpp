@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulated.h"
+
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "../cut/bodies.h"
+#include "incise/engine/simulation.h"
+#include "incise/mesh/validate.h"
+
+namespace incise::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool print(const char* name, unsigned frame, const Simulation& simulation) {
+  std::printf("simulated.%s.%u %016llx\n", name, frame, static_cast<unsigned long long>(simulation.hash()));
+  return simulation.body().is_finite() && validate(simulation.mesh(), ValidateLevel::kGeometry).ok;
+}
+
+SimulationOptions soft_options(unsigned threads) {
+  SimulationOptions options;
+  options.body.length_unit = 0.05;
+  options.body.threads = options.engine.threads = threads;
+  options.engine.maintain.work_units = 5000;
+  options.materials.fallback.young = 5e3;
+  return options;
+}
+
+/// A blade that goes down through the middle of the unit cube, swaying.
+FrameInput blade_at(unsigned frame) {
+  const double t = frame / 20.0, x = 0.47 + 0.04 * t * (1 - t), z = 1.1 - 1.2 * t;
+  FrameInput input;
+  input.blade = BladePose{{{x, -0.1, z}, {x, 0.5, z - 0.03}, {x, 1.1, z}}, Vec3(0, 0, -1)};
+  return input;
+}
+
+bool run(const char* name, Simulation& simulation, const std::vector<FrameInput>& inputs) {
+  bool is_sound = true;
+  for (unsigned i = 0; i < inputs.size(); ++i) {
+    is_sound &= simulation.frame(inputs[i]).ok();
+    if (i % 10 == 9) is_sound &= print(name, i + 1, simulation);
+  }
+  return is_sound;
+}
+
+void hold_below(Simulation& simulation, double z) {
+  simulation.mesh().for_each_vertex([&](VertexId v) {
+    if (simulation.mesh().rest(v).z() < z) static_cast<void>(simulation.body().hold(v, kInfinity));
+  });
+}
+
+/// Held below, pulled at by a hook, pressed on by a ball, and cut to half its depth.
+bool run_held(const char* name, SimulationOptions options) {
+  Simulation simulation = Simulation::create(TetMesh::build(jittered_cube(5, 11)).value(), std::move(options)).value();
+  hold_below(simulation, 0.1);
+  std::vector<FrameInput> inputs;
+  for (unsigned i = 0; i < 30; ++i) {
+    FrameInput input = i < 12 ? blade_at(i) : FrameInput{};
+    input.hooks.push_back({1, Vec3(0.9 + 0.01 * i, 0.5, 1), 0.2, 20});
+    input.tools = {BallTool{Vec3(0.2, 0.5, 1.4 - 0.01 * i), 0.3}};
+    inputs.push_back(std::move(input));
+  }
+  return run(name, simulation, inputs);
+}
+
+/// Falls freely and is cut in two on the way.
+bool run_falling(const char* name, SimulationOptions options) {
+  Simulation simulation = Simulation::create(TetMesh::build(kuhn_cube(5)).value(), std::move(options)).value();
+  std::vector<FrameInput> inputs;
+  for (unsigned i = 0; i < 30; ++i) {
+    FrameInput input = i < 25 ? blade_at(i) : FrameInput{};
+    input.tools = {PlaneTool{Vec3::UnitZ(), -0.5}};
+    inputs.push_back(std::move(input));
+  }
+  return run(name, simulation, inputs);
+}
+
+}  // namespace
+
+bool run_all_simulated(unsigned threads) {
+  SimulationOptions tough = soft_options(threads), projected = soft_options(threads), paper = soft_options(threads);
+  tough.materials.fallback.toughness = 20;
+  projected.body.relaxation = Relaxation::kPositionBased;
+  paper.engine.cut.profile = Profile::kPaper;
+  bool is_sound = run_held("held", soft_options(threads));
+  is_sound &= run_held("tough", tough);
+  is_sound &= run_held("projected", projected);
+  is_sound &= run_held("paper", paper);
+  return is_sound & run_falling("falling", soft_options(threads));
+}
+
+}  // namespace incise::test
