@@ -77,10 +77,9 @@ Status DeformableBody::hold(VertexId vertex, double stiffness) {
   if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live: it cannot be held");
   if (!(stiffness >= 0)) return bad("the stiffness of a hold must be at least 0 N/m");
   if (stiffness == 0) {
-    s.holds.erase(vertex.value);
+    s.clear_hold(vertex);
   } else {
-    s.holds[vertex.value] = {stiffness, s.places[vertex.value]};
-    if (s.holds[vertex.value].is_rigid()) s.set_momentum(vertex, Vec3::Zero());
+    s.set_hold(vertex, {stiffness, s.places[vertex.value], s.rest[vertex]});
   }
   s.settle_vertex(vertex);
   s.order.wake_star(vertex, s.stars);
@@ -194,6 +193,7 @@ Status DeformableBody::set_velocity(VertexId vertex, const Vec3& velocity) {
   State& s = *state_;
   if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live");
   if (!velocity.allFinite()) return bad("the velocity of vertex " + std::to_string(vertex.value) + " is not finite");
+  if (s.held[vertex] == detail::Held::kRigidly) return {};
   s.set_momentum(vertex, s.mass_of(vertex) / s.unit() * velocity);
   s.order.wake_star(vertex, s.stars);
   return {};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One step in time: implicit Euler by vertex block descent.
 #include <cmath>
-#include <limits>
 
+#include "incise/geom/box.h"
 #include "sim/body_state.h"
 #include "sim/position_based.h"
 
@@ -10,18 +10,15 @@ namespace incise::inline v0 {
 
 using Part = detail::SweepOrder::Part;
 
-namespace {
-constexpr std::array<Part, 3> kAllParts = {Part::kFirst, Part::kSecond, Part::kSeam};
-}
-
 Result<AdvanceReport> DeformableBody::advance(double dt) {
   if (!(dt > 0 && dt <= 1)) {
     return Error{ErrorCode::kBadArgument, "the time step must lie in (0, 1] s", {}};
   }
   State& s = *state_;
+  s.label_stale_pieces();
+  if (s.drifted > 0.5 * s.extent) s.centre();
   s.prepare_pulls();
   s.order.refresh();
-  s.label_stale_pieces();
   AdvanceReport report;
   report.active_vertices = s.order.awake_count();
   s.for_each_awake([&](std::uint32_t v) { s.travelled[VertexId(v)] = 0; });
@@ -33,6 +30,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
     s.end_substep(h, report.fastest);
     s.correct_motion(h);
   }
+  s.drifted += report.fastest * dt;
   report.fastest *= s.unit();
   s.fall_asleep();
   return report;
@@ -47,16 +45,22 @@ void DeformableBody::State::round_place(VertexId v) {
   for (unsigned i = 0; i < 3; ++i) floats[std::size_t{4} * v.value + i] = static_cast<float>(p[i]);
 }
 
-/// Single precision is spent on the body's size, not on where it is.
+/// Single precision is spent on the body's size, not on where it is; where something holds a part of it, on that part,
+/// and not on what fell off.
 void DeformableBody::State::centre() {
-  const double inf = std::numeric_limits<double>::infinity();
-  Vec3 low = Vec3::Constant(inf), high = -low;
-  for (std::uint32_t v = 0; v < places.size(); ++v) {
-    if (!is_live(VertexId(v))) continue;
-    low = low.cwiseMin(places[v]);
-    high = high.cwiseMax(places[v]);
+  Box all, held_pieces;
+  for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
+    const VertexId v(slot);
+    if (!is_live(v)) continue;
+    all.extend(places[slot]);
+    if (!pieces.empty() && !pieces[piece_of[v]].is_free) held_pieces.extend(places[slot]);
   }
-  if (low.x() <= high.x()) middle = 0.5 * (low + high);
+  const Box& box = held_pieces.is_empty() ? all : held_pieces;
+  if (!box.is_empty()) {
+    middle = 0.5 * (box.lo + box.hi);
+    extent = (box.hi - box.lo).maxCoeff();
+  }
+  drifted = 0;
   for (std::uint32_t v = 0; v < places.size(); ++v) round_place(VertexId(v));
 }
 
@@ -196,11 +200,20 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
     motion.weight = 0;
     motion.pulls = 0;
   }
+  std::vector<std::array<float, 3>> before;
+  const auto place_of = [&](std::uint32_t slot) {
+    const float* x = floats.data() + std::size_t{4} * slot;
+    return std::array<float, 3>{x[0], x[1], x[2]};
+  };
+  for (const std::uint32_t slot : vertices) before.push_back(place_of(slot));
   const detail::Descent d = descent();
   for (unsigned i = 0; i < sweeps; ++i) detail::sweep(d, vertices, i % 2 == 1);
-  for (const std::uint32_t slot : vertices) {
-    const float* x = floats.data() + std::size_t{4} * slot;
-    for (unsigned i = 0; i < 3; ++i) places[slot][i] = middle[i] + static_cast<double>(x[i]);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const std::array<float, 3> after = place_of(vertices[k]);
+    for (unsigned i = 0; i < 3; ++i) {
+      places[vertices[k]][i] += static_cast<double>(after[i]) - static_cast<double>(before[k][i]);
+    }
+    round_place(VertexId(vertices[k]));
   }
 }
 

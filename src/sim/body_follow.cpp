@@ -3,58 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "sim/body_rewind.h"
 #include "sim/body_state.h"
 
 namespace incise::inline v0 {
 
+using detail::Held;
 using detail::Hold;
-
-namespace detail {
-
-void Touched::sort() {
-  for (auto* list : {&tets, &vertices, &fresh}) {
-    std::sort(list->begin(), list->end());
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
-}
-
-void Touched::add(const Step& step) {
-  for (const TetImage& tet : step.before.tets) tets.push_back(tet.id.value);
-  for (const TetId tet : step.new_tets) tets.push_back(tet.value);
-  for (const VertexImage& vertex : step.before.vertices) vertices.push_back(vertex.id.value);
-  for (const VertexId vertex : step.new_vertices) vertices.push_back(vertex.value);
-  for (const BornVertex& born : step.born) fresh.push_back(born.id.value);
-  for (const CopiedVertex& copied : step.copied) fresh.push_back(copied.id.value);
-  for (const MovedVertex& moved : step.moved) fresh.push_back(moved.id.value);
-}
-
-}  // namespace detail
-
-namespace {
-
-/// A birth between vertices that are all held rigidly is held as they are; a copy is held as its source.
-void hand_on_holds(const Step& step, std::map<std::uint32_t, Hold>& holds) {
-  for (const BornVertex& born : step.born) {
-    bool is_held = true;
-    for (unsigned i = 0; i < 4; ++i) {
-      if (!born.parents[i].is_valid() || born.weights[i] == 0) continue;
-      const auto hold = holds.find(born.parents[i].value);
-      is_held = is_held && hold != holds.end() && hold->second.is_rigid();
-    }
-    if (is_held) holds[born.id.value] = {std::numeric_limits<double>::infinity(), born.current};
-  }
-  for (const MovedVertex& moved : step.moved) {
-    if (const auto hold = holds.find(moved.id.value); hold != holds.end()) hold->second.target = moved.current;
-  }
-  for (const CopiedVertex& copied : step.copied) {
-    const auto hold = holds.find(copied.source.value);
-    if (hold != holds.end()) holds[copied.id.value] = Hold(hold->second);
-  }
-}
-
-}  // namespace
 
 // --- from the mesh
 
@@ -76,17 +32,17 @@ detail::Element DeformableBody::State::element(TetId t) const {
   return detail::element_of(corners_at_rest(t), lambda, mu, options.thinnest);
 }
 
-void DeformableBody::State::ensure(const TetMesh& mesh) {
-  tets.resize(mesh.tet_slots());
-  regions.resize(mesh.tet_slots());
-  const std::uint32_t slots = mesh.vertex_slots();
+void DeformableBody::State::ensure(std::uint32_t slots, std::uint32_t tet_slots) {
+  tets.resize(tet_slots);
+  regions.resize(tet_slots);
   rest.resize(slots, Vec3::Zero());
+  held.resize(slots, Held::kNot);
   places.resize(slots, Vec3::Zero());
   floats.resize(std::size_t{4} * slots);
   motions.resize(slots);
   travelled.resize(slots);
   piece_of.resize(slots);
-  stars.ensure(slots, mesh.tet_slots());
+  stars.ensure(slots, tet_slots);
   order.ensure(slots);
 }
 
@@ -96,16 +52,24 @@ bool DeformableBody::State::add_tet(const TetMesh& mesh, TetId t) {
   tets[t] = mesh.vertices(t);
   regions[t] = mesh.region(t);
   stars.add(t, tets[t], element(t));
-  for (const VertexId v : tets[t]) changed.push_back(v.value);
+  note_changed(tets[t]);
   return true;
 }
 
 bool DeformableBody::State::remove_tet(TetId t) {
   if (t.value >= tets.size() || !tets[t][0].is_valid()) return false;
   stars.remove(t, tets[t]);
-  for (const VertexId v : tets[t]) changed.push_back(v.value);
+  note_changed(tets[t]);
   tets[t][0] = VertexId();
   return true;
+}
+
+void DeformableBody::State::note_changed(const TetVertices& vertices) {
+  for (const VertexId v : vertices) {
+    if (has_changed_star[v.value] != 0) continue;
+    has_changed_star[v.value] = 1;
+    changed.push_back(v.value);
+  }
 }
 
 /// What follows from a vertex' star.
@@ -119,8 +83,8 @@ void DeformableBody::State::settle_vertex(VertexId v) {
     ++count;
   });
   motion.reach = count > 0 ? static_cast<float>(0.25 * sum / count) : 0.0F;
-  const auto hold = holds.find(v.value);
-  if (count == 0 || (hold != holds.end() && hold->second.is_rigid())) {
+  if (held[v] == Held::kRigidly) set_momentum(v, Vec3::Zero());
+  if (count == 0 || held[v] == Held::kRigidly) {
     order.drop(v);
   } else {
     order.settle(v, stars);
@@ -172,7 +136,7 @@ void DeformableBody::State::lay_out_stars() {
 }
 
 void DeformableBody::State::build(const TetMesh& mesh) {
-  ensure(mesh);
+  ensure(mesh.vertex_slots(), mesh.tet_slots());
   mesh.for_each_vertex([&](VertexId v) {
     rest[v] = mesh.rest(v);
     places[v.value] = mesh.current(v);
@@ -196,86 +160,187 @@ void DeformableBody::State::build(const TetMesh& mesh) {
   label_pieces();
 }
 
-// --- through the journal
+// --- holds
 
-namespace {
-
-/// What was undone may be gone from the journal: whatever is otherwise was touched.
-detail::Touched differences(const DeformableBody::State& s, const TetMesh& mesh) {
-  detail::Touched touched;
-  const auto has_moved = [&](VertexId v) { return v.value >= s.rest.size() || s.rest[v] != mesh.rest(v); };
-  const auto differs = [&](TetId t) {
-    const bool was_live = t.value < s.tets.size() && s.tets[t][0].is_valid();
-    if (was_live != mesh.is_live(t) || !was_live) return was_live || mesh.is_live(t);
-    const TetVertices& now = mesh.vertices(t);
-    return s.tets[t] != now || s.regions[t] != mesh.region(t) || std::any_of(now.begin(), now.end(), has_moved);
-  };
-  const auto tet_slots = std::max(static_cast<std::uint32_t>(s.tets.size()), mesh.tet_slots());
-  for (std::uint32_t t = 0; t < tet_slots; ++t) {
-    if (differs(TetId(t))) touched.tets.push_back(t);
-  }
-  mesh.for_each_vertex([&](VertexId v) {
-    if (has_moved(v) || !s.is_live(v)) touched.vertices.push_back(v.value);
-    if (!s.is_live(v)) touched.fresh.push_back(v.value);
-  });
-  return touched;
+void DeformableBody::State::set_hold(VertexId v, const Hold& hold) {
+  holds[v.value] = hold;
+  held[v] = hold.is_rigid() ? Held::kRigidly : Held::kBySpring;
 }
 
-}  // namespace
+void DeformableBody::State::clear_hold(VertexId v) {
+  if (held[v] != Held::kNot) holds.erase(v.value);
+  held[v] = Held::kNot;
+}
+
+Vec3 DeformableBody::State::held_place(const Vec3& at_rest, const Vec3& shift, const TetVertices& basis,
+                                       const std::array<double, 4>& weights) const {
+  Vec3 place = at_rest;
+  for (unsigned i = 0; i < 4; ++i) {
+    if (!basis[i].is_valid() || weights[i] == 0) continue;
+    const bool is_held = basis[i].value < held.size() && held[basis[i]] != Held::kNot;
+    const auto hold = is_held ? holds.find(basis[i].value) : holds.end();
+    place += weights[i] * (is_held ? Vec3(hold->second.target - hold->second.rest) : shift);
+  }
+  return place;
+}
+
+// --- through the journal
+
+void DeformableBody::State::note_tet(TetId t) {
+  if (is_touched_tet[t.value] != 0) return;
+  is_touched_tet[t.value] = 1;
+  touched.tets.push_back(t.value);
+}
+
+void DeformableBody::State::note_fresh(VertexId v, Fresh how) {
+  if (is_fresh[v.value] == 0) touched.fresh.push_back(v.value);
+  is_fresh[v.value] = std::max(is_fresh[v.value], static_cast<std::uint8_t>(how));
+}
+
+/// The tets around a moved vertex have other rest shapes, even where the step does not name them.
+void DeformableBody::State::note(const Step& step) {
+  for (const TetImage& tet : step.before.tets) note_tet(tet.id);
+  for (const TetId tet : step.new_tets) note_tet(tet);
+  for (const BornVertex& born : step.born) note_fresh(born.id, Fresh::kNew);
+  for (const CopiedVertex& copied : step.copied) note_fresh(copied.id, Fresh::kNew);
+  for (const MovedVertex& moved : step.moved) {
+    note_fresh(moved.id, Fresh::kMoved);
+    stars.for_each_tet(moved.id, [&](TetId t) { note_tet(t); });
+  }
+}
+
+/// Of a parent that has no part in a birth: rounding alone gives it one.
+constexpr double kNoWeight = 1e-9;
+
+/// A birth between vertices that are all held rigidly is held as they are; a copy is held as its source. A slot that
+/// was somebody else's is not held as that one was.
+void DeformableBody::State::hand_on(const Step& step) {
+  for (const BornVertex& born : step.born) {
+    clear_hold(born.id);
+    bool is_held = true;
+    for (unsigned i = 0; i < 4; ++i) {
+      if (!born.parents[i].is_valid() || std::abs(born.weights[i]) < kNoWeight) continue;
+      is_held = is_held && held[born.parents[i]] == Held::kRigidly;
+      piece_of[born.id] = piece_of[born.parents[i]];
+    }
+    if (is_held) set_hold(born.id, {std::numeric_limits<double>::infinity(), born.current, born.rest});
+  }
+  for (const MovedVertex& moved : step.moved) {
+    if (held[moved.id] == Held::kNot) continue;
+    Hold& hold = holds[moved.id.value];
+    hold.target = held_place(moved.rest, hold.target - hold.rest, moved.basis, moved.weights);
+    hold.rest = moved.rest;
+  }
+  for (const CopiedVertex& copied : step.copied) {
+    clear_hold(copied.id);
+    if (held[copied.source] != Held::kNot) set_hold(copied.id, Hold(holds[copied.source.value]));
+    piece_of[copied.id] = piece_of[copied.source];
+  }
+}
+
+/// Whether a tet that may have changed has.
+bool DeformableBody::State::differs(const TetMesh& mesh, TetId t) const {
+  const bool was_live = t.value < tets.size() && tets[t][0].is_valid(), is_live = mesh.is_live(t);
+  if (!was_live || !is_live) return was_live || is_live;
+  if (tets[t] != mesh.vertices(t) || regions[t] != mesh.region(t)) return true;
+  const auto is_new = [&](VertexId v) { return is_fresh[v.value] != 0; };
+  return std::any_of(tets[t].begin(), tets[t].end(), is_new);
+}
 
 Result<FollowReport> DeformableBody::follow(const Journal& journal, const TetMesh& mesh) {
   State& s = *state_;
   FollowReport report;
   if (journal.position() == s.position && journal.rewinds() == s.rewinds) return report;
   const bool has_rewound = journal.rewinds() != s.rewinds;
-  detail::Touched touched;
+  detail::Rewind rewind;
+  if (has_rewound) rewind.begin(s);
+  if (Status status = s.attributes.follow(journal, mesh); !status) return status.error();
+  const auto vertex_slots = std::max(mesh.vertex_slots(), static_cast<std::uint32_t>(s.rest.size()));
+  const auto tet_slots = std::max(mesh.tet_slots(), static_cast<std::uint32_t>(s.tets.size()));
+  s.ensure(vertex_slots, tet_slots);
+  s.is_touched_tet.ensure(tet_slots);
+  s.is_fresh.ensure(vertex_slots);
+  s.has_changed_star.ensure(vertex_slots);
   if (has_rewound) {
-    touched = differences(s, mesh);
+    s.attributes.forget_undone();  // a later step may be the same as one undone, but momenta are others by then
+    rewind.compare(s, mesh);
   } else {
     for (std::size_t i = s.position; i < journal.position(); ++i) {
-      touched.add(journal.step(i));
-      hand_on_holds(journal.step(i), s.holds);
+      s.note(journal.step(i));
+      s.hand_on(journal.step(i));
     }
   }
-  if (Status status = s.attributes.follow(journal, mesh); !status) return status.error();
+  s.drop_lost_pulls(mesh);
   s.position = journal.position();
   s.rewinds = journal.rewinds();
-  touched.sort();
-  s.replace(mesh, touched, has_rewound, report);
-  s.release_lost_holds();
-  std::erase_if(touched.fresh,
-                [&](std::uint32_t v) { return v >= mesh.vertex_slots() || !s.order.moves(VertexId(v)); });
-  report.fresh_vertices = touched.fresh.size();
-  s.stale_pieces = std::max(s.stale_pieces, 1U);
-  s.relax(touched.fresh, 4);
+  s.remove_touched(mesh, report);
+  s.put_fresh(mesh);
+  s.add_touched(mesh, report);
+  if (has_rewound) rewind.put_back(s);
+  s.settle_changed();
+  s.ensure(mesh.vertex_slots(), mesh.tet_slots());
+  s.finish_follow(report);
   return report;
 }
 
-/// Vertices that were there before an undo stay where the body has them.
-void DeformableBody::State::replace(const TetMesh& mesh, const detail::Touched& touched, bool has_rewound,
-                                    FollowReport& report) {
-  changed.clear();
+/// Leaves in `touched.tets` those that did change.
+void DeformableBody::State::remove_touched(const TetMesh& mesh, FollowReport& report) {
+  for (const std::uint32_t t : touched.tets) is_touched_tet[t] = 0;
+  std::erase_if(touched.tets, [&](std::uint32_t t) { return !differs(mesh, TetId(t)); });
   for (const std::uint32_t t : touched.tets) report.removed_tets += remove_tet(TetId(t)) ? 1U : 0U;
-  ensure(mesh);
-  for (const std::uint32_t slot : touched.vertices) {
+}
+
+void DeformableBody::State::put_fresh(const TetMesh& mesh) {
+  for (const std::uint32_t slot : touched.fresh) {
     const VertexId v(slot);
+    is_fresh[slot] = 0;
     if (!mesh.is_live(v)) continue;
-    const bool is_fresh = std::binary_search(touched.fresh.begin(), touched.fresh.end(), slot);
     rest[v] = mesh.rest(v);
-    if (!has_rewound || is_fresh) places[slot] = mesh.current(v);
+    places[slot] = held[v] == Held::kRigidly ? holds[slot].target : mesh.current(v);
     round_place(v);
   }
+}
+
+void DeformableBody::State::add_touched(const TetMesh& mesh, FollowReport& report) {
   for (const std::uint32_t t : touched.tets) report.added_tets += add_tet(mesh, TetId(t)) ? 1U : 0U;
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  for (const std::uint32_t v : changed) settle_vertex(VertexId(v));
+}
+
+void DeformableBody::State::settle_changed() {
+  for (const std::uint32_t v : changed) {
+    has_changed_star[v] = 0;
+    settle_vertex(VertexId(v));
+  }
+  changed.clear();
+}
+
+/// What was put in place goes towards its balance.
+void DeformableBody::State::finish_follow(FollowReport& report) {
+  release_lost_holds();
+  std::erase_if(touched.fresh, [&](std::uint32_t v) { return v >= places.size() || !order.moves(VertexId(v)); });
+  report.fresh_vertices = touched.fresh.size();
+  stale_pieces = std::max(stale_pieces, 1U);
+  relax(touched.fresh, 4);
+  touched.tets.clear();
+  touched.fresh.clear();
 }
 
 void DeformableBody::State::release_lost_holds() {
-  std::erase_if(holds, [&](const auto& hold) { return !is_live(VertexId(hold.first)); });
+  std::erase_if(holds, [&](const auto& hold) {
+    const VertexId v(hold.first);
+    if (is_live(v)) return false;
+    lost_holds[hold.first] = hold.second;
+    if (v.value < held.size()) held[v] = Held::kNot;
+    return true;
+  });
+}
+
+/// What pulled at a vertex that died does not pull at the one that has its slot now.
+void DeformableBody::State::drop_lost_pulls(const TetMesh& mesh) {
   for (Pull& pull : pulls) {
     for (unsigned i = 0; i < 4; ++i) {
-      if (pull.weights[i] != 0 && !is_live(pull.vertices[i])) pull.stiffness = 0;
+      if (pull.weights[i] == 0) continue;
+      const VertexId v = pull.vertices[i];
+      if (!mesh.is_live(v) || is_fresh[v.value] == static_cast<std::uint8_t>(Fresh::kNew)) pull.stiffness = 0;
     }
   }
 }

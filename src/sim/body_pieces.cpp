@@ -29,10 +29,10 @@ std::uint32_t flood(DeformableBody::State& s, VertexId seed, std::uint32_t piece
   return count;
 }
 
-/// The turning that a piece needs besides its own, about its centre: inertia · ω = the angular momentum that is
-/// missing.
-Vec3 turn_for(const Vec3& missing, const Mat3& inertia) {
-  const Eigen::FullPivLU<Mat3> lu(inertia);
+/// The turning ω that a piece needs besides its own, about its centre: what it adds to the angular momentum is linear
+/// in it, although it moves the places too.
+Vec3 turn_for(const Vec3& missing, const Mat3& by_turn) {
+  const Eigen::FullPivLU<Mat3> lu(by_turn);
   return lu.isInvertible() ? Vec3(lu.solve(missing)) : Vec3(Vec3::Zero());
 }
 
@@ -55,14 +55,34 @@ void DeformableBody::State::label_pieces() {
 void DeformableBody::State::label_stale_pieces() {
   constexpr std::size_t kVerticesPerStep = 20000;
   if (stale_pieces > 0 && stale_pieces++ > places.size() / kVerticesPerStep) label_pieces();
-  for (Piece& piece : pieces) piece.is_free = true;
+  find_free_pieces();
+}
+
+/// What comes off wakes as a whole: it falls at once.
+void DeformableBody::State::find_free_pieces() {
+  std::vector<bool> was_free;
+  for (Piece& piece : pieces) {
+    was_free.push_back(piece.is_free);
+    piece.is_free = true;
+  }
   for (const auto& [v, hold] : holds) pieces[piece_of[VertexId(v)]].is_free = false;
-  for (const detail::PullTerm& term : terms) {
+  for (const Pull& pull : pulls) {
     for (unsigned i = 0; i < 4; ++i) {
-      if (term.weights[i] != 0) pieces[piece_of[VertexId(term.vertices[i])]].is_free = false;
+      if (pull.weights[i] != 0 && pull.stiffness > 0) pieces[piece_of[pull.vertices[i]]].is_free = false;
     }
   }
-  has_free_piece = std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.is_free; });
+  has_free_piece = false;
+  bool came_off = false;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    has_free_piece |= pieces[i].is_free;
+    came_off |= pieces[i].is_free && !was_free[i];
+  }
+  if (!came_off) return;
+  for (std::uint32_t v = 0; v < places.size(); ++v) {
+    if (!is_live(VertexId(v))) continue;
+    const std::uint32_t i = piece_of[VertexId(v)];
+    if (pieces[i].is_free && !was_free[i]) order.wake(VertexId(v));
+  }
 }
 
 /// What each piece's momentum must be after a substep of h, and its angular momentum about its centre.
@@ -93,7 +113,7 @@ void DeformableBody::State::correct_motion(double h) {
   if (!has_free_piece) return;
   struct Found {
     Vec3 momentum = Vec3::Zero(), centre = Vec3::Zero(), spin = Vec3::Zero(), shift = Vec3::Zero(), turn = Vec3::Zero();
-    Mat3 inertia = Mat3::Zero();
+    Mat3 by_turn = Mat3::Zero();  // Σ m (r² − r rᵀ) + h (r pᵀ − r·p): arms r, momenta p
   };
   std::vector<Found> found(pieces.size());
   for_each_awake([&](std::uint32_t slot) {
@@ -109,12 +129,14 @@ void DeformableBody::State::correct_motion(double h) {
     const Vec3 arm = places[slot] - middle - found[i].centre, p = momentum_of(VertexId(slot));
     found[i].momentum += p;
     found[i].spin += arm.cross(p);
-    found[i].inertia += mass_of(VertexId(slot)) * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+    const double m = mass_of(VertexId(slot));
+    found[i].by_turn += (m * arm.squaredNorm() - h * arm.dot(p)) * Mat3::Identity();
+    found[i].by_turn += arm * (h * p - m * arm).transpose();
   });
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (!pieces[i].is_free || pieces[i].mass == 0) continue;
     found[i].shift = (pieces[i].momentum - found[i].momentum) / pieces[i].mass;
-    found[i].turn = turn_for(pieces[i].spin - found[i].spin, found[i].inertia);
+    found[i].turn = turn_for(pieces[i].spin - found[i].spin, found[i].by_turn);
   }
   for_each_awake([&](std::uint32_t slot) {
     const VertexId v(slot);

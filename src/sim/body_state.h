@@ -19,13 +19,16 @@ namespace detail {
 struct Hold {
   double stiffness = 0;
   Vec3 target = Vec3::Zero();
+  Vec3 rest = Vec3::Zero();  ///< the vertex' place in the rest shape that the target is for
   [[nodiscard]] bool is_rigid() const { return !(stiffness < kRigid); }
   static constexpr double kRigid = 1e30;
 };
 
+enum class Held : std::uint8_t { kNot, kBySpring, kRigidly };
+
 /// A part of the body that hangs together through vertices.
 struct Piece {
-  bool is_free = true;  ///< nothing holds or pulls it
+  bool is_free = false;  ///< nothing holds or pulls it
   double mass = 0;
   Vec3 momentum = Vec3::Zero(), centre = Vec3::Zero(), spin = Vec3::Zero();  ///< as they must be; centre: mass · place
 };
@@ -33,13 +36,10 @@ struct Piece {
 /// A pull as the descent sees it, limits in kg L/s².
 [[nodiscard]] PullTerm term_of(const Pull& pull, const Vec3& middle, double unit);
 
-/// The tets and vertices that stand otherwise than at the last `follow`.
+/// What may stand otherwise than at the last `follow`, each once, in the order in which it was found.
 struct Touched {
-  std::vector<std::uint32_t> tets, vertices;
-  std::vector<std::uint32_t> fresh;  ///< vertices that were put where they are
-
-  void add(const Step& step);
-  void sort();  ///< ascending, each once
+  std::vector<std::uint32_t> tets;
+  std::vector<std::uint32_t> fresh;  ///< vertices that the rest shape has anew, or elsewhere
 };
 
 }  // namespace detail
@@ -63,8 +63,12 @@ struct DeformableBody::State {
   Attributes attributes;  // mass and momentum of the vertices: kept through every edit
   AttributeId mass_id, momentum_id;
   std::map<std::uint32_t, detail::Hold> holds;
+  std::map<std::uint32_t, detail::Hold> lost_holds;  // of vertices that died: undo may bring them back
+  IdArray<VertexId, detail::Held> held;              // what `holds` says
   std::vector<Pull> pulls;
   Vec3 middle = Vec3::Zero();  // that single-precision places count from
+  double extent = 0;           // of the body along its longest axis, when `middle` was found
+  double drifted = 0;          // the most that anything has moved since
 
   // the descent
   detail::Stars stars;
@@ -82,8 +86,14 @@ struct DeformableBody::State {
   bool has_free_piece = false;
   unsigned stale_pieces = 0;  // `advance`s since tets changed; 0: none did
 
-  std::size_t position = 0;            // in the journal
-  std::vector<std::uint32_t> changed;  // vertices whose stars `follow` changed
+  std::size_t position = 0;  // in the journal
+
+  // of one `follow`
+  detail::Touched touched;
+  std::vector<std::uint32_t> changed;          // vertices whose stars changed
+  ZeroedArray<std::uint8_t> is_touched_tet;    // scratch, zero between calls
+  ZeroedArray<std::uint8_t> is_fresh;          // likewise, by vertex: `Fresh`
+  ZeroedArray<std::uint8_t> has_changed_star;  // likewise
 
   [[nodiscard]] bool is_live(VertexId v) const { return v.value < places.size() && stars.of(v).lanes > 0; }
   [[nodiscard]] double unit() const { return options.length_unit; }
@@ -106,15 +116,34 @@ struct DeformableBody::State {
   [[nodiscard]] detail::Descent descent();
   void round_place(VertexId v);
 
+  void set_hold(VertexId v, const detail::Hold& hold);
+  void clear_hold(VertexId v);
+  /// Where a held vertex is to be that is now at `rest`, a mean of the rest places in `basis`: those of them that are
+  /// held shift it as they are shifted, for the others `shift` counts.
+  [[nodiscard]] Vec3 held_place(const Vec3& rest, const Vec3& shift, const TetVertices& basis,
+                                const std::array<double, 4>& weights) const;
+
   // building and following (body_follow.cpp)
   void build(const TetMesh& mesh);
-  void ensure(const TetMesh& mesh);
+  void ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots);
   void lay_out_stars();
-  void replace(const TetMesh& mesh, const detail::Touched& touched, bool has_rewound, FollowReport& report);
+  void note(const Step& step);
+  void note_tet(TetId t);
+  enum class Fresh : std::uint8_t { kMoved = 1, kNew };
+  void note_fresh(VertexId v, Fresh how);
+  void hand_on(const Step& step);
+  void remove_touched(const TetMesh& mesh, FollowReport& report);
+  void put_fresh(const TetMesh& mesh);
+  void add_touched(const TetMesh& mesh, FollowReport& report);
+  void settle_changed();
+  void finish_follow(FollowReport& report);
   bool add_tet(const TetMesh& mesh, TetId t);
   bool remove_tet(TetId t);
+  void note_changed(const TetVertices& vertices);
   void settle_vertex(VertexId v);
   void release_lost_holds();
+  void drop_lost_pulls(const TetMesh& mesh);
+  [[nodiscard]] bool differs(const TetMesh& mesh, TetId t) const;
 
   // moving on (body_advance.cpp)
   template <class Visit>
@@ -136,6 +165,7 @@ struct DeformableBody::State {
   // free pieces (body_pieces.cpp)
   void label_pieces();
   void label_stale_pieces();
+  void find_free_pieces();
   void expect_motion(double h);
   void correct_motion(double h);
 };

@@ -76,7 +76,8 @@ std::size_t SweepOrder::awake_count() const {
   return awake_[0].size() + awake_[1].size() + awake_[2].size();
 }
 
-/// Takes out what sleeps or is in another part now, and merges in what woke, by rank.
+/// Takes out what sleeps or is in another part now, and merges in what woke, by rank. A slot that died and came back
+/// since may have another rank in place.
 void SweepOrder::refresh() {
   if (!is_stale_) return;
   is_stale_ = false;
@@ -89,6 +90,7 @@ void SweepOrder::refresh() {
       return static_cast<std::size_t>(parts_[VertexId(v)]) == part && heat_[VertexId(v)] > 0;
     };
     std::erase_if(list, [&](std::uint32_t v) { return !belongs(v); });
+    if (!std::is_sorted(list.begin(), list.end(), is_before)) std::sort(list.begin(), list.end(), is_before);
     const auto kept = static_cast<std::ptrdiff_t>(list.size());
     std::copy_if(woken_.begin(), woken_.end(), std::back_inserter(list), belongs);
     std::inplace_merge(list.begin(), list.begin() + kept, list.end(), is_before);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -113,6 +114,10 @@ class Attributes {
   /// journal stands before the position of construction; nothing changes. Cost: O(steps to go and the last one before
   /// them).
   Status follow(const Journal& journal, const TetMesh& mesh);
+
+  /// Forgets the values that undo took away: a redo then hands on the values of its time like a step never seen. For
+  /// values that change between steps, as momenta do. Cost: O(steps undone).
+  void forget_undone() { records_.erase(records_.begin() + static_cast<std::ptrdiff_t>(applied_), records_.end()); }
 
  private:
   class Stepper;
