@@ -110,7 +110,8 @@ Eigen::SparseMatrix<double> BlockMatrix::to_lower() const {
 }
 
 std::vector<std::uint32_t> BlockMatrix::elimination_order() const {
-  Eigen::SparseMatrix<double> graph(rows(), rows());
+  const auto size = static_cast<Eigen::Index>(rows());
+  Eigen::SparseMatrix<double> graph(size, size);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(columns_.size());
   for (std::uint32_t row = 0; row < rows(); ++row) {
