@@ -289,7 +289,7 @@ bool DeformableBody::is_finite() const {
 }
 
 std::size_t DeformableBody::active_vertices() const {
-  return state_->order.awake_count();
+  return state_->order.count_awake();
 }
 
 std::uint64_t DeformableBody::hash() const {
@@ -301,8 +301,8 @@ std::uint64_t DeformableBody::hash() const {
     hash.add(state_->mass_of(v));
     const Vec3 momentum = state_->momentum_of(v);
     for (unsigned i = 0; i < 3; ++i) {
-      hash.add(state_->places[slot][i]);
-      hash.add(momentum[i]);
+      hash.add(state_->places[slot].data()[i]);
+      hash.add(momentum.data()[i]);
     }
   }
   return hash.value();

@@ -42,7 +42,7 @@ detail::Descent DeformableBody::State::descent() {
 
 void DeformableBody::State::round_place(VertexId v) {
   const Vec3 p = places[v.value] - middle;
-  for (unsigned i = 0; i < 3; ++i) floats[std::size_t{4} * v.value + i] = static_cast<float>(p[i]);
+  for (unsigned i = 0; i < 3; ++i) floats[std::size_t{4} * v.value + i] = static_cast<float>(p.data()[i]);
 }
 
 /// Single precision is spent on the body's size, not on where it is; where something holds a part of it, on that part,
@@ -149,8 +149,8 @@ void DeformableBody::State::begin_substep(double h) {
     float* x = floats.data() + std::size_t{4} * slot;
     for (unsigned i = 0; i < 3; ++i) {
       motion.start[i] = x[i];
-      motion.aim[i] = static_cast<float>(way[i] + fall[i]);
-      x[i] = static_cast<float>(static_cast<double>(x[i]) + way[i]);
+      motion.aim[i] = static_cast<float>(way.data()[i] + fall.data()[i]);
+      x[i] = static_cast<float>(static_cast<double>(x[i]) + way.data()[i]);
     }
   });
 }
@@ -181,7 +181,7 @@ void DeformableBody::State::end_substep(double h, double& fastest) {
     const float* x = floats.data() + std::size_t{4} * slot;
     const auto& start = motions[v].start;
     Vec3 way;
-    for (unsigned i = 0; i < 3; ++i) way[i] = static_cast<double>(x[i]) - static_cast<double>(start[i]);
+    for (unsigned i = 0; i < 3; ++i) way.data()[i] = static_cast<double>(x[i]) - static_cast<double>(start[i]);
     places[slot] += way;
     set_momentum(v, mass[slot] / h * way);
     const double way2 = way.squaredNorm();
@@ -211,7 +211,7 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const std::array<float, 3> after = place_of(vertices[k]);
     for (unsigned i = 0; i < 3; ++i) {
-      places[vertices[k]][i] += static_cast<double>(after[i]) - static_cast<double>(before[k][i]);
+      places[vertices[k]].data()[i] += static_cast<double>(after[i]) - static_cast<double>(before[k][i]);
     }
     round_place(VertexId(vertices[k]));
   }

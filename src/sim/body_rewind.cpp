@@ -13,8 +13,8 @@ namespace detail {
 std::array<std::uint32_t, 3> RestGrid::cell_of(const Vec3& point) const {
   std::array<std::uint32_t, 3> cell;
   for (unsigned i = 0; i < 3; ++i) {
-    const double width = box_.hi[i] - box_.lo[i];
-    const double share = width > 0 ? (point[i] - box_.lo[i]) / width : 0.0;
+    const double width = box_.hi.data()[i] - box_.lo.data()[i];
+    const double share = width > 0 ? (point.data()[i] - box_.lo.data()[i]) / width : 0.0;
     cell[i] = static_cast<std::uint32_t>(std::clamp(share * side_, 0.0, side_ - 1.0));
   }
   return cell;

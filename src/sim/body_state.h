@@ -108,7 +108,7 @@ struct DeformableBody::State {
   }
   void set_momentum(VertexId v, const Vec3& momentum) {
     double* p = momenta() + std::size_t{3} * v.value;
-    for (unsigned i = 0; i < 3; ++i) p[i] = momentum[i];
+    for (unsigned i = 0; i < 3; ++i) p[i] = momentum.data()[i];
   }
   [[nodiscard]] std::array<Vec3, 4> corners_at_rest(TetId t) const;
   [[nodiscard]] std::array<Vec3, 4> corners(TetId t) const;

@@ -44,7 +44,7 @@ class Projection {
       weights_[v] = 1 / s_.masses()[v];
       const Motion& motion = s_.motions[VertexId(v)];
       for (unsigned i = 0; i < 3; ++i) {
-        x_[v][i] = static_cast<double>(motion.start[i]) + static_cast<double>(motion.aim[i]);
+        x_[v].data()[i] = static_cast<double>(motion.start[i]) + static_cast<double>(motion.aim[i]);
       }
     });
     for (std::uint32_t t = 0; t < s_.tets.size(); ++t) {
@@ -127,7 +127,7 @@ class Projection {
   void finish() {
     s_.for_each_awake([&](std::uint32_t v) {
       if (!x_[v].allFinite()) return;
-      for (unsigned i = 0; i < 3; ++i) s_.floats[std::size_t{4} * v + i] = static_cast<float>(x_[v][i]);
+      for (unsigned i = 0; i < 3; ++i) s_.floats[std::size_t{4} * v + i] = static_cast<float>(x_[v].data()[i]);
     });
   }
 
