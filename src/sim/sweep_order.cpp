@@ -76,6 +76,12 @@ std::size_t SweepOrder::awake_count() const {
   return awake_[0].size() + awake_[1].size() + awake_[2].size();
 }
 
+std::size_t SweepOrder::count_awake() const {
+  if (!is_stale_) return awake_count();
+  return static_cast<std::size_t>(
+      std::count_if(heat_.begin(), heat_.end(), [](std::uint8_t heat) { return heat > 0; }));
+}
+
 /// Takes out what sleeps or is in another part now, and merges in what woke, by rank. A slot that died and came back
 /// since may have another rank in place.
 void SweepOrder::refresh() {

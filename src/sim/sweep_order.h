@@ -38,7 +38,10 @@ class SweepOrder {
   /// Brings the lists below up to date. To be called before they are used. Cost: O(awake) where anything changed.
   void refresh();
   [[nodiscard]] std::span<const std::uint32_t> awake(Part part) const { return awake_[static_cast<std::size_t>(part)]; }
+  /// As the lists have it.
   [[nodiscard]] std::size_t awake_count() const;
+  /// As it is now. Cost: O(slots) where anything changed since `refresh`.
+  [[nodiscard]] std::size_t count_awake() const;
   /// After a step: what moved stays awake and wakes what is around it; what has not for a while falls asleep.
   /// `moved(vertex)` tells which it was; `rest(vertex)` hears of those that fall asleep.
   template <class Moved, class Rest>
