@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes for tests, as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace incise_test {
+
+using Json = nlohmann::ordered_json;
+
+/// The least that a scene needs, and a number of frames.
+inline Json least_scene() {
+  return {{"format", "incise-scene"},
+          {"version", 1},
+          {"model", {{"box", {{"cells", {2, 2, 2}}}}}},
+          {"length_unit", 0.1},
+          {"frames", 10}};
+}
+
+inline Json blade_stroke(double begin, double end) {
+  return {{"name", "across"},
+          {"edges",
+           {{{"t", begin}, {"points", {{0.43, -0.2, -0.2}, {0.43, -0.2, 1.2}}}},
+            {{"t", end}, {"points", {{0.46, 1.2, -0.2}, {0.46, 1.2, 1.2}}}}}}};
+}
+
+/// A scene with every key that there is but `frames` and `model.file`, small and quick.
+inline Json full_scene() {
+  Json scene = least_scene();
+  scene.erase("frames");
+  scene["name"] = "everything";
+  scene["model"] = {{"box", {{"cells", {3, 2, 2}}, {"size", {1, 1, 1}}, {"origin", {0, 0, 0}}, {"jitter", 0.05}}},
+                    {"regions", {{{"region", 3}, {"below", {0, 0, 1, 0.4}}}}}};
+  scene["materials"] = {
+      {"default", {{"density", 900}, {"young", 8000}, {"poisson", 0.3}, {"toughness", 5}, {"cut_friction", 0.1}}},
+      {"regions",
+       {{{"region", 3}, {"density", 1100}, {"young", 2e4}, {"poisson", 0.4}, {"toughness", 2}, {"cut_friction", 0}}}}};
+  scene["gravity"] = {0, 0.5, -9.81};
+  scene["damping"] = 1.5;
+  scene["attachments"] = {{{"below", {1, 0, 0, 0.01}}, {"surface", true}},
+                          {{"box", {{"low", {0.9, -1, -1}}, {"high", {2, 2, 2}}}}, {"stiffness", 500}},
+                          {{"ball", {{"centre", {0, 0, 0}}, {"radius", 0.1}}}}};
+  scene["tools"] = {
+      {{"name", "table"}, {"plane", {0, 0, 2, -1}}},
+      {{"ball", {{"radius", 0.2}, {"centre", {0.5, 0.5, 1.3}}}}},
+      {{"ball",
+        {{"radius", 0.2}, {"path", {{{"t", 0.1}, {"centre", {0, 0, 2}}}, {{"t", 0.2}, {"centre", {0, 0, 1}}}}}}}},
+      {{"rod", {{"radius", 0.1}, {"from", {0, 0, 1.2}}, {"to", {1, 0, 1.2}}}}},
+      {{"rod",
+        {{"radius", 0.1},
+         {"path",
+          {{{"t", 0.1}, {"from", {0, 0, 2}}, {"to", {1, 0, 2}}},
+           {{"t", 0.3}, {"from", {0, 0, 1}}, {"to", {1, 0, 1}}}}}}}}};
+  scene["hooks"] = {{{"name", "hook"},
+                     {"radius", 0.3},
+                     {"stiffness", 50},
+                     {"path", {{{"t", 0.05}, {"position", {1, 1, 1}}}, {{"t", 0.25}, {"position", {1, 1.2, 1.3}}}}}}};
+  scene["strokes"] = {{{"blade", {blade_stroke(0, 0.4)}}, {"start", 0.1}, {"stretch", 0.5}, {"pause", 0.05}},
+                      {{"blade",
+                        {{{"name", "rigid"},
+                          {"edge", {{0, 0, -0.2}, {0, 0, 1.2}}},
+                          {"poses",
+                           {{{"t", 0.5}, {"position", {-0.2, 0.6, 0}}, {"orientation", {1, 0, 0, 0}}},
+                            {{"t", 0.7}, {"position", {1.2, 0.6, 0}}, {"orientation", {0.6, 0, 0, 0.8}}}}}}}},
+                       {"direction", {1, 0, 0}}}};
+  scene["duration"] = 1;
+  scene["frame_seconds"] = 0.02;
+  scene["settle"] = {{"frames", 5}, {"speed", 1e-3}};
+  scene["seed"] = 12345678901234567890U;
+  scene["solver"] = {{"relaxation", "position-based"}, {"substeps", 3}, {"iterations", 2}};
+  scene["cut"] = {{"snap", 0.1}, {"profile", "incise"}};
+  scene["maintain"] = {{"merge", true}, {"improve", true}, {"work_units", 5000}};
+  scene["contact"] = {{"stiffness", 100}, {"flat_height", 0.1}};
+  return scene;
+}
+
+}  // namespace incise_test
