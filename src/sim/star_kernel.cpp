@@ -152,7 +152,7 @@ void pick_all(const Descent& d, std::span<const std::uint32_t> order) {
   for (const std::uint32_t v : order) {
     float* x = d.places + std::size_t{4} * v;
     const Motion& motion = d.motions[v];
-    if (!(value_at_start(whole_quadratic(d, v), motion, x) < 0)) continue;
+    if (!motion.leaps || !(value_at_start(whole_quadratic(d, v), motion, x) < 0)) continue;
     put(motion.start[0], motion.start[1], motion.start[2], x);
   }
 }

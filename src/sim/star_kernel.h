@@ -21,6 +21,7 @@ struct Motion {
   double diagonal = 0;                      ///< of the star's Laplacian
   float reach = 0;                          ///< the most that one visit may move it
   std::uint32_t first_pull = 0, pulls = 0;  ///< its part of the list of pull uses
+  bool leaps = false;                       ///< its velocity takes it far enough to do harm
 };
 
 /// A pull as the descent sees it; places against the body's middle.
