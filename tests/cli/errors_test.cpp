@@ -57,9 +57,6 @@ TEST_F(CliErrors, usage) {
 
 TEST_F(CliErrors, what_is_not_built_says_so) {
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--picture=p.png"}, 2, "not built yet");
-  const Outcome outcome = run({"simulate", cube_, "--frames", "3"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("not built yet"), std::string::npos) << outcome.err;
 }
 
 TEST_F(CliErrors, improve_has_no_flags_of_cutting) {
