@@ -202,10 +202,162 @@ TEST(SceneInput, lifts_the_blade_between_strokes) {
   int strokes = 0;
   bool was_there = false;
   for (std::uint64_t frame = 0; frame < scene.frames; ++frame) {
+    const bool is_there = scene_input(scene, frame).blade.has_value();
+    strokes += is_there && !was_there ? 1 : 0;
+    was_there = is_there;
+  }
+  EXPECT_EQ(strokes, 2);
+}
+
+TEST(SceneInput, has_tools_and_hooks_while_they_are_there) {
+  const app::Scene scene = parsed(full_scene());  // 0.02 s a frame
+  const FrameInput before = scene_input(scene, 1);
+  EXPECT_EQ(before.tools.size(), 3U);  // a plane, a ball and a rod that stay
+  EXPECT_TRUE(before.hooks.empty());
+  const FrameInput now = scene_input(scene, 6);  // ends at 0.14
+  ASSERT_EQ(now.tools.size(), 5U);
+  EXPECT_TRUE(std::get<BallTool>(now.tools[2]).centre.isApprox(Vec3(0, 0, 1.6), 1e-12));
+  EXPECT_TRUE(std::get<RodTool>(now.tools[4]).to.isApprox(Vec3(1, 0, 1.8), 1e-12));
+  ASSERT_EQ(now.hooks.size(), 1U);
+  EXPECT_TRUE(now.hooks[0].position.isApprox(Vec3(1, 1.09, 1.135), 1e-12));
+  EXPECT_TRUE(scene_input(scene, 13).hooks.empty());
+}
+
+// --- the model
+
+TEST(SceneModel, is_painted_and_held_by_place) {
+  const app::Scene scene = parsed(full_scene());
+  const Result<app::LoadedMesh> loaded = app::load_model(scene);
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  const TetMesh& mesh = loaded->mesh;
+  EXPECT_EQ(mesh.tet_count(), 72U);
+  int painted = 0;
+  mesh.for_each_tet([&](TetId t) { painted += mesh.region(t) == 3 ? 1 : 0; });
+  EXPECT_GT(painted, 0);
+  EXPECT_LT(painted, 72);
+  EXPECT_EQ(find_attached(mesh, scene.attachments[0]).size(), 9U);  // the side x = 0
+  EXPECT_EQ(find_attached(mesh, scene.attachments[2]).size(), 1U);
+  const app::Attachment all{app::HalfSpace{Vec3(0, 0, 1), 9}, false};
+  const app::Attachment skin{app::HalfSpace{Vec3(0, 0, 1), 9}, true};
+  EXPECT_EQ(find_attached(mesh, all).size(), 36U);
+  EXPECT_EQ(find_attached(mesh, skin).size(), 34U);
+}
+
+TEST(SceneModel, says_which_attachment_holds_nothing) {
+  Json json = least_scene();
+  json["attachments"] = {{{"below", {0, 0, 1, 0.1}}}, {{"below", {0, 0, 1, -5}}}};
+  const app::Scene scene = parsed(json);
+  const auto made = make_simulation(scene, std::move(app::load_model(scene)->mesh));
+  ASSERT_FALSE(made.ok());
+  EXPECT_NE(made.error().message.find("attachments[1] holds no vertex"), std::string::npos);
+}
+
+TEST(SceneModel, is_looked_for_beside_the_scene) {
+  const Folder folder;
+  folder.write("cube.mesh", cube_mesh(1));
+  Json json = least_scene();
+  json["model"] = {{"file", "cube.mesh"}};
+  Result<app::Scene> scene = app::read_scene(folder.write("s.json", json.dump()));
+  ASSERT_TRUE(scene.ok());
+  EXPECT_EQ(app::load_model(*scene)->mesh.tet_count(), 6U);
+  scene->model.file = "none.mesh";
+  EXPECT_NE(app::load_model(*scene).error().message.find("none.mesh\": no such file"), std::string::npos);
+}
+
+// --- schema and reader
+
+Json schema() {
+  return Json::parse(app::read_text_file(INCISE_DOCS "/scene.schema.json", 1U << 20U).value());
+}
+
+std::set<std::string> keys_of(const Json& object) {
+  std::set<std::string> keys;
+  for (const auto& item : object.at("properties").items()) keys.insert(item.key());
+  return keys;
+}
+
+/// The keys that the reader names where it meets one that it does not know.
+std::set<std::string> known_at(const std::string& pointer) {
+  Json scene = full_scene();
+  Json& object = scene[Json::json_pointer(pointer)];
+  object["nonsense"] = 1;
+  const std::string error = error_of(scene);
+  const std::string mark = "has the unknown key \"nonsense\"; known here: ";
+  EXPECT_NE(error.find(mark), std::string::npos) << pointer << ": " << error;
+  std::set<std::string> keys;
+  std::istringstream list(error.substr(error.find(mark) + mark.size()));
+  for (std::string key; list >> key;) keys.insert(key.substr(0, key.find(',')));
+  return keys;
+}
+
+std::size_t count_objects(const Json& node) {
+  std::size_t count = node.is_object() && node.contains("properties") ? 1 : 0;
+  for (const Json& child : node) count += child.is_structured() ? count_objects(child) : 0;
+  return count;
+}
+
+TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
+  const std::vector<std::pair<std::string, std::string>> places = {
+      {"", ""},
+      {"/model", "/properties/model"},
+      {"/model/box", "/properties/model/properties/box"},
+      {"/model/regions/0", "/properties/model/properties/regions/items"},
+      {"/materials", "/properties/materials"},
+      {"/materials/default", "/properties/materials/properties/default"},
+      {"/materials/regions/0", "/properties/materials/properties/regions/items"},
+      {"/attachments/0", "/properties/attachments/items"},
+      {"/attachments/1/box", "/properties/attachments/items/properties/box"},
+      {"/attachments/2/ball", "/properties/attachments/items/properties/ball"},
+      {"/tools/0", "/properties/tools/items"},
+      {"/tools/1/ball", "/properties/tools/items/properties/ball"},
+      {"/tools/2/ball/path/0", "/properties/tools/items/properties/ball/properties/path/items"},
+      {"/tools/3/rod", "/properties/tools/items/properties/rod"},
+      {"/tools/4/rod/path/0", "/properties/tools/items/properties/rod/properties/path/items"},
+      {"/hooks/0", "/properties/hooks/items"},
+      {"/hooks/0/path/0", "/properties/hooks/items/properties/path/items"},
+      {"/strokes/0", "/properties/strokes/items"},
+      {"/strokes/0/blade/0", "/$defs/stroke/oneOf/0"},
+      {"/strokes/0/blade/0/edges/0", "/$defs/stroke/oneOf/0/properties/edges/items"},
+      {"/strokes/1/blade/0", "/$defs/stroke/oneOf/1"},
+      {"/strokes/1/blade/0/poses/0", "/$defs/stroke/oneOf/1/properties/poses/items"},
+      {"/settle", "/properties/settle"},
+      {"/solver", "/properties/solver"},
+      {"/cut", "/properties/cut"},
+      {"/maintain", "/properties/maintain"},
+      {"/contact", "/properties/contact"},
+  };
+  const Json root = schema();
+  EXPECT_EQ(count_objects(root), places.size());
+  for (const auto& [scene, in_schema] : places) {
+    const Json& object = root.at(Json::json_pointer(in_schema));
+    EXPECT_EQ(object.at("additionalProperties"), false) << in_schema;
+    EXPECT_EQ(keys_of(object), known_at(scene)) << scene;
+  }
+}
+
+std::string page() {
+  return app::read_text_file(INCISE_DOCS "/scenes.md", 1U << 20U).value();
+}
+
+/// All keys of all objects of the schema.
+void add_keys(const Json& node, std::set<std::string>& keys) {
+  if (node.is_object() && node.contains("properties")) keys.merge(keys_of(node));
+  for (const Json& child : node) {
+    if (child.is_structured()) add_keys(child, keys);
+  }
+}
+
+TEST(SceneSchema, has_no_key_that_the_page_about_scenes_leaves_out) {
+  std::set<std::string> keys;
+  add_keys(schema(), keys);
+  keys.erase("orientation");  // of blade files, which have a page of their own
+  EXPECT_GE(keys.size(), 60U);
+  const std::string text = page();
+  for (const std::string& key : keys) {
     const std::array<std::string, 4> ways = {"`" + key, "." + key + "`", "." + key + "[]", "\"" + key + "\""};
-    const bool is_there = std::any_of(ways.begin(), ways.end(),
-                                      [&](const std::string& way) { return text.find(way) != std::string::npos; });
-    EXPECT_TRUE(is_there) << key;
+    EXPECT_TRUE(std::any_of(ways.begin(), ways.end(), [&](const std::string& way) {
+      return text.find(way) != std::string::npos;
+    })) << key;
   }
 }
 
