@@ -23,6 +23,9 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   report.active_vertices = s.order.awake_count();
   s.for_each_awake([&](std::uint32_t v) { s.travelled[VertexId(v)] = 0; });
   const double h = dt / s.options.substeps;
+  if (s.options.coarse) s.lattice.prepare(s, h);
+  const bool is_watched = 2 * report.active_vertices > s.order.moving_count();  // what flies apart is awake
+  const detail::EnergyNow before = is_watched ? s.energy_now() : detail::EnergyNow();
   for (unsigned i = 0; i < s.options.substeps; ++i) {
     s.expect_motion(h);
     s.begin_substep(h);
@@ -30,6 +33,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
     s.end_substep(h, report.fastest);
     s.correct_motion(h);
   }
+  if (is_watched) s.keep_energy(before);
   s.drifted += report.fastest * dt;
   report.fastest *= s.unit();
   s.fall_asleep();
@@ -172,9 +176,18 @@ void DeformableBody::State::descend(double h) {
     return;
   }
   visit([&](std::span<const std::uint32_t> part) { detail::pick_starts(d, part); });
+  if (options.coarse) lattice.correct(*this);
   for (unsigned i = 0; i < options.iterations; ++i) {
     visit([&](std::span<const std::uint32_t> part) { detail::sweep(d, part, i % 2 == 1); });
   }
+}
+
+/// The slopes of the energy in all awake vertices, 4 numbers per vertex slot.
+void DeformableBody::State::find_slopes(float* slopes) {
+  const detail::Descent d = descent();
+  const auto find = [&](Part part) { detail::find_slopes(d, order.awake(part), slopes); };
+  pair.run([&] { find(Part::kFirst); }, [&] { find(Part::kSecond); });
+  find(Part::kSeam);
 }
 
 /// Places are kept in double precision: the descent tells by how much they changed.

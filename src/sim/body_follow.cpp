@@ -76,6 +76,7 @@ void DeformableBody::State::note_changed(const TetVertices& vertices) {
 void DeformableBody::State::settle_vertex(VertexId v) {
   detail::Motion& motion = motions[v];
   motion.diagonal = stars.diagonal(v);
+  lattice.locate(v, rest[v]);
   double sum = 0;
   std::uint32_t count = 0;
   detail::SweepOrder::for_each_neighbour(stars, v, [&](VertexId n) {

@@ -8,6 +8,7 @@
 #include "incise/core/parallel.h"
 #include "incise/mesh/attributes.h"
 #include "incise/sim/body.h"
+#include "sim/coarse_lattice.h"
 #include "sim/star_kernel.h"
 #include "sim/stars.h"
 #include "sim/sweep_order.h"
@@ -25,6 +26,13 @@ struct Hold {
 };
 
 enum class Held : std::uint8_t { kNot, kBySpring, kRigidly };
+
+/// The energy of a body in the middle of things, in kg L²/s², not counted from rest.
+struct EnergyNow {
+  double total = 0;
+  double motion = 0;  ///< its kinetic part, without that of the drift of free pieces
+  double noise = 0;   ///< by which rounding may change it
+};
 
 /// A part of the body that hangs together through vertices.
 struct Piece {
@@ -78,6 +86,7 @@ struct DeformableBody::State {
   std::vector<detail::PullTerm> terms;
   std::vector<detail::PullUse> uses;
   IdArray<VertexId, float> travelled;  // squared, in this `advance`
+  detail::CoarseLattice lattice;
   WorkPair pair;
 
   // free pieces
@@ -85,6 +94,10 @@ struct DeformableBody::State {
   std::vector<detail::Piece> pieces;
   bool has_free_piece = false;
   unsigned stale_pieces = 0;  // `advance`s since tets changed; 0: none did
+
+  // scratch of `energy_now`
+  std::vector<std::uint32_t> resting;  // live vertices that are held or asleep
+  std::vector<Vec3> drifts;            // by piece: mean velocity of the free ones
 
   std::size_t position = 0;  // in the journal
 
@@ -158,9 +171,15 @@ struct DeformableBody::State {
   void list_uses();
   void begin_substep(double h);
   void descend(double h);
+  void find_slopes(float* slopes);
   void end_substep(double h, double& fastest);
   void relax(std::span<const std::uint32_t> vertices, unsigned sweeps);
   void fall_asleep();
+
+  // energy (body_energy.cpp)
+  void find_drifts(std::vector<Vec3>& found) const;
+  [[nodiscard]] detail::EnergyNow energy_now();
+  void keep_energy(const detail::EnergyNow& before);
 
   // free pieces (body_pieces.cpp)
   void label_pieces();

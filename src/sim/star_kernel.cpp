@@ -31,6 +31,7 @@ struct StarSum {
   inline explicit StarSum(const Lanes& zero)
       : gx(zero), gy(zero), gz(zero), xx(zero), xy(zero), xz(zero), yy(zero), yz(zero), zz(zero) {}
 
+  template <bool kWithCurvature>
   inline void add(const StarBlock& block, const float* places, const Lanes& x, const Lanes& y, const Lanes& z) {
     Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
     load_points(places, block.a.data(), ax, ay, az);
@@ -49,22 +50,27 @@ struct StarSum {
     gx = gx + (swell * nx + (to_a * ax + (to_b * bx + to_c * cx)));
     gy = gy + (swell * ny + (to_a * ay + (to_b * by + to_c * cy)));
     gz = gz + (swell * nz + (to_a * az + (to_b * bz + to_c * cz)));
+    if constexpr (!kWithCurvature) return;
     const Lanes kx = bulk * nx, ky = bulk * ny, kz = bulk * nz;
     xx = xx + kx * nx, xy = xy + kx * ny, xz = xz + kx * nz;
     yy = yy + ky * ny, yz = yz + ky * nz, zz = zz + kz * nz;
   }
 };
 
-inline Quadratic star_quadratic(const Descent& d, const Star& star, const float* place) {
+/// Inlined wherever it is called: the sweep is too slow with a call for each vertex.
+template <bool kWithCurvature>
+[[gnu::always_inline]] inline Quadratic star_quadratic(const Descent& d, const Star& star, const float* place) {
   const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
   StarSum sum(all(0));
   const StarBlock* block = d.blocks + star.first;
-  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) sum.add(*block, d.places, x, y, z);
+  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block)
+    sum.template add<kWithCurvature>(*block, d.places, x, y, z);
   float s[12];
   sum_lanes(sum.gx, sum.gy, sum.gz, sum.xx, s);
+  const auto wide = [&](unsigned i) { return static_cast<double>(s[i]); };
+  if constexpr (!kWithCurvature) return {{wide(0), wide(1), wide(2)}, {}};
   sum_lanes(sum.xy, sum.xz, sum.yy, sum.yz, s + 4);
   sum_lanes(sum.zz, sum.zz, sum.zz, sum.zz, s + 8);
-  const auto wide = [&](unsigned i) { return static_cast<double>(s[i]); };
   return {{wide(0), wide(1), wide(2)}, {wide(3), wide(4), wide(5), wide(6), wide(7), wide(8)}};
 }
 
@@ -79,10 +85,11 @@ inline void add_inertia(const Motion& motion, const float* x, Quadratic& q) {
   q.curvature[5] += stiffness;
 }
 
-inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex) {
+template <bool kWithCurvature = true>
+[[gnu::always_inline]] inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex) {
   const Motion& motion = d.motions[vertex];
   const float* x = d.places + std::size_t{4} * vertex;
-  Quadratic q = star_quadratic(d, d.stars[vertex], x);
+  Quadratic q = star_quadratic<kWithCurvature>(d, d.stars[vertex], x);
   add_inertia(motion, x, q);
   if (motion.pulls > 0) add_pulls(d, motion, q);
   return q;
@@ -157,6 +164,48 @@ void pick_all(const Descent& d, std::span<const std::uint32_t> order) {
   }
 }
 
+void slopes_of_all(const Descent& d, std::span<const std::uint32_t> order, float* slopes) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
+    const std::array<double, 3> slope = whole_quadratic<false>(d, order[i]).slope;
+    put(static_cast<float>(slope[0]), static_cast<float>(slope[1]), static_cast<float>(slope[2]),
+        slopes + std::size_t{4} * order[i]);
+  }
+}
+
+/// A corner's share in a tet's energy: a quarter of what its volume takes, half of what its own edges do, so that all
+/// four make it up.
+inline double star_energy(const Descent& d, const Star& star, const float* place) {
+  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+  Lanes swelling = all(0), stretch = all(0);
+  const StarBlock* block = d.blocks + star.first;
+  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) {
+    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+    load_points(d.places, block->a.data(), ax, ay, az);
+    load_points(d.places, block->b.data(), bx, by, bz);
+    load_points(d.places, block->c.data(), cx, cy, cz);
+    ax = ax - x, ay = ay - y, az = az - z;
+    bx = bx - x, by = by - y, bz = bz - z;
+    cx = cx - x, cy = cy - y, cz = cz - z;
+    const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+    const Lanes half = load(block->bulk.data()) * volume6 * all(0.5F);
+    swelling = swelling + (half - load(block->pressure.data())) * volume6;
+    stretch = stretch + (load(block->to_a.data()) * (ax * ax + ay * ay + az * az) +
+                         (load(block->to_b.data()) * (bx * bx + by * by + bz * bz) +
+                          load(block->to_c.data()) * (cx * cx + cy * cy + cz * cz)));
+  }
+  float s[4];
+  sum_lanes(swelling, stretch, stretch, stretch, s);
+  return 0.25 * (static_cast<double>(s[0]) - static_cast<double>(s[1]));
+}
+
+void add_energies(const Descent& d, std::span<const std::uint32_t> order, double& sum) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
+    sum += star_energy(d, d.stars[order[i]], d.places + std::size_t{4} * order[i]);
+  }
+}
+
 void find_quadratic(const Descent& d, std::uint32_t vertex, Quadratic& quadratic) {
   quadratic = whole_quadratic(d, vertex);
 }
@@ -175,6 +224,8 @@ namespace detail {
 #if INCISE_WITH_HIGHWAY
 HWY_EXPORT(sweep_all);
 HWY_EXPORT(pick_all);
+HWY_EXPORT(slopes_of_all);
+HWY_EXPORT(add_energies);
 HWY_EXPORT(find_quadratic);
 #define INCISE_DISPATCH(function) HWY_DYNAMIC_DISPATCH(function)
 #else
@@ -190,7 +241,7 @@ PullState pull_state(const PullTerm& term, const Vec3& off) {
   return {slope * term.axis, term.stiffness};
 }
 
-static Vec3 off_target(const PullTerm& term, const float* places) {
+Vec3 off_target(const PullTerm& term, const float* places) {
   Vec3 off = -term.target;
   for (unsigned i = 0; i < 4; ++i) {
     if (term.weights[i] == 0) continue;
@@ -219,6 +270,16 @@ void sweep(const Descent& descent, std::span<const std::uint32_t> order, bool is
 
 void pick_starts(const Descent& descent, std::span<const std::uint32_t> order) {
   INCISE_DISPATCH(pick_all)(descent, order);
+}
+
+void find_slopes(const Descent& descent, std::span<const std::uint32_t> order, float* slopes) {
+  INCISE_DISPATCH(slopes_of_all)(descent, order, slopes);
+}
+
+double energy_share(const Descent& descent, std::span<const std::uint32_t> order) {
+  double sum = 0;
+  INCISE_DISPATCH(add_energies)(descent, order, sum);
+  return sum;
 }
 
 Quadratic quadratic_of(const Descent& descent, std::uint32_t vertex) {

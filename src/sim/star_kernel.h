@@ -66,6 +66,9 @@ struct PullState {
 /// `off`: from the target to the point.
 [[nodiscard]] PullState pull_state(const PullTerm& term, const Vec3& off);
 
+/// From a pull's target to its point as it stands.
+[[nodiscard]] Vec3 off_target(const PullTerm& term, const float* places);
+
 /// Adds what pulls a vertex to its quadratic.
 void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q);
 
@@ -74,6 +77,10 @@ void sweep(const Descent& descent, std::span<const std::uint32_t> order, bool is
 /// Puts vertices back to their start where they cost less there: light slivers would fly off where their velocity
 /// takes them.
 void pick_starts(const Descent& descent, std::span<const std::uint32_t> order);
+/// Writes the slopes of the energies of vertices, 4 numbers per vertex slot; moves nothing.
+void find_slopes(const Descent& descent, std::span<const std::uint32_t> order, float* slopes);
+/// The share of vertices in the elastic energy of their tets, not counted from rest.
+[[nodiscard]] double energy_share(const Descent& descent, std::span<const std::uint32_t> order);
 /// The quadratic of one vertex, its inertia and pulls included.
 [[nodiscard]] Quadratic quadratic_of(const Descent& descent, std::uint32_t vertex);
 

@@ -40,6 +40,7 @@ class SweepOrder {
   [[nodiscard]] std::span<const std::uint32_t> awake(Part part) const { return awake_[static_cast<std::size_t>(part)]; }
   /// As the lists have it.
   [[nodiscard]] std::size_t awake_count() const;
+  [[nodiscard]] std::size_t moving_count() const { return moving_; }  ///< awake or asleep
   /// As it is now. Cost: O(slots) where anything changed since `refresh`.
   [[nodiscard]] std::size_t count_awake() const;
   /// After a step: what moved stays awake and wakes what is around it; what has not for a while falls asleep.
