@@ -11,6 +11,8 @@
 // one small. usage: incise_soak strokes|models [--rounds N]
 //        incise_soak seeds FILE
 //        incise_soak describe|minimise strokes|models SEED...
+//        incise_soak simulate [--rounds N] [--frames N]
+//        incise_soak stability [--every N]
 //        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
 // INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
 // INCISE_SOAK_STROKES: `strokes` and `models` end after so many. A failure comes back with the seed that it
@@ -38,6 +40,8 @@
 #include "incise/mesh/validate.h"
 #include "soak/models.h"
 #include "soak/motion_soak.h"
+#include "soak/simulation_run.h"
+#include "soak/stability.h"
 #include "soak/watch.h"
 
 namespace incise::test {
@@ -58,6 +62,8 @@ struct Settings {
   double seconds = 0;
   unsigned rounds = 0;  // of made meshes
   unsigned strokes = 20;
+  unsigned frames = 2000;  // of a scene
+  unsigned every = 1;      // of so many combinations one is run
   std::size_t max_tets = SIZE_MAX;
   std::string only, skip;  // parts of file names
 };
@@ -436,6 +442,8 @@ int usage() {
       "usage: incise_soak strokes|models [--rounds N]\n"
       "       incise_soak seeds FILE\n"
       "       incise_soak describe|minimise strokes|models SEED...\n"
+      "       incise_soak simulate [--rounds N] [--frames N]\n"
+      "       incise_soak stability [--every N]\n"
       "       incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n");
   return 2;
 }
@@ -446,6 +454,10 @@ bool set(Settings& settings, const std::string& key, const char* value) {
     settings.rounds = number;
   } else if (key == "--strokes") {
     settings.strokes = number;
+  } else if (key == "--frames") {
+    settings.frames = number;
+  } else if (key == "--every") {
+    settings.every = std::max(1U, number);
   } else if (key == "--max-tets") {
     settings.max_tets = number;
   } else if (key == "--only") {
@@ -463,11 +475,19 @@ std::vector<fs::path> models_of(const std::string& kind) {
   return kind == "models" ? sound_models() : std::vector<fs::path>();
 }
 
+/// Without a limit, a hundred scenes.
+int soak_scenes(const Settings& settings) {
+  const std::uint64_t scenes = settings.rounds > 0 ? settings.rounds : (settings.seconds > 0 ? UINT64_MAX : 100);
+  return soak_simulations({settings.seed, scenes, settings.frames, settings.seconds});
+}
+
 int run_campaign(const std::string& kind, Settings settings) {
   if (const char* seconds = std::getenv("INCISE_SOAK_SECONDS")) settings.seconds = std::atof(seconds);
   if (const char* seed = std::getenv("INCISE_SOAK_SEED")) settings.seed = std::strtoull(seed, nullptr, 10);
   if (kind == "cuts") return soak_made_meshes(settings);
   if (kind == "corpus") return soak_corpus(settings);
+  if (kind == "stability") return soak_stability(settings.every);
+  if (kind == "simulate") return soak_scenes(settings);
   if (kind != "strokes" && kind != "models") return usage();
   MotionLimits limits{settings.seed, settings.rounds, 0, settings.seconds};
   if (const char* strokes = std::getenv("INCISE_SOAK_STROKES")) limits.strokes = std::strtoull(strokes, nullptr, 10);

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soak/simulation_run.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "geom/random.h"
+#include "incise/app/cut_job.h"
+#include "incise/mesh/attributes.h"
+#include "incise/mesh/bounds.h"
+#include "incise/mesh/validate.h"
+#include "soak/watch.h"
+
+namespace incise::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kG = 9.81;
+/// Light vertices that a stiff hook lets go of may well be fast; what flies apart is faster still, all of it.
+constexpr double kFastest = 100;      // m/s, besides free fall
+constexpr double kMeanSpeed = 5;      // m/s, likewise: of the mass
+constexpr double kEnergyGain = 2e-3;  // of weight by size, in a frame
+constexpr double kConserved = 1e-12;
+
+std::string number(double value) {
+  std::array<char, 40> text;
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+Simulation simulation_for(const SimulationCase& scene, unsigned threads) {
+  SimulationOptions options = scene.options;
+  options.body.threads = threads;
+  options.engine.threads = threads;
+  Simulation simulation = Simulation::create(TetMesh::build(make_body(scene.body)).value(), options).value();
+  if (scene.support == Support::kTable) return simulation;
+  const Box box = rest_bounds(simulation.mesh());
+  const double reach = box.lo.z() + 0.12 * (box.hi - box.lo).z();
+  simulation.mesh().for_each_vertex([&](VertexId v) {
+    if (simulation.mesh().rest(v).z() > reach) return;
+    (void)simulation.body().hold(v, scene.support == Support::kWall ? kInfinity : 20.0);
+  });
+  return simulation;
+}
+
+/// The sums of a random vector per vertex that follows the journal by itself.
+class ConservedSum {
+ public:
+  explicit ConservedSum(const Simulation& simulation) : attributes_(simulation.mesh()) {
+    id_ = *attributes_.add(simulation.mesh(), {"vector", Domain::kVertex, 3, Transfer::kConserve, {}, {}});
+    Random random(1);
+    const std::span<double> values = attributes_.values(id_);
+    simulation.mesh().for_each_vertex([&](VertexId v) {
+      for (std::size_t k = 0; k < 3; ++k) values[std::size_t{3} * v.value + k] = random.real(-1, 1);
+    });
+    first_ = sum();
+  }
+  /// How far the sum is off after what the journal has now, by the sum of all that is in it.
+  double drift(const Simulation& simulation) {
+    if (!attributes_.follow(simulation.engine().journal(), simulation.mesh())) return kInfinity;
+    const Vec3 now = sum();
+    const double drift = (now - first_).norm() / size_;
+    first_ = now;
+    return drift;
+  }
+
+ private:
+  Vec3 sum() {
+    Vec3 sum = Vec3::Zero();
+    size_ = 0;
+    const std::span<const double> values = attributes_.values(id_);
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
+      const Vec3 value(values[i], values[i + 1], values[i + 2]);
+      sum += value;
+      size_ += value.norm();
+    }
+    return sum;
+  }
+
+  Attributes attributes_;
+  AttributeId id_;
+  Vec3 first_ = Vec3::Zero();
+  double size_ = 0;
+};
+
+class SimulationRun {
+ public:
+  SimulationRun(const SimulationCase& scene, unsigned threads)
+      : scene_(scene),
+        simulation_(simulation_for(scene, threads)),
+        hands_(scene),
+        topology_(validate(simulation_.mesh(), ValidateLevel::kTopology)),
+        geometry_(validate(simulation_.mesh(), ValidateLevel::kGeometry)),
+        sum_(simulation_),
+        mass_(simulation_.body().mass()) {
+    const Box box = rest_bounds(simulation_.mesh());
+    size_ = (box.hi - box.lo).norm() * scene.options.body.length_unit;
+    floor_ = box.lo.z();
+  }
+
+  SimulationOutcome run() {
+    for (; out_.frames < scene_.frames && out_.fault.empty(); ++out_.frames) step();
+    stop_watching();
+    out_.hash = simulation_.hash();
+    out_.tets = simulation_.mesh().tet_count();
+    return out_;
+  }
+
+ private:
+  void fail(const std::string& what) {
+    if (out_.fault.empty()) out_.fault = "frame " + std::to_string(out_.frames) + ": " + what;
+  }
+  void step() {
+    watch("seed " + std::to_string(scene_.seed) + ", frame " + std::to_string(out_.frames));
+    FrameInput input = hands_.at(out_.frames, simulation_);
+    const bool is_alone = !input.blade && input.hooks.empty() && input.tools.empty();
+    if (scene_.support == Support::kTable) input.tools.emplace_back(PlaneTool{Vec3::UnitZ(), floor_});
+    const std::size_t position = simulation_.engine().journal().position();
+    const Result<FrameReport> report = simulation_.frame(input);
+    if (!report.ok()) return fail(report.error().message);
+    const bool has_changed = simulation_.engine().journal().position() != position;
+    check_motion(*report, is_alone && !has_changed && scene_.support != Support::kTable);
+    if (has_changed) check_mesh();
+    if (was_cutting_ && !input.blade) end_stroke();
+    was_cutting_ = input.blade.has_value();
+  }
+
+  /// Sometimes taken back and done again. The lift itself is in the frame before.
+  void end_stroke() {
+    check_geometry();
+    const auto ended = std::find_if(scene_.strokes.begin(), scene_.strokes.end(), [&](const FrameStroke& stroke) {
+      return stroke.first + stroke.edges.size() == out_.frames;
+    });
+    if (ended == scene_.strokes.end() || !ended->is_undone || !simulation_.undo()) return;
+    check_mesh();
+    check_geometry();
+    if (!simulation_.redo()) fail("what was undone cannot be done again");
+    check_mesh();
+    check_geometry();
+    energy_.reset();
+  }
+
+  void check_motion(const FrameReport& report, bool is_alone) {
+    const DeformableBody& body = simulation_.body();
+    if (!body.is_finite()) return fail("not finite");
+    const double fall = kG * (out_.frames + 1) * scene_.options.frame_seconds;
+    out_.fastest = std::max(out_.fastest, report.relax.fastest);
+    if (!(report.relax.fastest < kFastest + fall)) fail("a vertex flies at " + number(report.relax.fastest) + " m/s");
+    const BodyEnergy now = body.energy();
+    const double speed = std::sqrt(2 * now.kinetic / mass_);
+    if (!(speed < kMeanSpeed + fall)) fail("the body flies apart, at " + number(speed) + " m/s");
+    const double energy = now.elastic + now.kinetic + now.potential + now.held;
+    if (is_alone && energy_) {
+      const double gain = (energy - *energy_) / (mass_ * kG * size_);
+      out_.energy_gain = std::max(out_.energy_gain, gain);
+      if (!(gain < kEnergyGain)) fail("left alone it has gained " + number(gain) + " of its weight by its size");
+    }
+    energy_ = energy;
+    const double drift = std::abs(body.mass() - mass_) / mass_;
+    if (!(drift < kConserved * (1 + out_.frames))) fail("the mass is off by " + number(drift));
+  }
+
+  void check_mesh() {
+    check(topology_, validate(simulation_.mesh(), ValidateLevel::kTopology));
+    if (const double drift = sum_.drift(simulation_); !(drift < kConserved)) {
+      fail("a conserved vector is off by " + number(drift));
+    }
+  }
+  void check_geometry() {
+    const ValidityReport now = validate(simulation_.mesh(), ValidateLevel::kGeometry);
+    check(geometry_, now);
+    const double drift = std::abs(now.volume - geometry_.volume) / geometry_.volume;
+    if (!(drift <= app::volume_tolerance(scene_.options.engine))) fail("the volume is off by " + number(drift));
+  }
+  void check(const ValidityReport& input, const ValidityReport& now) {
+    const ValidityChange change = compare_with_input(input, now);
+    for (std::size_t kind = 0; kind < kViolationKinds; ++kind) {
+      if (change.grown[kind] == 0) continue;
+      fail("+" + std::to_string(change.grown[kind]) + " " + std::string(name_of(static_cast<ViolationKind>(kind))));
+    }
+  }
+
+  const SimulationCase& scene_;
+  Simulation simulation_;
+  Hands hands_;
+  ValidityReport topology_, geometry_;
+  ConservedSum sum_;
+  double mass_ = 0, size_ = 0, floor_ = 0;
+  bool was_cutting_ = false;
+  std::optional<double> energy_;
+  SimulationOutcome out_;
+};
+
+/// Whether a scene ends as it did, once more and on two threads.
+std::string replay_fault(const SimulationCase& scene, const SimulationOutcome& first) {
+  for (const unsigned threads : {1U, 2U}) {
+    const SimulationOutcome again = run_simulation(scene, threads);
+    if (again.hash != first.hash || again.fault != first.fault) {
+      return "run again on " + std::to_string(threads) + " threads it ends otherwise";
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+SimulationOutcome run_simulation(const SimulationCase& scene, unsigned threads) {
+  return SimulationRun(scene, threads).run();
+}
+
+int soak_simulations(const SimulationLimits& limits) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  std::uint64_t scenes = 0, frames = 0, strokes = 0, failures = 0;
+  double fastest = 0, gain = 0;
+  for (; scenes < limits.scenes && !(limits.seconds > 0 && elapsed() >= limits.seconds); ++scenes) {
+    const SimulationCase scene = random_simulation(limits.first_seed + scenes, limits.frames);
+    SimulationOutcome outcome = run_simulation(scene, 1);
+    frames += outcome.frames;
+    strokes += scene.strokes.size();
+    fastest = std::max(fastest, outcome.fastest);
+    gain = std::max(gain, outcome.energy_gain);
+    if (scenes % 10 == 0 && outcome.fault.empty()) outcome.fault = replay_fault(scene, outcome);
+    if (outcome.fault.empty()) continue;
+    ++failures;
+    std::printf("FAILED seed %llu: %s\n  %s\n", static_cast<unsigned long long>(scene.seed), outcome.fault.c_str(),
+                describe(scene).c_str());
+  }
+  std::printf(
+      "simulate: %llu scenes, %llu frames, %llu strokes, %llu failures, fastest %.3g m/s, gain of energy %.2g, %.0f "
+      "s\n",
+      static_cast<unsigned long long>(scenes), static_cast<unsigned long long>(frames),
+      static_cast<unsigned long long>(strokes), static_cast<unsigned long long>(failures), fastest, gain, elapsed());
+  return failures == 0 ? 0 : 1;
+}
+
+}  // namespace incise::test
