@@ -24,12 +24,24 @@ std::array<Vec3, 4> DeformableBody::State::corners(TetId t) const {
   return {places[v[0].value], places[v[1].value], places[v[2].value], places[v[3].value]};
 }
 
-detail::Element DeformableBody::State::element(TetId t) const {
-  const Material& material = materials.of(regions[t]);
+namespace {
+
+/// Lamé's parameters as the energy has them, in kg/(L s²).
+struct Stiffness {
+  double lambda, mu;
+};
+Stiffness stiffness_of(const Material& material, double unit) {
   // Pa are kg/(m s²): by metres per unit they become kg/(L s²). The energy's own λ is Lamé's + μ: only then are small
   // strains Hooke's (Smith et al. 2018, section 3.4).
-  const double mu = material.mu() * unit(), lambda = material.lambda() * unit() + mu;
-  return detail::element_of(corners_at_rest(t), lambda, mu, options.thinnest);
+  const double mu = material.mu() * unit;
+  return {material.lambda() * unit + mu, mu};
+}
+
+}  // namespace
+
+detail::Element DeformableBody::State::element(TetId t) const {
+  const Stiffness stiffness = stiffness_of(materials.of(regions[t]), unit());
+  return detail::element_of(corners_at_rest(t), stiffness.lambda, stiffness.mu, options.thinnest);
 }
 
 void DeformableBody::State::ensure(std::uint32_t slots, std::uint32_t tet_slots) {
@@ -48,10 +60,16 @@ void DeformableBody::State::ensure(std::uint32_t slots, std::uint32_t tet_slots)
 
 /// A tet that was flat at load has no part in the body.
 bool DeformableBody::State::add_tet(const TetMesh& mesh, TetId t) {
-  if (!mesh.is_live(t) || !(mesh.rest_volume6(t) > 0)) return false;
+  if (!mesh.is_live(t)) return false;
   tets[t] = mesh.vertices(t);
+  const std::array<Vec3, 4> p = corners_at_rest(t);
+  if (!(detail::six_volumes(p) > 0)) {
+    tets[t][0] = VertexId();
+    return false;
+  }
   regions[t] = mesh.region(t);
-  stars.add(t, tets[t], element(t));
+  const Stiffness stiffness = stiffness_of(materials.of(regions[t]), unit());
+  stars.add(t, tets[t], detail::slopes_of(p, stiffness.lambda, stiffness.mu, options.thinnest));
   note_changed(tets[t]);
   return true;
 }
@@ -145,10 +163,14 @@ void DeformableBody::State::build(const TetMesh& mesh) {
   std::vector<double> mass(mesh.vertex_slots());
   const double volume_unit = unit() * unit() * unit();
   mesh.for_each_tet([&](TetId t) {
-    if (!(mesh.rest_volume6(t) > 0)) return;
     tets[t] = mesh.vertices(t);
+    const double volume6 = detail::six_volumes(corners_at_rest(t));
+    if (!(volume6 > 0)) {
+      tets[t][0] = VertexId();
+      return;
+    }
     regions[t] = mesh.region(t);
-    const double share = materials.of(regions[t]).density * volume_unit * mesh.rest_volume6(t) / 24;
+    const double share = materials.of(regions[t]).density * volume_unit * volume6 / 24;
     for (const VertexId v : tets[t]) mass[v.value] += share;
   });
   lay_out_stars();
@@ -304,6 +326,7 @@ void DeformableBody::State::put_fresh(const TetMesh& mesh) {
 
 void DeformableBody::State::add_touched(const TetMesh& mesh, FollowReport& report) {
   for (const std::uint32_t t : touched.tets) report.added_tets += add_tet(mesh, TetId(t)) ? 1U : 0U;
+  for (const std::uint32_t v : changed) stars.close(VertexId(v));
 }
 
 void DeformableBody::State::settle_changed() {

@@ -20,7 +20,7 @@ double softening(const std::array<Vec3, 4>& p, const std::array<Vec3, 4>& slope,
 
 }  // namespace
 
-Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest) {
+Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest) {
   std::array<Vec3, 4> slope;
   for (unsigned i = 0; i < 4; ++i) slope[i] = volume_slope(p, i);
   const double volume6 = six_volumes(p);
@@ -32,6 +32,11 @@ Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, doubl
   }
   element.bulk = scale * lambda / (6 * volume6);
   element.pressure = scale * (lambda + mu) / 6;
+  return element;
+}
+
+Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest) {
+  Element element = slopes_of(p, lambda, mu, thinnest);
   element.offset = energy_of(element, p);
   return element;
 }

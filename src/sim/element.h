@@ -26,6 +26,8 @@ struct Element {
 /// A tet thinner than `thinnest` of its longest edge is as soft as a layer that thick would be: slivers would hold the
 /// descent up for hundreds of sweeps otherwise.
 [[nodiscard]] Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest);
+/// The same, without its offset.
+[[nodiscard]] Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest);
 
 /// Six volumes of a tet, positive where it is not turned inside out.
 inline double six_volumes(const std::array<Vec3, 4>& p) {

@@ -6,8 +6,13 @@
 namespace incise::inline v0 {
 namespace detail {
 
+static constexpr std::uint32_t kHole = 0xFFFFFFFFU;  // in place of an owner
+
 void Stars::ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots) {
-  if (vertex_slots > stars_.size()) stars_.resize(vertex_slots);
+  if (vertex_slots > stars_.size()) {
+    stars_.resize(vertex_slots);
+    holes_.resize(vertex_slots);
+  }
   if (tet_slots > lane_of_.size()) lane_of_.resize(tet_slots);
 }
 
@@ -38,10 +43,10 @@ void Stars::lay_out(VertexId vertex, std::uint32_t tets) {
   for (std::uint32_t lane = 0; lane < star.blocks * kLanes; ++lane) clear_lane(star, lane, vertex);
 }
 
-/// Moves a full star to where it has one block more.
+/// Moves a full star to where it has one block more; a new one begins with two.
 void Stars::grow(Star& star, VertexId vertex) {
   const Star old = star;
-  star.blocks = static_cast<std::uint16_t>(old.blocks + 1);
+  star.blocks = static_cast<std::uint16_t>(old.blocks + (old.blocks == 0 ? 2 : 1));
   star.first = take(star.blocks);
   for (std::uint32_t i = 0; i < old.blocks; ++i) {
     blocks_[star.first + i] = blocks_[old.first + i];
@@ -56,8 +61,13 @@ void Stars::grow(Star& star, VertexId vertex) {
 void Stars::add(TetId tet, const TetVertices& vertices, const Element& element) {
   for (unsigned i = 0; i < 4; ++i) {
     Star& star = stars_[vertices[i]];
-    if (star.lanes == star.blocks * kLanes) grow(star, vertices[i]);
-    const std::uint32_t lane = star.lanes++;
+    std::uint32_t lane = star.lanes;
+    if (Holes& holes = holes_[vertices[i]]; holes.count > 0) {
+      lane = fill_hole(star, holes);
+    } else {
+      if (star.lanes == star.blocks * kLanes) grow(star, vertices[i]);
+      ++star.lanes;
+    }
     const std::uint32_t at = star.first + lane / kLanes, slot = lane % kLanes;
     const auto& [a, b, c] = kSideCorners[i];
     StarBlock& block = blocks_[at];
@@ -91,12 +101,35 @@ void Stars::move_lane(const Star& star, std::uint32_t from, std::uint32_t to) {
   lane_of_[TetId(moved / 4)][moved % 4] = static_cast<std::uint16_t>(to);
 }
 
+std::uint32_t Stars::fill_hole(const Star& star, Holes& holes) const {
+  std::uint32_t lane = holes.from;
+  while (owner(star, lane) != kHole) ++lane;
+  holes.from = static_cast<std::uint16_t>(lane + 1);
+  --holes.count;
+  return lane;
+}
+
 void Stars::remove(TetId tet, const TetVertices& vertices) {
   for (unsigned i = 0; i < 4; ++i) {
-    Star& star = stars_[vertices[i]];
-    const std::uint32_t lane = lane_of_[tet][i], last = star.lanes - 1U;
-    if (lane != last) move_lane(star, last, lane);
-    clear_lane(star, last, vertices[i]);
+    const std::uint16_t lane = lane_of_[tet][i];
+    owners_[stars_[vertices[i]].first + lane / kLanes][lane % kLanes] = kHole;
+    Holes& holes = holes_[vertices[i]];
+    holes.from = holes.count == 0 ? lane : std::min(holes.from, lane);
+    ++holes.count;
+  }
+}
+
+void Stars::close(VertexId vertex) {
+  Star& star = stars_[vertex];
+  Holes& holes = holes_[vertex];
+  while (holes.count > 0) {
+    const std::uint32_t last = star.lanes - 1U;
+    if (owner(star, last) == kHole) {
+      --holes.count;
+    } else {
+      move_lane(star, last, fill_hole(star, holes));
+    }
+    clear_lane(star, last, vertex);
     --star.lanes;
   }
 }

@@ -32,8 +32,8 @@ struct Star {
   [[nodiscard]] std::uint32_t used_blocks() const { return (lanes + kLanes - 1) / kLanes; }
 };
 
-/// All stars of a body. Stars grow and shrink as tets come and go, in O(1) each; blocks of stars that outgrew their
-/// place are used again.
+/// All stars of a body. Stars grow and shrink as tets come and go, in O(1) each, and are read and written as little as
+/// can be: where a body is cut they are cold. Blocks of stars that outgrew their place are used again.
 class Stars {
  public:
   /// Makes room for as many slots.
@@ -42,8 +42,11 @@ class Stars {
   void lay_out(VertexId vertex, std::uint32_t tets);
   /// Adds the four views of a tet that is not there.
   void add(TetId tet, const TetVertices& vertices, const Element& element);
-  /// Removes the four views of a tet that is there; `vertices` as they were when it was added.
+  /// Takes the four views of a tet out that is there; `vertices` as they were when it was added. It leaves holes, which
+  /// tets that are added next fill: nothing but these two calls may be made before `close` was called for each vertex.
   void remove(TetId tet, const TetVertices& vertices);
+  /// Closes the holes of a star. Cost: O(its tets) where there are any.
+  void close(VertexId vertex);
 
   [[nodiscard]] const StarBlock* blocks() const { return blocks_.data(); }
   [[nodiscard]] const Star& of(VertexId vertex) const { return stars_[vertex]; }
@@ -64,6 +67,12 @@ class Stars {
     return owners_[star.first + lane / kLanes][lane % kLanes];
   }
   [[nodiscard]] std::uint32_t take(std::uint16_t count);
+  /// Of a star's lanes: how many are holes, and one before which there are none.
+  struct Holes {
+    std::uint16_t count = 0, from = 0;
+  };
+
+  [[nodiscard]] std::uint32_t fill_hole(const Star& star, Holes& holes) const;
   void grow(Star& star, VertexId vertex);
   void clear_lane(const Star& star, std::uint32_t lane, VertexId vertex);
   void move_lane(const Star& star, std::uint32_t from, std::uint32_t to);
@@ -71,6 +80,7 @@ class Stars {
   GrowArray<StarBlock> blocks_;
   GrowArray<Owners> owners_;  // by lane: tet · 4 + corner
   IdArray<VertexId, Star> stars_;
+  IdArray<VertexId, Holes> holes_;
   IdArray<TetId, std::array<std::uint16_t, 4>> lane_of_;  // of each corner's view in its star
   std::vector<std::vector<std::uint32_t>> free_;          // first blocks, by how many they are
 };

@@ -109,12 +109,16 @@ TEST(BodySleep, WhatIsAsleepWakes) {
     SCOPED_TRACE(name);
     MovingBody moving = held_beam(damped());
     fall_asleep(moving);
-    const double before = sag(moving, kBeam);
     cause(moving);
     moving.advance();
-    EXPECT_GT(moving.body().active_vertices(), 5U);
+    EXPECT_GE(moving.body().active_vertices(), 5U);
+    const std::vector<Vec3> before = moving.state().places;
     moving.advance(5);
-    EXPECT_GT(std::abs(sag(moving, kBeam) - before), 1e-8 * before);
+    double furthest = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      furthest = std::max(furthest, (moving.state().places[i] - before[i]).norm());
+    }
+    EXPECT_GT(furthest, 1e-7);
   }
 }
 
@@ -388,7 +392,7 @@ struct BeamInSi {
   std::vector<Vec3> figures;  ///< energies, mass, momentum, forces, a velocity, a stiffness
 };
 
-BeamInSi beam_in(double unit) {
+BeamInSi beam_in(double unit, bool is_cut) {
   const Beam beam{{12, 4, 4}, Vec3(0.09, 0.03, 0.03) / unit};
   BodyOptions options = damped(1);
   options.length_unit = unit;
@@ -408,7 +412,7 @@ BeamInSi beam_in(double unit) {
   limited.limit = 0.01;
   EXPECT_TRUE(moving.body().set_pulls({pull, limited}).ok());
   moving.advance(10);
-  moving.cut_plane(Vec3(0, 0, 1), 0.0131 / unit);
+  if (is_cut) moving.cut_plane(Vec3(0, 0, 1), 0.0131 / unit);
   moving.advance(10);
   BeamInSi result;
   const DeformableBody& body = moving.body();
@@ -426,11 +430,19 @@ BeamInSi beam_in(double unit) {
   return result;
 }
 
+/// Where the unit is a power of two even the rounding is the same: no number in the solver has a length of its own.
+TEST(Body, ABeamInAUnitOfAPowerOfTwoHasTheSameBits) {
+  const BeamInSi metres = beam_in(1, false), small = beam_in(0x1p-10, false);
+  ASSERT_EQ(metres.places.size(), small.places.size());
+  for (std::size_t i = 0; i < metres.places.size(); ++i) EXPECT_EQ(metres.places[i], small.places[i]) << i;
+  for (std::size_t i = 0; i < metres.figures.size(); ++i) EXPECT_EQ(metres.figures[i], small.figures[i]) << i;
+}
+
 TEST(Body, ABeamInMillimetresBehavesAsOneInMetres) {
-  const BeamInSi metres = beam_in(1), millimetres = beam_in(1e-3);
+  const BeamInSi metres = beam_in(1, true), millimetres = beam_in(1e-3, true);
   ASSERT_EQ(metres.places.size(), millimetres.places.size());
   for (std::size_t i = 0; i < metres.places.size(); ++i) {
-    EXPECT_LT((metres.places[i] - millimetres.places[i]).norm(), 2e-4 * 0.03) << i;
+    EXPECT_LT((metres.places[i] - millimetres.places[i]).norm(), 2e-4 * 0.09) << i;
   }
   for (std::size_t i = 0; i < metres.figures.size(); ++i) {  // they are differences of places, or nearly so
     const Vec3 &a = metres.figures[i], &b = millimetres.figures[i];

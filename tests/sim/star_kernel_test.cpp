@@ -67,6 +67,7 @@ struct Scene {
     motion.weight = random.real(10, 1000);
     motion.diagonal = stars.diagonal(v);
     motion.reach = 0.1F;
+    motion.leaps = true;
     return motion;
   }
   void add_pulls() {
@@ -212,8 +213,9 @@ TEST(StarKernel, VerticesThatCostLessAtTheirStartGoBackThere) {
     const Vec3 from(static_cast<double>(start[0]), static_cast<double>(start[1]), static_cast<double>(start[2]));
     const double at_start = energy_at(s, v, from), here = energy_at(s, v, s.place(v));
     if (std::abs(at_start - here) < 1e-5 * std::abs(here)) continue;
+    s.motions[slot].leaps = slot % 4 != 0;  // those that hardly move are not asked
     detail::pick_starts(s.descent(), std::span(&slot, 1));
-    EXPECT_EQ(s.place(v) == from, at_start < here);
+    EXPECT_EQ(s.place(v) == from, at_start < here && s.motions[slot].leaps);
     ++(s.place(v) == from ? back : there);
   }
   EXPECT_GT(back, 5U);
