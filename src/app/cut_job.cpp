@@ -25,9 +25,7 @@ Result<StrokeReport> cut_whole(RecordedEngine& engine, const Stroke& stroke, det
 /// What a stroke took beyond its steps.
 StageTimes rest_of(const StageTimes& whole, const std::vector<StageTimes>& steps) {
   StageTimes rest = whole;
-  for (const StageTimes& step : steps) {
-    for (std::size_t i = 0; i < rest.ms.size(); ++i) rest.ms[i] -= step.ms[i];
-  }
+  for (const StageTimes& step : steps) rest -= step;
   return rest;
 }
 

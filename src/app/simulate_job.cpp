@@ -8,6 +8,7 @@
 #include "app/job_internal.h"
 #include "incise/app/frame_series.h"
 #include "incise/app/mesh_export.h"
+#include "incise/app/scene_hand.h"
 #include "incise/app/scene_simulation.h"
 
 namespace incise::inline v0 {
@@ -19,7 +20,7 @@ constexpr std::uint32_t kSettleChunk = 30;  // frames between two questions whet
 class SceneRunner {
  public:
   SceneRunner(const Scene& scene, const SimulateJob& job, RecordedSimulation simulation, SimulationReport& report)
-      : scene_(scene), job_(job), simulation_(std::move(simulation)), report_(report) {}
+      : scene_(scene), job_(job), simulation_(std::move(simulation)), report_(report), hand_(scene) {}
 
   Status settle();
   Status run_frames(FrameSeries* series, const LoadedMesh& loaded);
@@ -42,6 +43,7 @@ class SceneRunner {
   const SimulateJob& job_;
   RecordedSimulation simulation_;
   SimulationReport& report_;
+  SceneHand hand_;
   bool had_blade_ = false;
   bool was_stopped_ = false;
 };
@@ -87,6 +89,7 @@ Status SceneRunner::run_frame(std::uint64_t index) {
     return error;
   }
   add(*frame, input);
+  hand_.feel(index, simulation().haptic_snapshot());
   had_blade_ = input.blade.has_value();
   return {};
 }
@@ -133,6 +136,7 @@ void SceneRunner::measure() {
   if (had_blade_) detail::measure_cut(end.mesh(), report_.job);
   detail::measure_after(end.mesh(), find_components(end.mesh()), volume_tolerance(scene_.options.engine), report_.job);
   report_.energy_after = end.body().energy();
+  report_.haptics = hand_.figures();
   report_.inverted_tets = end.body().count_inverted();
   report_.is_finite = end.body().is_finite();
   report_.state_hash = end.hash();

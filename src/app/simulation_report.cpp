@@ -27,6 +27,15 @@ Json json_of(const ForceFigures& forces) {
           {"contacts", forces.contacts}};
 }
 
+Json json_of(const HapticFigures& haptics) {
+  return {{"ticks", haptics.ticks},
+          {"peak_force", encode(haptics.peak_force)},
+          {"energy_minimum", encode(haptics.sampled_minimum)},
+          {"held_energy_minimum", encode(haptics.held_minimum)},
+          {"removed_energy", encode(haptics.removed_energy)},
+          {"tick_us", encode(haptics.compute_us)}};
+}
+
 Json json_of(const TimeShare& share) {
   return {{"cd", share.collision}, {"gm", share.geometry}, {"rlx", share.relax}, {"rd", share.render}};
 }
@@ -59,6 +68,7 @@ std::string to_json(const SimulationReport& report) {
   root["share"] = json_of(share_of(report.job.times));
   root["energy"] = {{"before", json_of(report.energy_before)}, {"after", json_of(report.energy_after)}};
   root["forces"] = json_of(report.forces);
+  root["haptics"] = json_of(report.haptics);
   root["body"] = {{"inverted_tets", report.inverted_tets}, {"is_finite", report.is_finite}};
   root["state_hash"] = hash_text(report.state_hash);
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -81,6 +91,11 @@ std::string to_text(const SimulationReport& report) {
     text +=
         fmt::format("blade: at most {:.3g} N on {:.3g} mm of its edge; {:.3g} J of fracture, {:.3g} J of friction\n",
                     f.peak_force, 1e3 * f.engaged_length, f.fracture_work, f.friction_work);
+  }
+  if (report.haptics.peak_force > 0) {
+    text += fmt::format(
+        "a hand at 1 kHz: at most {:.3g} N; observed energy at least {:.3g} J; a tick takes {:.2g} us (99.9 %)\n",
+        report.haptics.peak_force, report.haptics.sampled_minimum, report.haptics.compute_us.p999);
   }
   if (f.peak_hook_force > 0) text += fmt::format("hooks: at most {:.3g} N\n", f.peak_hook_force);
   if (report.inverted_tets > 0) text += fmt::format("{} tets stand turned inside out\n", report.inverted_tets);

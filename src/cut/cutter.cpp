@@ -66,6 +66,23 @@ CutStatistics& CutStatistics::operator+=(const CutStatistics& other) {
   return *this;
 }
 
+CutStatistics& CutStatistics::operator-=(const CutStatistics& other) {
+  steps -= other.steps;
+  cut_tets -= other.cut_tets;
+  created_tets -= other.created_tets;
+  new_vertices -= other.new_vertices;
+  copied_vertices -= other.copied_vertices;
+  incision_faces -= other.incision_faces;
+  snapped_vertices -= other.snapped_vertices;
+  bent_vertices -= other.bent_vertices;
+  crumbs_kept -= other.crumbs_kept;
+  pinched_edges -= other.pinched_edges;
+  latent_faces -= other.latent_faces;
+  blocked_edges -= other.blocked_edges;
+  sheets -= other.sheets;
+  return *this;
+}
+
 class Cutter::Pipeline {
  public:
   Pipeline(CutOptions options, unsigned threads) : options_(options), paper_cut_(threads), stroke_cut_(options) {}
@@ -202,17 +219,24 @@ class Cutter::Pipeline {
   }
   Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction,
                 StageTimes& times) {
+    BladeMotion::Proposal proposal = propose(mesh, journal, row, direction, times);
+    if (proposal.surface.triangles.empty()) return {};
+    BladeMotion::Move move;
+    move.strip = motion_.accept(proposal);
+    material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    return follow(mesh, journal, std::move(move), times);
+  }
+  /// Looks for the blade in the tissue as it stands: the strip that it would cut.
+  BladeMotion::Proposal propose(const TetMesh& mesh, const Journal& journal, const std::vector<Vec3>& row,
+                                const Vec3& direction, StageTimes& times) {
+    const StageZone zone(times, Stage::kCollision);
     stroke_cut_.prepare(mesh, journal);
     material_.locate(mesh, stroke_cut_.surface(), stroke_cut_.complex(), row, direction);
     BladeMotion::Proposal proposal = motion_.propose(material_.wanted());
     while (!proposal.surface.triangles.empty() && hold_where_it_closes(mesh, proposal)) {
       proposal = motion_.propose(material_.wanted());
     }
-    if (proposal.surface.triangles.empty()) return {};
-    BladeMotion::Move move;
-    move.strip = motion_.accept(proposal);
-    material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-    return follow(mesh, journal, std::move(move), times);
+    return proposal;
   }
   /// Holds the points of the blade beside which a strip would close the cut again, unless they are far ahead. Returns
   /// whether there were any.

@@ -64,6 +64,8 @@ void BladeCoupling::sample(const BladePose& pose, double spacing) {
 }
 
 void BladeCoupling::move_to(const BladePose& pose) {
+  middle_ = Vec3::Zero();
+  for (const Vec3& point : pose.edge) middle_ += point / static_cast<double>(pose.edge.size());
   Vec3 motion = Vec3::Zero();
   for (Sample& s : samples_) {
     s.before = s.place;
@@ -237,7 +239,6 @@ HapticSnapshot BladeCoupling::snapshot(const DeformableBody& body, const TetMesh
   Mat3 stiffness = Mat3::Zero();
   double limit = 0, friction = 0, held = 0;
   for (const Sample& s : samples_) {
-    snapshot.tool_position += unit_ / static_cast<double>(samples_.size()) * s.place;
     if (!s.grip) continue;
     held += 1;
     snapshot.contact_point += unit_ * s.cut;
@@ -249,6 +250,7 @@ HapticSnapshot BladeCoupling::snapshot(const DeformableBody& body, const TetMesh
   }
   if (held == 0 || direction_.isZero(0)) return snapshot;
   snapshot.touches = true;
+  snapshot.tool_position = unit_ * middle_;
   snapshot.ruptured = state_.yields;
   snapshot.contact_point /= held;
   snapshot.force = state_.force;

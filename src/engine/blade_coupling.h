@@ -76,6 +76,7 @@ class BladeCoupling {
   bool resists_ = false;
   std::vector<Sample> samples_;
   Vec3 direction_ = Vec3::Zero();
+  Vec3 middle_ = Vec3::Zero();  // of the pose's points: where force feedback has the tool
   BladeState state_;
 };
 

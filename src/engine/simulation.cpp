@@ -98,6 +98,7 @@ struct Simulation::State {
   double contact_stiffness = 0;  // N/m
   std::uint64_t frames = 0;
   bool is_in_stroke = false;
+  StepReport told;  // of the stroke under way: what the frames have reported
   std::vector<Vec3> blade_before;
   detail::BladeCoupling coupling;
   std::map<std::uint32_t, Grip> grips;
@@ -114,6 +115,7 @@ struct Simulation::State {
   Status lift_blade(FrameReport& report);
   void maintain(FrameReport& report);
   Status follow(FrameReport& report);
+  Status follow_mesh();
   Status hand_over();
 };
 
@@ -156,6 +158,7 @@ Status Simulation::State::start_blade(const FrameInput& input) {
   first.direction = pose.direction;
   if (const auto begun = engine.begin_stroke(first); !begun) return begun.error();
   is_in_stroke = true;
+  told = {};
   blade_before = pose.edge;
   return {};
 }
@@ -263,6 +266,8 @@ Status Simulation::State::cut(const FrameInput& input, FrameReport& report) {
   }
   report.cut = step->cut;
   report.times += step->times;
+  told.cut += step->cut;
+  told.times += step->times;
   if (!coupling.resists()) return {};
   const StageZone zone(report.times, Stage::kCollision);
   coupling.pay_for(detail::wall_growth(engine.journal(), first_step, engine.mesh(), engine.stroke_count() + 1));
@@ -271,13 +276,16 @@ Status Simulation::State::cut(const FrameInput& input, FrameReport& report) {
   return {};
 }
 
+/// The stroke's sums hold what the frames have told already.
 Status Simulation::State::lift_blade(FrameReport& report) {
   is_in_stroke = false;
   const Result<StrokeReport> stroke = engine.end_stroke();
   if (!stroke) return stroke.error();
   report.cut = stroke->cut;
+  report.cut -= told.cut;
   report.maintain = stroke->maintain;
   report.times += stroke->times;
+  report.times -= told.times;
   return {};
 }
 
@@ -290,7 +298,18 @@ void Simulation::State::maintain(FrameReport& report) {
 }
 
 Status Simulation::State::follow(FrameReport& report) {
-  const StageZone zone(report.times, Stage::kRelax);
+  StageTimes times;
+  Status status;
+  {
+    const StageZone zone(times, Stage::kRelax);
+    status = follow_mesh();
+  }
+  report.follow_ms = times[Stage::kRelax];
+  report.times += times;
+  return status;
+}
+
+Status Simulation::State::follow_mesh() {
   const Result<FollowReport> followed = body.follow(engine.journal(), engine.mesh());
   if (!followed) return followed.error();
   if (is_in_stroke && coupling.resists()) snapshot = coupling.snapshot(body, engine.mesh());

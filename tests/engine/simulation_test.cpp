@@ -84,6 +84,25 @@ TEST(Simulation, TissueWithoutToughnessIsCutToWhereTheBladeIs) {
   EXPECT_EQ(block.sim().engine().stroke_count(), 1U);
 }
 
+TEST(Simulation, FramesTellEachStepOnce) {
+  Block block;
+  std::uint64_t steps = 0, faces = 0;
+  for (unsigned i = 0; i <= 15; ++i) {
+    const FrameReport report = block.frame(Block::blade_at(0.021 - 0.001 * i));
+    steps += report.cut.steps;
+    faces += report.cut.incision_faces;
+  }
+  const FrameReport last = block.frame({});
+  for (const double ms : last.times.ms) EXPECT_GE(ms, -1e-9);
+  std::uint64_t opened = 0;
+  block.sim().mesh().for_each_tet([&](TetId t) {
+    for (const Link link : block.sim().mesh().links(t)) opened += link.is_boundary() && link.tag() == 1 ? 1U : 0U;
+  });
+  EXPECT_EQ(steps + last.cut.steps, 16U);
+  EXPECT_GT(opened, 0U);
+  EXPECT_GT(faces + last.cut.incision_faces, 0U);
+}
+
 TEST(Simulation, AThroughCutLeavesTwoPieces) {
   Block block;
   block.cut(0.021, -0.001, 25);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "incise/app/report.h"
+#include "incise/app/scene_hand.h"
 #include "incise/sim/body.h"
 
 namespace incise::inline v0 {
@@ -47,6 +48,7 @@ struct SimulationReport {
   BodyEnergy energy_before;      ///< after settling
   BodyEnergy energy_after;
   ForceFigures forces;
+  HapticFigures haptics;  ///< of a simulated hand that holds the blade; no ticks where the scene has none
   std::uint64_t inverted_tets = 0;  ///< as the body stands at the end
   bool is_finite = true;            ///< the body's positions
   std::uint64_t state_hash = 0;     ///< of the mesh and the body at the end

@@ -32,6 +32,13 @@ struct StageTimes {
     }
     return *this;
   }
+  /// Takes a part of the sum away again.
+  StageTimes& operator-=(const StageTimes& other) {
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+      ms[i] -= other.ms[i];
+    }
+    return *this;
+  }
 };
 
 /// Adds the time from its construction to its destruction to one stage.

@@ -35,6 +35,8 @@ struct CutStatistics {
   std::uint64_t sheets = 0;            ///< parts into which a sweep that meets itself was taken, in time order
 
   CutStatistics& operator+=(const CutStatistics& other);
+  /// Takes a part of the sum away again.
+  CutStatistics& operator-=(const CutStatistics& other);
 };
 
 }  // namespace incise::inline v0

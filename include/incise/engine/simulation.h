@@ -58,7 +58,8 @@ struct BladeState {
 struct FrameReport {
   CutStatistics cut;
   MaintainStatistics maintain;
-  StageTimes times;  ///< relax: solver and following; the others as the engine has them
+  StageTimes times;      ///< relax: solver and following; the others as the engine has them
+  double follow_ms = 0;  ///< of `times`' relax: what it took the solver to follow the mesh
   AdvanceReport relax;
   BladeState blade;
   std::vector<Vec3> hook_forces;  ///< of the tissue on each hook of the input, N
