@@ -48,7 +48,7 @@ struct SimulationReport {
   BodyEnergy energy_before;      ///< after settling
   BodyEnergy energy_after;
   ForceFigures forces;
-  HapticFigures haptics;  ///< of a simulated hand that holds the blade; no ticks where the scene has none
+  HapticFigures haptics;            ///< of a simulated hand that holds the blade; no ticks where the scene has none
   std::uint64_t inverted_tets = 0;  ///< as the body stands at the end
   bool is_finite = true;            ///< the body's positions
   std::uint64_t state_hash = 0;     ///< of the mesh and the body at the end

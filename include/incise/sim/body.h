@@ -32,7 +32,7 @@ struct BodyOptions {
   double thinnest = 0.05;     ///< tets thinner than this share of their longest edge are as soft as if they were not
   double sleep_below = 1e-6;  ///< of the local edge length per `advance`: what moves less falls asleep; 0: never
   unsigned threads = 1;       ///< in [1, 256]; two are of use, and the result does not depend on them
-  bool coarse = true;         ///< substeps of block descent begin with a step on a coarse lattice through the whole body
+  bool coarse = true;  ///< substeps of block descent begin with a step on a coarse lattice through the whole body
 };
 
 /// Something that pulls at a point of the tissue: k/2 |a − target|², or k/2 (axis · (a − target))² along an axis.
