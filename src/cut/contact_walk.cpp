@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace incise::inline v0 {
 
@@ -215,18 +216,20 @@ void ContactWalk::walk_on(const TetMesh& mesh, std::uint32_t master) {
   }
 }
 
-/// In the order of the sides, whatever that of the index: equal meshes are walked alike.
+/// In the order of the tets, whatever that of the index: equal meshes are walked alike.
 void ContactWalk::seed_from_surface(const TetMesh& mesh, const Strip& strip, const SurfaceIndex& surface) {
   near_.clear();
+  found_near_.ensure(mesh.tet_slots());
   for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) {
     for_each_side_near(
         mesh, surface,
         {strip.sheet.point(t, 0).position, strip.sheet.point(t, 1).position, strip.sheet.point(t, 2).position},
-        [&](Side side) { near_.push_back(side); });
+        [&](Side side) {
+          if (std::exchange(found_near_[side.tet().value], walk_) != walk_) near_.push_back(side.tet());
+        });
   }
   std::sort(near_.begin(), near_.end());
-  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
-  for (const Side side : near_) visit(mesh, side.tet());
+  for (const TetId tet : near_) visit(mesh, tet);
 }
 
 const std::vector<std::uint32_t>& ContactWalk::find(const TetMesh& mesh, const Strip& strip,

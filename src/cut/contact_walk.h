@@ -59,9 +59,10 @@ class ContactWalk {
   std::uint32_t step_ = 0;
   std::vector<Prism> prisms_;
   std::vector<std::uint32_t> met_, last_;
-  std::vector<Side> near_;               // boundary sides in the cells along the strip
-  std::vector<std::uint32_t> front_;     // masters that the blade's front may lie in
-  ZeroedArray<std::uint32_t> rejected_;  // by tet slot: the walk that turned it down
+  std::vector<TetId> near_;                // behind the boundary sides in the cells along the strip
+  std::vector<std::uint32_t> front_;       // masters that the blade's front may lie in
+  ZeroedArray<std::uint32_t> rejected_;    // by tet slot: the walk that turned it down
+  ZeroedArray<std::uint32_t> found_near_;  // by tet slot: the walk that had it in `near_`
   std::uint32_t walk_ = 0;
 };
 

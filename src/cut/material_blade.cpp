@@ -85,6 +85,15 @@ TetId walk_to(const TetMesh& mesh, TetId from, const Vec3& x) {
   return {};
 }
 
+/// Whether a side lies further from a place than `distance2` tells, beyond all rounding: most do, and need no closer
+/// look.
+bool is_beyond(const TetMesh& mesh, Side side, const Vec3& place, double distance2, double spacing) {
+  const auto v = mesh.vertices(side);
+  const Vec3 &a = mesh.rest(v[0]), &b = mesh.rest(v[1]), &c = mesh.rest(v[2]);
+  const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+  return box.distance2(place) > (1 + 1e-6) * distance2 + 1e-12 * spacing * spacing;
+}
+
 /// The boundary side nearest to a rest point, in cells around it.
 Side nearest_side(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest, double spacing, Vec3& place) {
   Side best;
@@ -92,6 +101,7 @@ Side nearest_side(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& 
   for (unsigned ring = 1; ring <= kMostRings && !(least < std::numeric_limits<double>::infinity()); ++ring) {
     const Vec3 reach = Vec3::Constant(spacing * static_cast<double>(1U << ring) * 0.5);
     surface.for_each_near(mesh, {rest - reach, rest + reach}, [&](Side side) {
+      if (side == best || is_beyond(mesh, side, rest, least, spacing)) return;
       const auto v = mesh.vertices(side);
       const ClosestPoint near = closest_on_triangle(rest, mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]));
       if (near.distance2 < least || (near.distance2 == least && side < best)) {

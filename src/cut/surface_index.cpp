@@ -77,13 +77,19 @@ void SurfaceIndex::build(const TetMesh& mesh) {
     counts_[static_cast<std::size_t>(k)] = std::max(1, static_cast<int>(extent[k] * inverse_size_) + 1);
   }
   heads_.assign(index_of(0, 0, counts_[2]), 0U);
-  for (const Side side : sides) insert(box_of(mesh, side), side);
+  for (const Side side : sides) {
+    for_each_cell(box_of(mesh, side), [&](std::uint32_t& head) { insert(head, side); });
+  }
 }
 
 void SurfaceIndex::add(const TetMesh& mesh, TetId tet) {
   if (!tet.is_valid() || !mesh.is_live(tet)) return;
   for (unsigned s = 0; s < 4; ++s) {
-    if (mesh.links(tet)[s].is_boundary()) insert(box_of(mesh, Side(tet, s)), Side(tet, s));
+    const Side side(tet, s);
+    if (!mesh.link(side).is_boundary()) continue;
+    for_each_cell(box_of(mesh, side), [&](std::uint32_t& head) {
+      if (!has(head, side)) insert(head, side);
+    });
   }
 }
 
@@ -105,7 +111,7 @@ TetId SurfaceIndex::nearest_as_it_stands(const TetMesh& mesh, const Vec3& place)
     const auto v = mesh.vertices(entry.side);
     const double distance2 =
         closest_on_triangle(place, mesh.current(v[0]), mesh.current(v[1]), mesh.current(v[2])).distance2;
-    if (distance2 < least) {
+    if (distance2 < least || (distance2 == least && entry.side.tet() < nearest)) {
       least = distance2;
       nearest = entry.side.tet();
     }
@@ -119,24 +125,22 @@ bool SurfaceIndex::is_small(const Box& box) const {
   return (hi[0] - lo[0] + 1) * (hi[1] - lo[1] + 1) * (hi[2] - lo[2] + 1) <= 8;
 }
 
-void SurfaceIndex::insert(const Box& box, Side side) {
-  const Cell lo = cell_of(box.lo), hi = cell_of(box.hi);
-  for (int z = lo[2]; z <= hi[2]; ++z) {
-    for (int y = lo[1]; y <= hi[1]; ++y) {
-      for (int x = lo[0]; x <= hi[0]; ++x) {
-        std::uint32_t& head = heads_[index_of(x, y, z)];
-        if (free_ == 0) {
-          entries_.push_back({side, head});
-          head = static_cast<std::uint32_t>(entries_.size());
-          continue;
-        }
-        const std::uint32_t entry = free_;
-        free_ = entries_[entry - 1].next;
-        entries_[entry - 1] = {side, head};
-        head = entry;
-      }
-    }
+/// Steps name a side again and again: without this, lists would grow with the strokes.
+bool SurfaceIndex::has(std::uint32_t head, Side side) const {
+  while (head != 0 && entries_[head - 1].side != side) head = entries_[head - 1].next;
+  return head != 0;
+}
+
+void SurfaceIndex::insert(std::uint32_t& head, Side side) {
+  if (free_ == 0) {
+    entries_.push_back({side, head});
+    head = static_cast<std::uint32_t>(entries_.size());
+    return;
   }
+  const std::uint32_t entry = free_;
+  free_ = entries_[entry - 1].next;
+  entries_[entry - 1] = {side, head};
+  head = entry;
 }
 
 }  // namespace incise::inline v0

@@ -39,7 +39,11 @@ class SurfaceIndex {
   void build(const TetMesh& mesh);
   void add_changed(const TetMesh& mesh, const Step& step);
   void add(const TetMesh& mesh, TetId tet);
-  void insert(const Box& box, Side side);
+  [[nodiscard]] bool has(std::uint32_t head, Side side) const;
+  void insert(std::uint32_t& head, Side side);
+  /// Calls `visit(head)` for the list of each cell that meets a box.
+  template <class Visit>
+  void for_each_cell(const Box& box, Visit&& visit) const;
   [[nodiscard]] Cell cell_of(const Vec3& point) const;
   [[nodiscard]] std::size_t index_of(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(counts_[1]) + static_cast<std::size_t>(y)) *
@@ -75,25 +79,30 @@ class SurfaceIndex {
 };
 
 template <class Visit>
-void SurfaceIndex::for_each_near(const TetMesh& mesh, const Box& box, Visit&& visit) const {
-  if (heads_.empty()) return;
+void SurfaceIndex::for_each_cell(const Box& box, Visit&& visit) const {
   const Cell lo = cell_of(box.lo), hi = cell_of(box.hi);
   for (int z = lo[2]; z <= hi[2]; ++z) {
     for (int y = lo[1]; y <= hi[1]; ++y) {
-      for (int x = lo[0]; x <= hi[0]; ++x) {
-        std::uint32_t* at = &heads_[index_of(x, y, z)];
-        while (*at != 0) {
-          Entry& entry = entries_[*at - 1];
-          if (mesh.is_live(entry.side.tet()) && mesh.link(entry.side).is_boundary()) {
-            visit(entry.side);
-            at = &entry.next;
-          } else {
-            drop(*at);
-          }
-        }
-      }
+      for (int x = lo[0]; x <= hi[0]; ++x) visit(heads_[index_of(x, y, z)]);
     }
   }
+}
+
+template <class Visit>
+void SurfaceIndex::for_each_near(const TetMesh& mesh, const Box& box, Visit&& visit) const {
+  if (heads_.empty()) return;
+  for_each_cell(box, [&](std::uint32_t& head) {
+    std::uint32_t* at = &head;
+    while (*at != 0) {
+      Entry& entry = entries_[*at - 1];
+      if (mesh.is_live(entry.side.tet()) && mesh.link(entry.side).is_boundary()) {
+        visit(entry.side);
+        at = &entry.next;
+      } else {
+        drop(*at);
+      }
+    }
+  });
 }
 
 /// Calls `visit(Side)` for the boundary sides in the cells along a triangle, piece by piece, so that a long oblique one

@@ -199,14 +199,17 @@ Status Engine::set_positions(std::span<const Vec3> positions) {
                  "positions must be given for all " + std::to_string(mesh_.vertex_slots()) + " vertex slots",
                  {}};
   }
+  bool has_moved = false;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (mesh_.is_live(VertexId(static_cast<std::uint32_t>(i))) && !positions[i].allFinite()) {
+    const VertexId v(static_cast<std::uint32_t>(i));
+    if (!mesh_.is_live(v)) continue;
+    if (!positions[i].allFinite()) {
       return Error{ErrorCode::kBadArgument, "the position of vertex " + std::to_string(i) + " is not finite", {}};
     }
+    has_moved = has_moved || positions[i] != mesh_.rest(v);
   }
   mesh_.set_current(positions);
-  has_moved_ = false;
-  mesh_.for_each_vertex([&](VertexId v) { has_moved_ = has_moved_ || mesh_.current(v) != mesh_.rest(v); });
+  has_moved_ = has_moved;
   return {};
 }
 

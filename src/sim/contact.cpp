@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/sim/contact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -116,11 +117,13 @@ Status check(const Tool& tool) {
 void find_contacts(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools, double stiffness,
                    double margin, std::vector<Pull>& pulls) {
   if (tools.empty()) return;
+  const bool has_flat =
+      std::any_of(tools.begin(), tools.end(), [](const Tool& tool) { return std::holds_alternative<FlatTool>(tool); });
   for (std::uint32_t slot = 0; slot < mesh.vertex_slots(); ++slot) {
     const VertexId v(slot);
     if (!is_surface(mesh.shape_of(v)) || !mesh.tet_of(v).is_valid()) continue;
     const Vec3& x = positions[slot];
-    const Vec3 inner = tissue_behind(mesh, positions, v);
+    const Vec3 inner = has_flat ? tissue_behind(mesh, positions, v) : x;  // flats alone ask for it
     Touch deepest;
     for (const Tool& tool : tools) {
       const Touch found = std::visit([&](const auto& t) { return touch(t, x, inner); }, tool);
