@@ -30,7 +30,7 @@ struct BodyOptions {
   unsigned substeps = 4;      ///< per `advance`, in [1, 1000]
   unsigned iterations = 5;    ///< sweeps over all vertices per substep, in [1, 1000]
   double thinnest = 0.05;     ///< tets thinner than this share of their longest edge are as soft as if they were not
-  double sleep_below = 1e-6;  ///< of the local edge length per `advance`: what moves less falls asleep; 0: never
+  double sleep_below = 1e-5;  ///< of the local edge length per `advance`: what moves less falls asleep; 0: never
   unsigned threads = 1;       ///< in [1, 256]; two are of use, and the result does not depend on them
   bool coarse = true;  ///< substeps of block descent begin with a step on a coarse lattice through the whole body
 };
@@ -77,7 +77,8 @@ struct BodyEnergy {
 /// time. Seen from one vertex this energy is exactly quadratic, so that a visit is one 3×3 solve (vertex block descent,
 /// Chen et al. 2024, in a split form whose stretch part is a constant Laplacian and whose volume part needs no
 /// deformation gradient). Mass, momentum and rest volume are kept through every step of the journal. Free pieces fall
-/// as they must: what the unfinished descent takes from the momentum of a piece is given back to it rigidly. Positions
+/// as they must: what the unfinished descent takes from the momentum of a piece is given back to it rigidly; what has
+/// fallen 20 body lengths below what is held sleeps there. A body left alone never gains energy. Positions
 /// are in the mesh's length unit, all else in SI units. Not thread-safe. The same calls give the same bits on every
 /// compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
 class DeformableBody {
