@@ -53,7 +53,7 @@ void DeformableBody::State::label_pieces() {
 
 /// Flooding costs O(body): a large body waits a few steps before its new pieces are told apart.
 void DeformableBody::State::label_stale_pieces() {
-  constexpr std::size_t kVerticesPerStep = 4000;
+  constexpr std::size_t kVerticesPerStep = 20000;
   if (stale_pieces > 0 && stale_pieces++ > places.size() / kVerticesPerStep) label_pieces();
   find_free_pieces();
 }
