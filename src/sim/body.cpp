@@ -26,6 +26,7 @@ Status check(const BodyOptions& o) {
   if (o.iterations < 1 || o.iterations > 1000) return bad("the number of iterations must lie in [1, 1000]");
   if (!(o.thinnest >= 0 && o.thinnest <= 0.5)) return bad("`thinnest` must lie in [0, 0.5] of the longest edge");
   if (!(o.sleep_below >= 0 && o.sleep_below <= 0.1)) return bad("`sleep_below` must lie in [0, 0.1] of an edge");
+  if (!is_not_negative(o.crumb)) return bad("a crumb must be of finite volume, at least 0");
   if (o.threads < 1 || o.threads > 256) return bad("the number of threads must lie in [1, 256]");
   return {};
 }

@@ -65,6 +65,7 @@ void DeformableBody::State::centre() {
     extent = (box.hi - box.lo).maxCoeff();
   }
   drifted = 0;
+  if (!held_pieces.is_empty()) leave_lost_pieces();
   for (std::uint32_t v = 0; v < places.size(); ++v) round_place(VertexId(v));
 }
 

@@ -41,7 +41,7 @@ Stiffness stiffness_of(const Material& material, double unit) {
 
 detail::Element DeformableBody::State::element(TetId t) const {
   const Stiffness stiffness = stiffness_of(materials.of(regions[t]), unit());
-  return detail::element_of(corners_at_rest(t), stiffness.lambda, stiffness.mu, options.thinnest);
+  return detail::element_of(corners_at_rest(t), stiffness.lambda, stiffness.mu, options.thinnest, 6 * options.crumb);
 }
 
 void DeformableBody::State::ensure(std::uint32_t slots, std::uint32_t tet_slots) {
@@ -69,7 +69,7 @@ bool DeformableBody::State::add_tet(const TetMesh& mesh, TetId t) {
   }
   regions[t] = mesh.region(t);
   const Stiffness stiffness = stiffness_of(materials.of(regions[t]), unit());
-  stars.add(t, tets[t], detail::slopes_of(p, stiffness.lambda, stiffness.mu, options.thinnest));
+  stars.add(t, tets[t], detail::slopes_of(p, stiffness.lambda, stiffness.mu, options.thinnest, 6 * options.crumb));
   note_changed(tets[t]);
   return true;
 }
@@ -154,6 +154,9 @@ void DeformableBody::State::lay_out_stars() {
   order.begin(sorted, is_first, stars);
 }
 
+/// Of a tet's mean volume at load: a lump a hundredth of a cell wide. Moved by a cell it would swell a million times.
+static constexpr double kCrumb = 3e-6;
+
 void DeformableBody::State::build(const TetMesh& mesh) {
   ensure(mesh.vertex_slots(), mesh.tet_slots());
   mesh.for_each_vertex([&](VertexId v) {
@@ -161,6 +164,7 @@ void DeformableBody::State::build(const TetMesh& mesh) {
     places[v.value] = mesh.current(v);
   });
   std::vector<double> mass(mesh.vertex_slots());
+  double volumes = 0;
   const double volume_unit = unit() * unit() * unit();
   mesh.for_each_tet([&](TetId t) {
     tets[t] = mesh.vertices(t);
@@ -172,7 +176,9 @@ void DeformableBody::State::build(const TetMesh& mesh) {
     regions[t] = mesh.region(t);
     const double share = materials.of(regions[t]).density * volume_unit * volume6 / 24;
     for (const VertexId v : tets[t]) mass[v.value] += share;
+    volumes += volume6;
   });
+  if (options.crumb == 0 && volumes > 0) options.crumb = kCrumb * volumes / 6 / static_cast<double>(mesh.tet_count());
   lay_out_stars();
   mass_id = *attributes.add(mesh, {"mass", Domain::kVertex, 1, Transfer::kConserve, {}, {}});
   momentum_id = *attributes.add(mesh, {"momentum", Domain::kVertex, 3, Transfer::kConserve, {}, {}});

@@ -2,6 +2,7 @@
 // Free pieces move as rigid bodies must: what the unfinished descent takes from their momentum is given back.
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 
 #include "sim/body_state.h"
 
@@ -82,6 +83,25 @@ void DeformableBody::State::find_free_pieces() {
     if (!is_live(VertexId(v))) continue;
     const std::uint32_t i = piece_of[VertexId(v)];
     if (pieces[i].is_free && !was_free[i]) order.wake(VertexId(v));
+  }
+}
+
+/// Pieces that have fallen far from what is held sleep where they are: single precision would not tell their cells
+/// apart any more. To be called with the middle and extent of what is held.
+void DeformableBody::State::leave_lost_pieces() {
+  constexpr double kLost = 200;  // extents
+  std::vector<double> nearest(pieces.size(), std::numeric_limits<double>::infinity());
+  for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
+    if (!is_live(VertexId(slot))) continue;
+    double& distance = nearest[piece_of[VertexId(slot)]];
+    distance = std::min(distance, (places[slot] - middle).norm());
+  }
+  for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
+    const VertexId v(slot);
+    const std::uint32_t piece = piece_of[v];
+    if (!is_live(v) || !pieces[piece].is_free || !(nearest[piece] > kLost * extent)) continue;
+    order.put_to_sleep(v);
+    set_momentum(v, Vec3::Zero());
   }
 }
 

@@ -120,6 +120,12 @@ void Rewind::compare(DeformableBody::State& s, const TetMesh& mesh) {
 Rewind::Sample Rewind::sample(const Vec3& rest) const {
   Sample sample;
   sample.tet = &old_tets_[grid_.find(rest, sample.weights)];
+  constexpr double kFarthest = -0.5;  // beside a thin tet weights would lead far away
+  if (*std::min_element(sample.weights.begin(), sample.weights.end()) < kFarthest) {
+    double sum = 0;
+    for (double& weight : sample.weights) sum += weight = std::max(weight, 0.0);
+    for (double& weight : sample.weights) weight /= sum;
+  }
   for (unsigned i = 0; i < 4; ++i) {
     sample.place += sample.weights[i] * sample.tet->places[i];
     sample.velocity += sample.weights[i] * sample.tet->velocities[i];

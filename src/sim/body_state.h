@@ -185,6 +185,7 @@ struct DeformableBody::State {
   void label_pieces();
   void label_stale_pieces();
   void find_free_pieces();
+  void leave_lost_pieces();
   void expect_motion(double h);
   void correct_motion(double h);
 };

@@ -20,7 +20,7 @@ double softening(const std::array<Vec3, 4>& p, const std::array<Vec3, 4>& slope,
 
 }  // namespace
 
-Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest) {
+Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest, double crumb) {
   std::array<Vec3, 4> slope;
   for (unsigned i = 0; i < 4; ++i) slope[i] = volume_slope(p, i);
   const double volume6 = six_volumes(p);
@@ -30,13 +30,14 @@ Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double
     const auto& [a, b] = kEdgeCorners[e];
     element.laplacian[e] = scale * mu / (6 * volume6) * slope[a].dot(slope[b]);
   }
+  if (volume6 < crumb) return element;
   element.bulk = scale * lambda / (6 * volume6);
   element.pressure = scale * (lambda + mu) / 6;
   return element;
 }
 
-Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest) {
-  Element element = slopes_of(p, lambda, mu, thinnest);
+Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest, double crumb) {
+  Element element = slopes_of(p, lambda, mu, thinnest, crumb);
   element.offset = energy_of(element, p);
   return element;
 }

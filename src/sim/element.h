@@ -24,10 +24,13 @@ struct Element {
 
 /// The element of a tet with rest positions `p`, positive; `lambda` and `mu` in the units of energy per cubed length.
 /// A tet thinner than `thinnest` of its longest edge is as soft as a layer that thick would be: slivers would hold the
-/// descent up for hundreds of sweeps otherwise.
-[[nodiscard]] Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest);
+/// descent up for hundreds of sweeps otherwise. One of less than `crumb` six volumes only resists stretch, and shrinks
+/// where nothing else holds it: what it swells by as its corners move would hold or throw all around it.
+[[nodiscard]] Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest,
+                                 double crumb = 0);
 /// The same, without its offset.
-[[nodiscard]] Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest);
+[[nodiscard]] Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest,
+                                double crumb = 0);
 
 /// Six volumes of a tet, positive where it is not turned inside out.
 inline double six_volumes(const std::array<Vec3, 4>& p) {

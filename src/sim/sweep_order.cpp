@@ -67,6 +67,12 @@ void SweepOrder::warm(VertexId vertex, std::uint8_t heat) {
   heat_[vertex] = std::max(heat_[vertex], heat);
 }
 
+void SweepOrder::put_to_sleep(VertexId vertex) {
+  if (heat_[vertex] == 0) return;
+  heat_[vertex] = 0;
+  is_stale_ = true;
+}
+
 void SweepOrder::wake_star(VertexId vertex, const Stars& stars) {
   wake(vertex);
   for_each_neighbour(stars, vertex, [&](VertexId n) { wake(n); });

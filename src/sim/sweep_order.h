@@ -34,6 +34,7 @@ class SweepOrder {
   [[nodiscard]] bool is_awake(VertexId vertex) const { return heat_[vertex] > 0; }
   void wake(VertexId vertex) { warm(vertex, kHot); }
   void wake_star(VertexId vertex, const Stars& stars);
+  void put_to_sleep(VertexId vertex);
 
   /// Brings the lists below up to date. To be called before they are used. Cost: O(awake) where anything changed.
   void refresh();

