@@ -132,6 +132,15 @@ TetMesh jittered_block() {
   return *TetMesh::build(std::move(soup));
 }
 
+TEST(Element, CrumbsOnlyResistStretch) {
+  const std::array<Vec3, 4> p = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  const detail::Element whole = detail::element_of(p, 3, 2, 0, 1), crumb = detail::element_of(p, 3, 2, 0, 1.1);
+  EXPECT_GT(whole.bulk, 0);
+  EXPECT_EQ(crumb.bulk, 0);
+  EXPECT_EQ(crumb.pressure, 0);
+  EXPECT_EQ(crumb.laplacian, whole.laplacian);
+}
+
 TEST(Element, EnergyOfABodyIsThatOfTheReferenceSolver) {
   const TetMesh mesh = jittered_block();
   for (const double poisson : {0.0, 0.2, 0.45, 0.499}) {
