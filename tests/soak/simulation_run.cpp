@@ -292,7 +292,10 @@ int soak_simulations(const SimulationLimits& limits) {
     strokes += scene.strokes.size();
     fastest = std::max(fastest, outcome.fastest);
     gain = std::max(gain, outcome.energy_gain);
-    if (scenes % 10 == 0 && outcome.fault.empty()) outcome.fault = replay_fault(scene, outcome);
+    if (scenes % 10 == 0) {
+      const std::string fault = replay_fault(scene, outcome);
+      if (!fault.empty()) outcome.fault = fault;
+    }
     if (outcome.fault.empty()) continue;
     ++failures;
     std::printf("FAILED seed %llu: %s\n  %s\n", static_cast<unsigned long long>(scene.seed), outcome.fault.c_str(),
