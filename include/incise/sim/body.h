@@ -79,9 +79,9 @@ struct BodyEnergy {
 /// Chen et al. 2024, in a split form whose stretch part is a constant Laplacian and whose volume part needs no
 /// deformation gradient). Mass, momentum and rest volume are kept through every step of the journal. Free pieces fall
 /// as they must: what the unfinished descent takes from the momentum of a piece is given back to it rigidly; what has
-/// fallen 200 body lengths from what is held sleeps there. A body left alone never gains energy. Positions
-/// are in the mesh's length unit, all else in SI units. Not thread-safe. The same calls give the same bits on every
-/// compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
+/// fallen 200 body lengths from what is held sleeps there. What a body left alone gains in energy its motion pays for.
+/// Positions are in the mesh's length unit, all else in SI units. Not thread-safe. The same calls give the same bits on
+/// every compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
 class DeformableBody {
  public:
   /// Takes the body as it stands, at rest or not, without velocity. The journal stands at `position`.
