@@ -48,7 +48,7 @@ Mat24 cell_stiffness(const Vec3& spacing) {
       for (unsigned j = 0; j < 8; ++j) {  // Hooke's law between two shape functions
         const Vec3 &a = slope[i], &b = slope[j];
         const Mat3 block = kLambda * a * b.transpose() + kMu * (b * a.transpose() + a.dot(b) * Mat3::Identity());
-        sum.block<3, 3>(3 * i, 3 * j) += 0.125 * block;
+        sum.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) += 0.125 * block;
       }
     }
   }
@@ -254,7 +254,9 @@ void CoarseLattice::add_cells(const Cells& cells) {
         const std::size_t column = std::size_t{3} * numbers_[cell + offsets_[j / 3]] + j % 3;
         // A little more on the diagonal keeps rounding from making it indefinite.
         if (row >= column)
-          matrix_.add(row, column, (row == column ? 1 + 1e-9 : 1) * cells.stiffness[cell] * stiffness(i, j));
+          matrix_.add(row, column,
+                      (row == column ? 1 + 1e-9 : 1) * cells.stiffness[cell] *
+                          stiffness(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
       }
     }
   }

@@ -9,8 +9,8 @@
 // 8 lanes are all that a star fills: wider sets would only compile longer.
 #define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sim/star_kernel.cpp"
-#include <hwy/foreach_target.h>  // NOLINT(misc-header-include-cycle): it includes this file
+#define HWY_TARGET_INCLUDE "sim/star_kernel.cpp"  // NOLINT(readability-identifier-naming): Highway's name
+#include <hwy/foreach_target.h>                   // NOLINT(misc-header-include-cycle): it includes this file
 #endif
 #include "sim/lanes-inl.h"
 
