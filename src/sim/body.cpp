@@ -31,6 +31,23 @@ Status check(const BodyOptions& o) {
   return {};
 }
 
+/// Whether one tet holds all vertices that a pull is at: those of two threads never share one.
+bool share_a_tet(const Pull& pull, const DeformableBody::State& state) {
+  const auto has_weight = [&](unsigned i) { return pull.weights[i] != 0; };
+  unsigned first = 0;
+  while (!has_weight(first)) ++first;
+  bool is_shared = false;
+  state.stars.for_each_tet(pull.vertices[first], [&](TetId t) {
+    const TetVertices& corners = state.tets[t];
+    bool holds = true;
+    for (unsigned i = first + 1; i < 4; ++i) {
+      holds = holds && (!has_weight(i) || std::find(corners.begin(), corners.end(), pull.vertices[i]) != corners.end());
+    }
+    is_shared = is_shared || holds;
+  });
+  return is_shared;
+}
+
 Status check(const Pull& pull, std::size_t index, const DeformableBody::State& state) {
   const auto bad_pull = [&](const char* what) { return bad("pull " + std::to_string(index) + ": " + what); };
   if (!(pull.stiffness >= 0 && std::isfinite(pull.stiffness))) return bad_pull("the stiffness must be at least 0 N/m");
@@ -45,7 +62,8 @@ Status check(const Pull& pull, std::size_t index, const DeformableBody::State& s
     has_vertex = true;
     if (!pull.vertices[i].is_valid() || !state.is_live(pull.vertices[i])) return bad_pull("a vertex is not live");
   }
-  return has_vertex ? Status{} : Status{bad_pull("all weights are 0")};
+  if (!has_vertex) return bad_pull("all weights are 0");
+  return share_a_tet(pull, state) ? Status{} : Status{bad_pull("its vertices are not of one tet")};
 }
 
 }  // namespace

@@ -380,6 +380,11 @@ TEST(BodyArguments, TheFirstMalformedPullIsNamed) {
   expect_bad(with([](Pull& p) { p.weights[0] = 0; }), "pull 1: all weights");
   expect_bad(with([](Pull& p) { p.vertices[0] = VertexId(9999); }), "pull 1: a vertex");
   expect_bad(with([](Pull& p) { p.weights[3] = 0.5; }), "pull 1: a vertex");
+  expect_bad(with([](Pull& p) {
+               p.vertices = {VertexId(0), VertexId(26), {}, {}};  // opposite corners of the cube
+               p.weights = {0.5, 0.5, 0, 0};
+             }),
+             "pull 1: its vertices are not of one tet");
   ASSERT_EQ(body.pulls().size(), 1U);
   EXPECT_EQ(body.pulls()[0].stiffness, 5);
 }
