@@ -3,6 +3,7 @@
 #include "incise/cut/cutter.h"
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <utility>
 
@@ -49,37 +50,33 @@ double typical_spacing(const TetMesh& mesh) {
 
 }  // namespace
 
+namespace {
+
+/// All that `CutStatistics` counts.
+constexpr std::array kCounts = {&CutStatistics::steps,
+                                &CutStatistics::cut_tets,
+                                &CutStatistics::created_tets,
+                                &CutStatistics::new_vertices,
+                                &CutStatistics::copied_vertices,
+                                &CutStatistics::incision_faces,
+                                &CutStatistics::snapped_vertices,
+                                &CutStatistics::bent_vertices,
+                                &CutStatistics::crumbs_kept,
+                                &CutStatistics::pinched_edges,
+                                &CutStatistics::latent_faces,
+                                &CutStatistics::blocked_edges,
+                                &CutStatistics::sheets};
+static_assert(sizeof(CutStatistics) == kCounts.size() * sizeof(std::uint64_t), "a count is missing");
+
+}  // namespace
+
 CutStatistics& CutStatistics::operator+=(const CutStatistics& other) {
-  steps += other.steps;
-  cut_tets += other.cut_tets;
-  created_tets += other.created_tets;
-  new_vertices += other.new_vertices;
-  copied_vertices += other.copied_vertices;
-  incision_faces += other.incision_faces;
-  snapped_vertices += other.snapped_vertices;
-  bent_vertices += other.bent_vertices;
-  crumbs_kept += other.crumbs_kept;
-  pinched_edges += other.pinched_edges;
-  latent_faces += other.latent_faces;
-  blocked_edges += other.blocked_edges;
-  sheets += other.sheets;
+  for (const auto count : kCounts) this->*count += other.*count;
   return *this;
 }
 
 CutStatistics& CutStatistics::operator-=(const CutStatistics& other) {
-  steps -= other.steps;
-  cut_tets -= other.cut_tets;
-  created_tets -= other.created_tets;
-  new_vertices -= other.new_vertices;
-  copied_vertices -= other.copied_vertices;
-  incision_faces -= other.incision_faces;
-  snapped_vertices -= other.snapped_vertices;
-  bent_vertices -= other.bent_vertices;
-  crumbs_kept -= other.crumbs_kept;
-  pinched_edges -= other.pinched_edges;
-  latent_faces -= other.latent_faces;
-  blocked_edges -= other.blocked_edges;
-  sheets -= other.sheets;
+  for (const auto count : kCounts) this->*count -= other.*count;
   return *this;
 }
 
