@@ -108,6 +108,17 @@ class LineReader {
     out = std::stoull(text, nullptr, 16);
     return true;
   }
+  /// Which of the calls with these names a line is.
+  template <class Names, class Kind>
+  bool read_call_kind(const JsonValue& root, const std::string& path, const Names& names, Kind& out) {
+    std::string name;
+    if (root.kind != JsonValue::Kind::kObject) return read_.fail(root, path, "must be an object");
+    if (!read_text(root, path, "call", name)) return false;
+    if (find_name(names, name, out)) return true;
+    std::string known;
+    for (const char* one : names) known += (known.empty() ? "" : ", ") + std::string(one);
+    return read_.fail(*root.find("call"), path, "\"" + name + "\" is unknown; known are: " + known);
+  }
   /// How a call failed; nothing where it did not.
   bool read_error(const JsonValue& root, std::optional<ErrorCode>& out) {
     const JsonValue* value = root.find("error");

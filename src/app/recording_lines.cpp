@@ -130,22 +130,13 @@ class CallReader : public LineReader {
   using LineReader::LineReader;
 
   bool run(const JsonValue& root, RecordedCall& call) {
-    return read_kind(root, call) && read_arguments(root, call) && read_error(root, call.error) &&
-           read_hash(root, kPath, call.hash);
+    return read_call_kind(root, kPath, kCallNames, call.kind) && read_arguments(root, call) &&
+           read_error(root, call.error) && read_hash(root, kPath, call.hash);
   }
 
  private:
   static constexpr const char* kPath = "the call";
 
-  bool read_kind(const JsonValue& root, RecordedCall& call) {
-    std::string name;
-    if (root.kind != JsonValue::Kind::kObject) return read_.fail(root, kPath, "must be an object");
-    if (!read_text(root, kPath, "call", name)) return false;
-    if (find_name(kCallNames, name, call.kind)) return true;
-    std::string known;
-    for (const char* one : kCallNames) known += (known.empty() ? "" : ", ") + std::string(one);
-    return read_.fail(*root.find("call"), kPath, "\"" + name + "\" is unknown; known are: " + known);
-  }
   bool read_arguments(const JsonValue& root, RecordedCall& call) {
     switch (call.kind) {
       case CallKind::kBegin:
