@@ -12,28 +12,31 @@ namespace app {
 namespace {
 
 /// The scene as a recording has it: its model's path leads from the recording's folder.
-SimulationHeader header_of(const Scene& scene, const TetMesh& mesh, const std::filesystem::path& record) {
+SimulationHeader header_of(const Scene& scene, std::uint64_t mesh_hash, const std::filesystem::path& record) {
   SimulationHeader header;
   header.scene = scene;
   if (!scene.model.file.empty()) {
     const Result<std::filesystem::path> model = find_model(scene);
     header.scene.model.file = seen_from(record, model.ok() ? *model : std::filesystem::path(scene.model.file));
   }
-  header.mesh_hash = mesh.hash();
+  header.mesh_hash = mesh_hash;
   return header;
 }
 
 }  // namespace
 
-RecordedSimulation::RecordedSimulation(Simulation simulation, std::optional<SimulationWriter> writer)
-    : simulation_(std::move(simulation)), writer_(std::move(writer)) {}
+RecordedSimulation::RecordedSimulation(Simulation simulation, std::optional<SimulationWriter> writer,
+                                       std::optional<Past> past)
+    : simulation_(std::move(simulation)), writer_(std::move(writer)), past_(std::move(past)) {}
 
 Result<RecordedSimulation> RecordedSimulation::create(const Scene& scene, TetMesh mesh, const SceneRun& run) {
   std::optional<SimulationWriter> writer;
-  if (!run.record.empty()) writer.emplace(run.record, header_of(scene, mesh, run.record));
+  if (!run.record.empty()) writer.emplace(run.record, header_of(scene, mesh.hash(), run.record));
+  std::optional<Past> past;
+  if (run.keeps_calls) past = Past{scene, mesh.hash(), {}};
   Result<Simulation> simulation = make_simulation(scene, std::move(mesh), run.threads, run.log);
   if (!simulation.ok()) return simulation.error();
-  return RecordedSimulation(std::move(simulation).value(), std::move(writer));
+  return RecordedSimulation(std::move(simulation).value(), std::move(writer), std::move(past));
 }
 
 template <class Call>
@@ -46,8 +49,10 @@ auto RecordedSimulation::timed(const Call& call) {
 
 template <class Outcome>
 Outcome RecordedSimulation::recorded(SimulationCall call, Outcome outcome) {
-  if (!writer_ || (!outcome.ok() && outcome.error().code == ErrorCode::kBadArgument)) return outcome;
+  if (!outcome.ok() && outcome.error().code == ErrorCode::kBadArgument) return outcome;
   if (!outcome.ok()) call.error = outcome.error().code;
+  if (past_) past_->calls.push_back(call);
+  if (!writer_) return outcome;
   call.hash = simulation_.hash();
   if (const Status status = writer_->write(call); !status.ok()) return status.error();
   return outcome;
@@ -55,7 +60,7 @@ Outcome RecordedSimulation::recorded(SimulationCall call, Outcome outcome) {
 
 Result<FrameReport> RecordedSimulation::frame(const FrameInput& input) {
   Result<FrameReport> report = timed([&] { return simulation_.frame(input); });
-  if (!writer_) return report;
+  if (!writer_ && !past_) return report;
   SimulationCall call;
   call.kind = SimulationCallKind::kFrame;
   call.input = input;
@@ -81,6 +86,19 @@ Result<bool> RecordedSimulation::redo() {
   SimulationCall call;
   call.kind = SimulationCallKind::kRedo;
   return recorded(std::move(call), Result<bool>(true));
+}
+
+Status RecordedSimulation::start_recording(const std::filesystem::path& path) {
+  if (!past_) return Error{ErrorCode::kBadArgument, "this session keeps no calls that could be recorded", {}};
+  stop_recording();
+  SimulationWriter writer(path, header_of(past_->scene, past_->mesh_hash, path));
+  for (std::size_t i = 0; i < past_->calls.size(); ++i) {
+    SimulationCall call = past_->calls[i];
+    if (i + 1 == past_->calls.size()) call.hash = simulation_.hash();
+    if (Status status = writer.write(call); !status.ok()) return status;
+  }
+  writer_ = std::move(writer);
+  return {};
 }
 
 }  // namespace app

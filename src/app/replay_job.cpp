@@ -9,6 +9,7 @@
 #include "app/job_internal.h"
 #include "app/json_write.h"
 #include "app/line_reader.h"
+#include "app/recorded_mesh.h"
 #include "app/recording_lines.h"
 #include "app/simulation_replay.h"
 #include "incise/app/mesh_export.h"
@@ -100,28 +101,6 @@ std::optional<ReplayDifference> compare_work(const RecordedCall& call, const Out
   return differ(call, fmt::format("{} work units", call.work_units), fmt::format("{} work units", *outcome.work_units));
 }
 
-/// The mesh that a recording names, checked to be the one.
-Result<LoadedMesh> load_recorded_mesh(const RecordingHeader& header, const fs::path& recording) {
-  const std::string where = recording.string() + ":1: ";
-  if (header.mesh_file.empty()) {
-    return Error{ErrorCode::kBadFile, where + "it was recorded on a mesh of no file; replay it in the program", {}};
-  }
-  std::error_code code;
-  fs::path path = recording.parent_path() / header.mesh_file;
-  if (!fs::exists(path, code)) path = header.mesh_file;
-  if (!fs::exists(path, code)) {
-    return Error{ErrorCode::kBadFile,
-                 where + "the mesh \"" + header.mesh_file + "\" is not there; put it where it was beside the recording",
-                 {}};
-  }
-  Result<LoadedMesh> loaded = load_mesh(path);
-  if (!loaded.ok() || loaded->mesh.hash() == header.mesh_hash) return loaded;
-  return Error{ErrorCode::kBadFile,
-               path.string() + ": is not the mesh of the recording: its hash is " + hash_text(loaded->mesh.hash()) +
-                   ", recorded was " + hash_text(header.mesh_hash) + "; put the mesh of that time in its place",
-               {}};
-}
-
 Result<Engine> make_engine(TetMesh mesh, const RecordingHeader& header, const ReplayJob& job) {
   EngineOptions options;
   options.cut = header.cut;
@@ -161,6 +140,27 @@ void finish(const Engine& engine, const std::vector<std::uint32_t>& file_vertex,
 }
 
 }  // namespace
+
+Result<LoadedMesh> load_recorded_mesh(const RecordingHeader& header, const fs::path& recording) {
+  const std::string where = recording.string() + ":1: ";
+  if (header.mesh_file.empty()) {
+    return Error{ErrorCode::kBadFile, where + "it was recorded on a mesh of no file; replay it in the program", {}};
+  }
+  std::error_code code;
+  fs::path path = recording.parent_path() / header.mesh_file;
+  if (!fs::exists(path, code)) path = header.mesh_file;
+  if (!fs::exists(path, code)) {
+    return Error{ErrorCode::kBadFile,
+                 where + "the mesh \"" + header.mesh_file + "\" is not there; put it where it was beside the recording",
+                 {}};
+  }
+  Result<LoadedMesh> loaded = load_mesh(path);
+  if (!loaded.ok() || loaded->mesh.hash() == header.mesh_hash) return loaded;
+  return Error{ErrorCode::kBadFile,
+               path.string() + ": is not the mesh of the recording: its hash is " + hash_text(loaded->mesh.hash()) +
+                   ", recorded was " + hash_text(header.mesh_hash) + "; put the mesh of that time in its place",
+               {}};
+}
 
 Result<std::optional<ReplayDifference>> replay_call(Engine& engine, const RecordedCall& call, bool verify,
                                                     std::string_view file_name) {

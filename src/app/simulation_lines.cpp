@@ -80,7 +80,8 @@ class CallReader : public LineReader {
 
   bool run(const JsonValue& root, SimulationCall& call) {
     return read_call_kind(root, kPath, kCallNames, call.kind) && read_arguments(root, call) &&
-           read_error(root, call.error) && read_hash(root, kPath, call.hash);
+           read_error(root, call.error) &&
+           (root.find("hash") == nullptr || read_hash(root, kPath, call.hash.emplace()));
   }
 
  private:
@@ -205,7 +206,7 @@ std::string to_line(const SimulationCall& call) {
     root["speed"] = call.settle.speed;
   }
   if (call.error) root["error"] = name_of(*call.error);
-  root["hash"] = hash_text(call.hash);
+  if (call.hash) root["hash"] = hash_text(*call.hash);
   return line_of(root);
 }
 

@@ -46,7 +46,8 @@ std::optional<ReplayDifference> differ(const SimulationCall& call, std::string e
 }
 
 std::optional<ReplayDifference> compare_hashes(const SimulationCall& call, const Simulation& simulation) {
-  return differ(call, "hash " + hash_text(call.hash), "hash " + hash_text(simulation.hash()));
+  if (!call.hash) return std::nullopt;
+  return differ(call, "hash " + hash_text(*call.hash), "hash " + hash_text(simulation.hash()));
 }
 
 Result<std::optional<ReplayDifference>> replay_call(Simulation& simulation, const SimulationCall& call, bool verify,
@@ -81,16 +82,6 @@ Status replay_all(Simulation& simulation, SimulationReader& reader, bool verify,
   return {};
 }
 
-Result<LoadedMesh> load_recorded_model(const SimulationHeader& header) {
-  Result<LoadedMesh> loaded = load_model(header.scene);
-  if (!loaded.ok() || loaded->mesh.hash() == header.mesh_hash) return loaded;
-  return Error{ErrorCode::kBadFile,
-               loaded->source.file + ": is not the model of the recording: its hash is " +
-                   hash_text(loaded->mesh.hash()) + ", recorded was " + hash_text(header.mesh_hash) +
-                   "; put the model of that time in its place",
-               {}};
-}
-
 void finish(const Simulation& simulation, const std::vector<std::uint32_t>& file_vertex, bool wants_mesh,
             ReplayResult& result) {
   const TetMesh& mesh = simulation.mesh();
@@ -103,6 +94,16 @@ void finish(const Simulation& simulation, const std::vector<std::uint32_t>& file
 }
 
 }  // namespace
+
+Result<LoadedMesh> load_recorded_model(const SimulationHeader& header) {
+  Result<LoadedMesh> loaded = load_model(header.scene);
+  if (!loaded.ok() || loaded->mesh.hash() == header.mesh_hash) return loaded;
+  return Error{ErrorCode::kBadFile,
+               loaded->source.file + ": is not the model of the recording: its hash is " +
+                   hash_text(loaded->mesh.hash()) + ", recorded was " + hash_text(header.mesh_hash) +
+                   "; put the model of that time in its place",
+               {}};
+}
 
 Result<ReplayResult> run_simulation_replay(const ReplayJob& job) {
   Result<SimulationReader> reader = SimulationReader::open(job.recording);

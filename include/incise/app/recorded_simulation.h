@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "incise/app/scene.h"
 #include "incise/app/simulation_recording.h"
@@ -17,6 +18,7 @@ struct SceneRun {
   unsigned threads = 1;          ///< in [1, 256]; the result does not depend on them
   LogSink log = {};              ///< hears what a stroke could not do as asked
   std::filesystem::path record;  ///< the recording; empty: none is made
+  bool keeps_calls = false;      ///< remembers all calls, so that `start_recording` may come later
 };
 
 /// A scene's simulation that keeps a recording of what is asked of it: `run_replay` does the same again.
@@ -37,11 +39,25 @@ class RecordedSimulation {
   Result<bool> undo();
   Result<bool> redo();
 
+  /// Begins a recording of the whole session: what was done so far goes in first, with the hash of the last call alone.
+  /// Ends another recording that was under way. Errors: kBadArgument unless calls are kept; kIo, naming the file.
+  /// Cost: O(calls so far).
+  Status start_recording(const std::filesystem::path& path);
+  void stop_recording() { writer_.reset(); }
+  [[nodiscard]] bool is_recording() const { return writer_.has_value(); }
+
   /// Milliseconds that the simulation took for the last call, recording not counted.
   [[nodiscard]] double last_ms() const { return last_ms_; }
 
  private:
-  RecordedSimulation(Simulation simulation, std::optional<SimulationWriter> writer);
+  /// What it takes to record later what was done before.
+  struct Past {
+    Scene scene;
+    std::uint64_t mesh_hash = 0;
+    std::vector<SimulationCall> calls;  // without hashes
+  };
+
+  RecordedSimulation(Simulation simulation, std::optional<SimulationWriter> writer, std::optional<Past> past);
 
   template <class Call>
   auto timed(const Call& call);
@@ -50,6 +66,7 @@ class RecordedSimulation {
 
   Simulation simulation_;
   std::optional<SimulationWriter> writer_;
+  std::optional<Past> past_;
   double last_ms_ = 0;
 };
 

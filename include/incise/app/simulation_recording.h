@@ -28,11 +28,11 @@ enum class SimulationCallKind : std::uint8_t { kSettle, kFrame, kUndo, kRedo };
 /// One call with its arguments and what it left. Arguments of other kinds of calls are at their defaults.
 struct SimulationCall {
   SimulationCallKind kind = SimulationCallKind::kFrame;
-  FrameInput input;                ///< of frame
-  SceneSettle settle;              ///< of settle
-  std::optional<ErrorCode> error;  ///< how the call failed, if it did; never kBadArgument
-  std::uint64_t hash = 0;          ///< `Simulation::hash` after the call
-  std::uint32_t line = 0;          ///< in its file, from 1; the header is line 1. Set by readers
+  FrameInput input;                   ///< of frame
+  SceneSettle settle;                 ///< of settle
+  std::optional<ErrorCode> error;     ///< how the call failed, if it did; never kBadArgument
+  std::optional<std::uint64_t> hash;  ///< `Simulation::hash` after the call, where it was taken
+  std::uint32_t line = 0;             ///< in its file, from 1; the header is line 1. Set by readers
 };
 
 /// Writes a recording while it is made, as `RecordingWriter` does: after each call its line is in the hands of the

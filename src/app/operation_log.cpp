@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/app/operation_log.h"
+
+#include <utility>
+
+namespace incise::inline v0 {
+namespace app {
+
+void OperationLog::add(Operation operation) {
+  if (operations_.size() >= kMost) operations_.erase(operations_.begin());
+  operations_.push_back(std::move(operation));
+  ++count_;
+}
+
+}  // namespace app
+}  // namespace incise::inline v0
