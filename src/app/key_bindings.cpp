@@ -47,6 +47,8 @@ constexpr KeyBinding kBindings[] = {
     {Action::kZoomOut, {"-"}, "View", "Further away"},
     {Action::kWireframe, {"W"}, "View", "Edges of the mesh"},
     {Action::kClipPlane, {"X"}, "View", "Look inside: a clip plane along the view"},
+    {Action::kClipDeeper, {"PageDown"}, "View", "Clip plane further in"},
+    {Action::kClipShallower, {"PageUp"}, "View", "Clip plane further out"},
     {Action::kColor, {"C"}, "View", "Colour by tissue, region, stroke or quality"},
     {Action::kWorstTets, {"Q"}, "View", "Mark the worst tets"},
     {Action::kTransparency, {"T"}, "View", "See through the skin"},

@@ -43,6 +43,8 @@ enum class Action : std::uint8_t {
   kZoomOut,
   kWireframe,
   kClipPlane,
+  kClipDeeper,
+  kClipShallower,
   kColor,
   kWorstTets,
   kTransparency,
