@@ -16,6 +16,7 @@ namespace incise::inline v0 {
 namespace app {
 namespace {
 
+constexpr double kPauses = 3;  // frames between two strokes that the blade follows
 constexpr std::uint32_t kFirstHandHook = 1U << 16U;  // those of scenes come before
 
 Eigen::Vector3f to_float(const Vec3& point) {
@@ -165,13 +166,17 @@ void Session::State::note(Operation::Kind kind, std::string text) {
 void Session::follow(const Stroke& stroke) {
   State& s = *state_;
   if (s.is_replay || !check(stroke).ok()) return;
-  Scene scene;
-  scene.options.frame_seconds = s.scene.options.frame_seconds;
-  scene.strokes.push_back({stroke, Vec3::Zero()});
-  scene.frames = static_cast<std::uint64_t>(stroke.times.back() / scene.options.frame_seconds) + 2;
   s.plays_script = false;
-  s.followed = std::move(scene);
-  s.followed_frame = 0;
+  if (!s.followed) {
+    s.followed.emplace();
+    s.followed->options.frame_seconds = s.scene.options.frame_seconds;
+    s.followed_frame = 0;
+  }
+  const double frame = s.scene.options.frame_seconds;
+  const double begin = s.followed->strokes.empty() ? 0 : s.followed->strokes.back().stroke.times.back() + kPauses * frame;
+  SceneStroke& added = s.followed->strokes.emplace_back(SceneStroke{stroke, Vec3::Zero()});
+  for (double& time : added.stroke.times) time += begin - stroke.times.front();
+  s.followed->frames = static_cast<std::uint64_t>(added.stroke.times.back() / frame) + 2;
 }
 
 bool Session::is_following() const {

@@ -121,6 +121,12 @@ void Viewer::act(Action action, const Viewport& viewport) {
   s.act_on_window(action);
 }
 
+void Viewer::set_clip_depth(double depth) {
+  state_->shown.clip_depth = depth;
+  state_->show_surface();
+  state_->is_changed = true;
+}
+
 void Viewer::open(const fs::path& path) {
   state_->session.open(path);
 }

@@ -79,7 +79,8 @@ class Session {
   /// One frame: the scene's script, or the next call of a recording, and what the hands do. At the end of a recording
   /// nothing happens. Errors: kIo where the recording fails; others as `Simulation::frame`.
   Status frame(const HandState& hands = {});
-  /// Has the blade follow a stroke over the next frames, at its own times. Not while a recording is played.
+  /// Has the blade follow a stroke over the next frames, at its own times, after those that it follows already. Does
+  /// nothing while a recording is played, or for a stroke that breaks its promises.
   void follow(const Stroke& stroke);
   /// Whether such a stroke is under way.
   [[nodiscard]] bool is_following() const;

@@ -51,6 +51,8 @@ class Viewer {
 
   void handle(const PointerEvent& event, const Viewport& viewport);
   void act(Action action, const Viewport& viewport);
+  /// Moves the clip plane, where there is one: the share of the body that is cut away, in [0, 1].
+  void set_clip_depth(double depth);
   /// A file was dropped, or named.
   void open(const std::filesystem::path& path);
   /// Says something to the person for a few seconds, at `now` s.

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <map>
+
+#include "exit_code.h"
+#include "incise/app/key_bindings.h"
+#include "incise/app/scene_simulation.h"
+#include "incise/mesh/bounds.h"
+#include "incise/version.h"
+
+namespace incise_view {
+namespace {
+
+using namespace incise;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  incise-view scenes/sim_skin.json\n"
+    "  incise-view models/bunny.mesh --up y\n"
+    "  incise-view session.jsonl                                  (a recording, played)\n"
+    "  incise-view --headless --replay session.jsonl --frame 120 --screenshot out.png\n"
+    "  incise-view --headless scenes/sim_cube.json --frame 200 --color quality --wireframe --screenshot out.png\n";
+
+/// A cube to cut at once: what is shown where no file is named.
+app::Scene cube_scene() {
+  app::Scene scene;
+  scene.name = "A soft cube";
+  scene.model.box.cells = {10, 10, 10};
+  scene.options.body.length_unit = 0.1;
+  scene.options.body.damping = 2;
+  scene.options.materials.fallback.young = 10e3;
+  scene.options.engine.maintain.work_units = 100'000;
+  scene.attachments.push_back({app::HalfSpace{Vec3::UnitZ(), 0.001}});
+  scene.settle.frames = 120;
+  scene.frames = app::kMaxSceneFrames;
+  return scene;
+}
+
+void add_input(CLI::App& root, Arguments& a) {
+  root.add_option("FILE", a.file, "A scene, a mesh, or a recording of incise simulate, incise cut or this window");
+  root.add_option_function<std::string>(
+      "--replay", [&a](const std::string& file) { a.file = file; }, "The recording to play: the same as FILE");
+  root.add_option("--record", a.record, "Record the session from its start to this file (JSON lines)");
+  root.add_option("--device", a.device,
+                  "What moves the blade: mouse (pens are mice), none, or a blade file that is the hand");
+  root.add_option("--up", a.up, "Of a mesh without a scene: the axis against gravity")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  root.add_option("--threads", a.threads, "Worker threads, 1 to 256; the result does not depend on it")
+      ->check(CLI::Range(1, 256));
+  root.add_flag("--paused", a.is_paused, "Wait for the space bar");
+  root.add_option("--speed", a.speed, "Of the simulation against the clock; 0: as fast as it can")
+      ->check(CLI::Range(0.0, 100.0));
+}
+
+void add_view(CLI::App& root, Arguments& a) {
+  using Colors = std::map<std::string, app::ColorBy>;
+  const auto seen = [&a](auto change) {
+    return [&a, change](const auto&... value) {
+      a.has_view = true;
+      change(value...);
+    };
+  };
+  root.add_option_function<std::string>(
+          "--color",
+          seen([&a](const std::string& name) {
+            static const Colors kColors = {{"tissue", app::ColorBy::kTissue},
+                                           {"region", app::ColorBy::kRegion},
+                                           {"stroke", app::ColorBy::kStroke},
+                                           {"quality", app::ColorBy::kQuality}};
+            a.view.color = kColors.at(name);
+          }),
+          "What colours tell: tissue, region, stroke or quality")
+      ->check(CLI::IsMember({"tissue", "region", "stroke", "quality"}));
+  root.add_option_function<std::string>("--theme", seen([&a](const std::string& name) {
+                                          a.view.theme = name == "light" ? app::Theme::kLight : app::Theme::kDark;
+                                        }),
+                                        "dark or light")
+      ->check(CLI::IsMember({"dark", "light"}));
+  root.add_flag_callback("--wireframe", [&a] {
+    a.has_view = true;
+    a.view.shows_wireframe = true;
+  }, "Draw the edges of the mesh");
+  root.add_flag_callback("--lines-only", [&a] {
+    a.has_view = true;
+    a.view.shows_wireframe = true;
+    a.view.shows_surface = false;
+  }, "Draw nothing but the edges");
+  root.add_option_function<double>("--opacity", seen([&a](double value) { a.view.skin_opacity = value; }),
+                                   "Of the skin, above 0, at most 1")
+      ->check(CLI::Range(0.05, 1.0));
+}
+
+/// `count` numbers that stand behind each other, with commas between.
+Vec3 vector_of(const std::vector<double>& n) {
+  return {n[0], n[1], n[2]};
+}
+
+void add_camera(CLI::App& root, Arguments& a) {
+  root.add_option_function<std::vector<double>>(
+          "--from", [&a](const std::vector<double>& n) { a.from = vector_of(n); },
+          "x,y,z: the direction from the body to the eye")
+      ->delimiter(',')
+      ->expected(3);
+  root.add_option("--zoom", a.zoom, "Above 1: nearer than what shows the whole body")->check(CLI::Range(0.01, 100.0));
+  root.add_option_function<std::vector<double>>(
+          "--clip", [&a](const std::vector<double>& n) { a.clip = app::HalfSpace{vector_of(n), n[3]}; },
+          "nx,ny,nz,d: leave out the tets where n.x <= d")
+      ->delimiter(',')
+      ->expected(4);
+  root.add_option_function<std::string>(
+      "--size",
+      [&a](const std::string& text) {
+        char end = 0;
+        if (std::sscanf(text.c_str(), "%dx%d%c", &a.size.width, &a.size.height, &end) == 2 && a.size.width > 0 &&
+            a.size.height > 0 && a.size.width <= 16384 && a.size.height <= 16384) {
+          return;
+        }
+        throw CLI::ValidationError("--size", "must be WIDTHxHEIGHT in pixels, for instance 1280x720");
+      },
+      "WIDTHxHEIGHT in pixels");
+  root.add_option("--samples", a.samples, "Per pixel, to smooth edges: 0 to 16")->check(CLI::Range(0, 16));
+}
+
+void add_headless(CLI::App& root, Arguments& a) {
+  root.add_flag("--headless", a.is_headless, "No window, and no X server: only pictures");
+  root.add_option_function<std::uint64_t>(
+      "--frame",
+      [&a](std::uint64_t frame) {
+        a.frame = frame;
+        a.has_frame = true;
+      },
+      "The picture's frame: so many of a scene, or calls of a recording (default: its end)");
+  root.add_option("--screenshot", a.screenshot, "Write the picture to this PNG");
+  root.add_option("--sequence", a.sequence, "Write pictures of all frames up to --frame to this folder");
+  root.add_option("--every", a.every, "Frames from one picture of --sequence to the next")
+      ->check(CLI::Range(std::uint64_t{1}, app::kMaxSceneFrames));
+}
+
+std::string usage_problem(const Arguments& a) {
+  if (a.is_headless && a.screenshot.empty() && a.sequence.empty()) {
+    return "--headless makes pictures: say where with --screenshot OUT.png or --sequence FOLDER";
+  }
+  if (!a.is_headless && !(a.screenshot.empty() && a.sequence.empty())) {
+    return "--screenshot and --sequence need --headless; in the window, S saves a picture";
+  }
+  if (a.from && !(a.from->norm() > 0)) return "--from must not be zero";
+  if (a.clip && !(a.clip->normal.norm() > 0)) return "the normal of --clip must not be zero";
+  return {};
+}
+
+}  // namespace
+
+app::SessionOptions Arguments::session_options() const {
+  app::SessionOptions options;
+  options.threads = threads;
+  options.record = record;
+  options.up = up == "x" ? Vec3::UnitX() : (up == "y" ? Vec3::UnitY() : Vec3::UnitZ());
+  return options;
+}
+
+std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
+  CLI::App root("incise-view shows bodies that are cut while they deform, and lets you cut them", "incise-view");
+  root.set_version_flag("--version", "incise-view " INCISE_VERSION);
+  add_input(root, arguments);
+  add_view(root, arguments);
+  add_camera(root, arguments);
+  add_headless(root, arguments);
+  root.footer(std::string(kExamples) + "\nKeys:\n" + app::list_of_keys() +
+              "\nExit: 0 done, 1 failure, 2 usage, 3 bad input, 5 no display or no OpenGL 3.3\n");
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return root.exit(error) == 0 ? kDone : kUsage;
+  }
+  if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(kUsage, problem);
+  return std::nullopt;
+}
+
+Result<app::Session> open_session(const Arguments& arguments) {
+  const app::SessionOptions options = arguments.session_options();
+  return arguments.file.empty() ? app::Session::open(cube_scene(), options)
+                                : app::Session::open(arguments.file, options);
+}
+
+}  // namespace incise_view

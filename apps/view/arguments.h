@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "incise/app/picture.h"
+#include "incise/app/session.h"
+
+namespace incise_view {
+
+struct Arguments {
+  std::string file;  ///< scene, mesh or recording; empty: a cube
+  unsigned threads = 1;
+  std::string record;          ///< from the start
+  std::string device = "mouse";  ///< "mouse", "none", or a blade file that is the hand
+  std::string up = "z";
+  bool is_paused = false;
+  double speed = 1;
+
+  // How it is drawn.
+  incise::app::Viewport size;
+  std::optional<unsigned> samples;
+  incise::app::ViewOptions view;
+  bool has_view = false;  ///< asked for on the command line
+  std::optional<incise::Vec3> from;
+  double zoom = 1;
+  std::optional<incise::app::HalfSpace> clip;
+
+  // Without a window.
+  bool is_headless = false;
+  std::uint64_t frame = 0;
+  bool has_frame = false;
+  std::string screenshot;
+  std::string sequence;
+  std::uint64_t every = 1;
+
+  [[nodiscard]] incise::app::SessionOptions session_options() const;
+};
+
+/// Reads the command line. Returns the exit code where the program is to end at once: after --help, or wrong usage.
+std::optional<int> parse(int argc, char** argv, Arguments& arguments);
+
+/// The session that the arguments name. Errors: as `Session::open`.
+incise::Result<incise::app::Session> open_session(const Arguments& arguments);
+
+}  // namespace incise_view

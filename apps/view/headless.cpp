@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "headless.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "exit_code.h"
+#include "incise/app/blade_file.h"
+#include "incise/render/headless_context.h"
+#include "incise/render/image.h"
+#include "incise/render/offscreen_target.h"
+#include "incise/render/renderer.h"
+
+namespace incise_view {
+namespace {
+
+using namespace incise;
+
+constexpr unsigned kSamples = 4;
+
+/// Draws a session at one moment after another.
+class Photographer {
+ public:
+  Photographer(const Arguments& arguments, const app::Session& session, render::Renderer renderer,
+               render::OffscreenTarget target)
+      : arguments_(arguments),
+        surface_(session.mesh(), session.engine().journal()),
+        renderer_(std::move(renderer)),
+        target_(std::move(target)) {
+    surface_.set_options({arguments.clip});
+  }
+
+  Status take(const app::Session& session, const std::filesystem::path& file);
+
+ private:
+  void aim(const app::Session& session);
+
+  const Arguments& arguments_;
+  app::SurfaceView surface_;
+  render::Renderer renderer_;
+  render::OffscreenTarget target_;
+  app::Picture picture_;
+  bool has_aimed_ = false;
+};
+
+/// Once: a sequence's camera stands still.
+void Photographer::aim(const app::Session& session) {
+  if (has_aimed_) return;
+  has_aimed_ = true;
+  const Box body = bounds_of(picture_.surface);
+  picture_.options = app::view_options_of(session.scene());
+  if (arguments_.has_view) picture_.options = arguments_.view;
+  picture_.camera = app::camera_of(session.scene(), body, arguments_.size);
+  if (!arguments_.from) {
+    app::zoom(picture_.camera, 1 / arguments_.zoom, body);
+    return;
+  }
+  app::look_along(picture_.camera, -*arguments_.from);
+  app::frame_all(picture_.camera, arguments_.size, body);
+  app::zoom(picture_.camera, 1 / arguments_.zoom, body);
+}
+
+Status Photographer::take(const app::Session& session, const std::filesystem::path& file) {
+  surface_.follow(session.mesh(), session.engine().journal());
+  surface_.fill(session.mesh(), picture_.surface);
+  aim(session);
+  picture_.marks = {};
+  session.draw(picture_.marks);
+  if (Status status = renderer_.draw(picture_, arguments_.size, target_.framebuffer()); !status.ok()) return status;
+  const Result<render::Image> image = target_.read();
+  return image.ok() ? write_png(*image, file) : Status(image.error());
+}
+
+/// The last frame that is asked for.
+std::uint64_t last_frame(const Arguments& a, const app::Session& session) {
+  if (session.is_replay()) return a.has_frame ? std::min(a.frame, session.place().calls) : session.place().calls;
+  return a.frame;
+}
+
+Status run(const Arguments& a, app::Session& session, Photographer& photographer) {
+  const std::uint64_t last = last_frame(a, session);
+  for (std::uint64_t frame = 0; frame <= last; ++frame) {
+    if (frame > 0) {
+      if (Status status = session.frame(); !status.ok()) return status;
+    }
+    if (a.sequence.empty() || frame % a.every != 0) continue;
+    const std::filesystem::path file = std::filesystem::path(a.sequence) / fmt::format("{:06}.png", frame);
+    if (Status status = photographer.take(session, file); !status.ok()) return status;
+  }
+  return a.screenshot.empty() ? Status() : photographer.take(session, a.screenshot);
+}
+
+/// The hand of `--device`.
+Status hand_over(const Arguments& a, app::Session& session) {
+  if (a.device == "mouse" || a.device == "none") return {};
+  const Result<std::vector<Stroke>> strokes = app::read_blade(a.device);
+  if (!strokes.ok()) return strokes.error();
+  for (const Stroke& stroke : *strokes) session.follow(stroke);
+  return {};
+}
+
+}  // namespace
+
+int run_headless(const Arguments& arguments) {
+  Result<app::Session> session = open_session(arguments);
+  if (!session.ok()) return fail(kBadInput, session.error().message);
+  if (const Status status = hand_over(arguments, *session); !status.ok()) {
+    return fail(kBadInput, status.error().message);
+  }
+  const Result<render::HeadlessContext> context = render::HeadlessContext::create();
+  if (!context.ok()) return fail(kNoDisplay, context.error().message);
+  Result<render::Renderer> renderer = render::Renderer::create(arguments.samples.value_or(kSamples));
+  if (!renderer.ok()) return fail(kNoDisplay, renderer.error().message);
+  Result<render::OffscreenTarget> target = render::OffscreenTarget::create(arguments.size);
+  if (!target.ok()) return fail(exit_of(target.error()), target.error().message);
+  std::error_code code;
+  if (!arguments.sequence.empty()) std::filesystem::create_directories(arguments.sequence, code);
+  Photographer photographer(arguments, *session, std::move(renderer).value(), std::move(target).value());
+  const Status status = run(arguments, *session, photographer);
+  return status.ok() ? kDone : fail(exit_of(status.error()), status.error().message);
+}
+
+}  // namespace incise_view

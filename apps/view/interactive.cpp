@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interactive.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <chrono>
+#include <system_error>
+#include <utility>
+
+#include "exit_code.h"
+#include "incise/app/blade_file.h"
+#include "incise/app/session_thread.h"
+#include "incise/app/viewer.h"
+#include "incise/render/headless_context.h"
+#include "incise/render/image.h"
+#include "incise/render/offscreen_target.h"
+#include "incise/render/renderer.h"
+#include "interface.h"
+#include "panels.h"
+#include "window.h"
+
+namespace incise_view {
+namespace {
+
+using namespace incise;
+
+constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
+constexpr int kSettlingFrames = 3;         // panels find their sizes within so many after something happened
+constexpr unsigned kSamples = 4;
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The window with everything in it, frame by frame.
+class Application {
+ public:
+  Application(const Arguments& arguments, Window& window, render::Renderer renderer, app::SessionThread& session)
+      : arguments_(arguments),
+        window_(window),
+        renderer_(std::move(renderer)),
+        interface_(window),
+        viewer_(session, {".", arguments.view, arguments.has_view}) {
+    panels_.renderer_name = window.renderer_name();
+    panels_.is_software = render::is_software_renderer(panels_.renderer_name);
+  }
+
+  ExitCode run();
+
+ private:
+  [[nodiscard]] bool ends();
+  void frame();
+  void handle_events();
+  void handle(const app::PointerEvent& event);
+  void draw();
+  void save_picture();
+
+  const Arguments& arguments_;
+  Window& window_;
+  render::Renderer renderer_;
+  Interface interface_;
+  app::Viewer viewer_;
+  PanelContext panels_;
+  int frames_to_draw_ = kSettlingFrames;
+  bool is_dragging_ = false;  // from the picture, wherever the pointer is meanwhile
+  std::string title_;
+};
+
+ExitCode Application::run() {
+  while (!ends()) {
+    window_.wait(kLongestWait);
+    frame();
+    if (window_.is_lost()) {
+      return static_cast<ExitCode>(
+          fail(kNoDisplay, "the graphics context was lost; a recording under way is kept. Start again to go on"));
+    }
+  }
+  return kDone;
+}
+
+bool Application::ends() {
+  return window_.should_close() || std::as_const(viewer_).state().wants_quit;
+}
+
+void Application::frame() {
+  panels_.viewport = window_.viewport();
+  const app::ViewerState& state = std::as_const(viewer_).state();
+  interface_.begin(state.options.theme, state.text_scale);
+  handle_events();
+  draw_panels(viewer_, panels_);
+  const bool has_changed = viewer_.update(panels_.viewport, seconds_now());
+  frames_to_draw_ = has_changed ? kSettlingFrames : frames_to_draw_ - 1;
+  if (frames_to_draw_ > 0) {
+    draw();
+  } else {
+    interface_.skip();
+  }
+  window_.set_full_screen(state.is_full_screen);
+  if (title_ != viewer_.view().title) {
+    title_ = viewer_.view().title;
+    window_.show_title(title_.empty() ? "Incise" : title_ + " - Incise");
+  }
+}
+
+void Application::handle_events() {
+  for (const WindowEvent& event : window_.take_events()) {
+    frames_to_draw_ = kSettlingFrames + 1;
+    if (const auto* pointer = std::get_if<app::PointerEvent>(&event)) handle(*pointer);
+    if (const auto* dropped = std::get_if<DroppedFile>(&event)) viewer_.open(dropped->path);
+    const auto* press = std::get_if<app::KeyPress>(&event);
+    if (press == nullptr || interface_.wants_keys()) continue;
+    if (const std::optional<app::Action> action = app::action_of(*press)) viewer_.act(*action, panels_.viewport);
+  }
+}
+
+/// A drag that began in the picture stays the picture's; one that began on a panel stays the panel's.
+void Application::handle(const app::PointerEvent& event) {
+  using Kind = app::PointerEvent::Kind;
+  if (arguments_.device != "mouse" && event.button == app::PointerEvent::Button::kLeft && !event.alt &&
+      event.kind != Kind::kWheel) {
+    return;
+  }
+  if (!is_dragging_ && interface_.wants_pointer()) return;
+  if (event.kind == Kind::kPress) is_dragging_ = true;
+  if (event.kind == Kind::kRelease) is_dragging_ = false;
+  viewer_.handle(event, panels_.viewport);
+}
+
+void Application::draw() {
+  const double begin = seconds_now();
+  if (const Status status = renderer_.draw(viewer_.picture(), panels_.viewport, 0); !status.ok()) {
+    viewer_.notify(status.error().message);
+  }
+  save_picture();
+  interface_.draw();
+  viewer_.drawn(seconds_now(), 1e3 * (seconds_now() - begin));
+  window_.swap();
+}
+
+/// Without the panels.
+void Application::save_picture() {
+  const std::optional<std::filesystem::path> file = viewer_.take_screenshot();
+  if (!file) return;
+  std::error_code code;
+  if (file->has_parent_path()) std::filesystem::create_directories(file->parent_path(), code);
+  const Result<render::Image> image = render::read_framebuffer(0, panels_.viewport);
+  const Status status = image.ok() ? write_png(*image, *file) : Status(image.error());
+  if (!status.ok()) return viewer_.notify(status.error().message);
+  if (!std::as_const(viewer_).state().saves_sequence) viewer_.notify("Saved " + file->string());
+}
+
+/// Lets the blade of `--device` do its strokes.
+Status hand_over(const Arguments& arguments, app::SessionThread& session) {
+  if (arguments.device == "mouse" || arguments.device == "none") return {};
+  const Result<std::vector<Stroke>> strokes = app::read_blade(arguments.device);
+  if (!strokes.ok()) return strokes.error();
+  for (const Stroke& stroke : *strokes) session.follow(stroke);
+  return {};
+}
+
+/// Software renderers smooth edges at a price that is better spent on pictures.
+unsigned samples_of(const Arguments& arguments, const Window& window) {
+  return arguments.samples.value_or(render::is_software_renderer(window.renderer_name()) ? 0 : kSamples);
+}
+
+}  // namespace
+
+int run_window(const Arguments& arguments) {
+  Result<app::Session> opened = open_session(arguments);
+  if (!opened.ok()) return fail(kBadInput, opened.error().message);
+  Result<Window> window = Window::open("Incise", arguments.size, 0);
+  if (!window.ok()) return fail(kNoDisplay, window.error().message);
+  Result<render::Renderer> renderer = render::Renderer::create(samples_of(arguments, *window));
+  if (!renderer.ok()) return fail(kNoDisplay, renderer.error().message);
+  app::SessionThreadOptions options;
+  options.session = arguments.session_options();
+  options.session.record.clear();  // of the first file alone
+  options.is_paused = arguments.is_paused;
+  options.speed = arguments.speed;
+  app::SessionThread session(std::move(opened).value(), options);
+  if (const Status status = hand_over(arguments, session); !status.ok()) {
+    return fail(kBadInput, status.error().message);
+  }
+  Application application(arguments, *window, std::move(renderer).value(), session);
+  return application.run();
+}
+
+}  // namespace incise_view

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interface.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace incise_view {
+namespace {
+
+using namespace incise;
+
+constexpr float kTextPixels = 15;
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+void use_theme(app::Theme theme) {
+  ImGuiStyle style;  // anew each time: scaling it twice would scale twice
+  if (theme == app::Theme::kDark) {
+    ImGui::StyleColorsDark(&style);
+    style.Colors[ImGuiCol_WindowBg] = {0.09F, 0.10F, 0.12F, 0.88F};
+    style.Colors[ImGuiCol_Text] = {0.93F, 0.93F, 0.93F, 1};
+    style.Colors[ImGuiCol_TextDisabled] = {0.68F, 0.70F, 0.73F, 1};
+  } else {
+    ImGui::StyleColorsLight(&style);
+    style.Colors[ImGuiCol_WindowBg] = {0.98F, 0.98F, 0.98F, 0.90F};
+    style.Colors[ImGuiCol_Text] = {0.08F, 0.08F, 0.10F, 1};
+    style.Colors[ImGuiCol_TextDisabled] = {0.34F, 0.35F, 0.38F, 1};
+  }
+  style.WindowRounding = 6;
+  style.FrameRounding = 4;
+  style.GrabRounding = 4;
+  style.WindowBorderSize = 0;
+  style.WindowPadding = {10, 9};
+  style.ItemSpacing = {7, 5};
+  ImGui::GetStyle() = style;
+}
+
+}  // namespace
+
+Interface::Interface(const Window& window) : window_(window) {
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Interface::~Interface() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Interface::make_fonts(float pixels) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
+  if (std::filesystem::exists(kFont)) {
+    io.Fonts->AddFontFromFileTTF(kFont, pixels);
+  } else {
+    ImFontConfig config;  // the font that Dear ImGui brings along, made for 13 pixels
+    config.SizePixels = std::max(13.0F, 13 * std::round(pixels / kTextPixels));
+    io.Fonts->AddFontDefault(&config);
+  }
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+  font_pixels_ = pixels;
+}
+
+void Interface::begin(app::Theme theme, double text_scale) {
+  const float pixels = std::round(kTextPixels * static_cast<float>(text_scale * window_.density()));
+  if (pixels != font_pixels_) make_fonts(pixels);
+  use_theme(theme);
+  ImGui::GetStyle().ScaleAllSizes(pixels / kTextPixels);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Interface::draw() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Interface::skip() {
+  ImGui::EndFrame();
+}
+
+bool Interface::wants_pointer() const {
+  return ImGui::GetIO().WantCaptureMouse;
+}
+bool Interface::wants_keys() const {
+  return ImGui::GetIO().WantTextInput;
+}
+
+}  // namespace incise_view

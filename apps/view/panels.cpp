@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "incise/app/color_map.h"
+
+namespace incise_view {
+namespace {
+
+using namespace incise;
+using app::Action;
+using app::Viewer;
+
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+constexpr float kMargin = 0.6F;                           // all in heights of text
+constexpr float kToolsWidth = 13.5F, kFiguresWidth = 19;  // of the panels
+constexpr float kHistogramHeight = 4.2F, kForceHeight = 3.2F, kLegendHeight = 0.8F;
+constexpr int kLogLines = 5;
+
+float em() {
+  return ImGui::GetFontSize();
+}
+void text(const std::string& line) {
+  ImGui::TextUnformatted(line.c_str());
+}
+void faint(const std::string& line) {
+  ImGui::TextDisabled("%s", line.c_str());
+}
+ImU32 color_of(ImGuiCol name, float opacity = 1) {
+  return ImGui::GetColorU32(name, opacity);
+}
+ImU32 color_of(const app::Color& c) {
+  return IM_COL32(c[0], c[1], c[2], 255);
+}
+
+void heading(const char* name) {
+  ImGui::Spacing();
+  faint(name);
+}
+
+/// A window at a corner or an edge of the picture: `at` and `pivot` as shares of it and of the panel.
+bool begin_panel(const char* name, const ImVec2& at, float width, float most_height) {
+  const ImGuiViewport* screen = ImGui::GetMainViewport();
+  const float margin = kMargin * em();
+  const ImVec2 inner(screen->Size.x - 2 * margin, screen->Size.y - 2 * margin);
+  ImGui::SetNextWindowPos({margin + at.x * inner.x, margin + at.y * inner.y}, ImGuiCond_Always, at);
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width > 0 ? width : inner.x, most_height});
+  return ImGui::Begin(name, nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
+// --- the tools
+
+void hint(const std::string& line) {
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", line.c_str());
+}
+
+std::string_view text_of(Action action) {
+  for (const app::KeyBinding& binding : app::key_bindings()) {
+    if (binding.action == action) return binding.text;
+  }
+  return {};
+}
+
+/// A button that does what a key does, and names the key.
+void action_button(Viewer& viewer, const PanelContext& context, Action action, const char* label, bool is_on,
+                   float width = 0) {
+  if (is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  const std::string caption = fmt::format("{}{}###{}", is_on ? "> " : "", label, label);  // not by colour alone
+  if (ImGui::Button(caption.c_str(), {width, 0})) viewer.act(action, context.viewport);
+  if (is_on) ImGui::PopStyleColor();
+  hint(fmt::format("{}  ({})", text_of(action), app::key_of(action)));
+}
+
+void tool_buttons(Viewer& viewer, const PanelContext& context) {
+  heading("Tools");
+  for (unsigned i = 0; i < static_cast<unsigned>(app::ToolKind::kCount); ++i) {
+    const auto tool = static_cast<app::ToolKind>(i);
+    const auto action = static_cast<Action>(i);  // in the same order
+    const std::string label = fmt::format("{} {}", app::key_of(action), app::name_of(tool));
+    action_button(viewer, context, action, label.c_str(), viewer.tools().tool() == tool, -1);
+  }
+}
+
+void tool_settings(Viewer& viewer) {
+  app::ToolSettings settings = viewer.tools().settings();
+  const double unit = viewer.view().scene ? 1e3 * viewer.view().scene->options.body.length_unit : 1;  // mm
+  bool has_changed = false;
+  ImGui::PushItemWidth(-1);
+  if (viewer.tools().tool() == app::ToolKind::kScalpel) {
+    auto depth = static_cast<float>(settings.depth * unit);
+    auto angle = static_cast<float>(settings.angle * 180 / std::numbers::pi);
+    if (ImGui::DragFloat("##depth", &depth, 0.02F * depth, 1e-3F, 1e4F, "Depth %.1f mm")) {
+      settings.depth = static_cast<double>(depth) / unit;
+      has_changed = true;
+    }
+    hint("Drag, or Ctrl+wheel over the picture");
+    if (ImGui::SliderFloat("##angle", &angle, -68, 68, "Angle %.0f deg")) {
+      settings.angle = static_cast<double>(angle) * std::numbers::pi / 180;
+      has_changed = true;
+    }
+    hint("Drag, or Shift+wheel over the picture");
+  }
+  if (viewer.tools().tool() == app::ToolKind::kGrasp) {
+    auto radius = static_cast<float>(settings.grasp_radius * unit);
+    if (ImGui::DragFloat("##radius", &radius, 0.02F * radius, 1e-3F, 1e4F, "Grip %.1f mm")) {
+      settings.grasp_radius = static_cast<double>(radius) / unit;
+      has_changed = true;
+    }
+  }
+  ImGui::PopItemWidth();
+  if (has_changed) viewer.tools().set(settings);
+}
+
+const char* name_of(app::ColorBy color) {
+  constexpr std::array<const char*, 4> kNames = {"Tissue", "Region", "Stroke", "Quality"};
+  return kNames[static_cast<std::size_t>(color)];
+}
+
+void view_buttons(Viewer& viewer, const PanelContext& context) {
+  const app::ViewerState& state = std::as_const(viewer).state();
+  const app::ViewOptions& view = state.options;
+  heading("View");
+  const float half = 0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  action_button(viewer, context, Action::kWireframe, "Edges", view.shows_wireframe, half);
+  ImGui::SameLine();
+  action_button(viewer, context, Action::kClipPlane, "Clip", state.is_clipped, half);
+  action_button(viewer, context, Action::kTransparency, "See in", view.skin_opacity < 1, half);
+  ImGui::SameLine();
+  action_button(viewer, context, Action::kWorstTets, "Worst", state.shows_worst, half);
+  action_button(viewer, context, Action::kOcclusion, "Shade", view.shows_occlusion, half);
+  ImGui::SameLine();
+  action_button(viewer, context, Action::kTheme, view.theme == app::Theme::kDark ? "Light" : "Dark", false, half);
+  const std::string color = fmt::format("Colour: {}", name_of(view.color));
+  if (ImGui::Button((color + "###color").c_str(), {-1, 0})) viewer.act(Action::kColor, context.viewport);
+  hint(fmt::format("{}  ({})", text_of(Action::kColor), app::key_of(Action::kColor)));
+  if (!state.is_clipped) return;
+  auto depth = static_cast<float>(state.clip_depth);
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::SliderFloat("##clip", &depth, 0, 1, "Clip at %.2f")) return;
+  viewer.set_clip_depth(static_cast<double>(depth));
+}
+
+void draw_tools(Viewer& viewer, const PanelContext& context) {
+  const float screen = ImGui::GetMainViewport()->Size.y;
+  if (begin_panel("tools", {0, 0}, kToolsWidth * em(), screen - 2 * kMargin * em())) {
+    tool_buttons(viewer, context);
+    tool_settings(viewer);
+    view_buttons(viewer, context);
+    heading("More");
+    const float half = 0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+    action_button(viewer, context, Action::kScreenshot, "Picture", false, half);
+    ImGui::SameLine();
+    action_button(viewer, context, Action::kHelp, "Keys", std::as_const(viewer).state().shows_help, half);
+  }
+  ImGui::End();
+}
+
+// --- the figures
+
+void begin_columns(const char* name, int count) {
+  ImGui::BeginTable(name, count, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings);
+}
+
+void rows(const char* name, const std::vector<app::HudRow>& lines) {
+  begin_columns(name, 3);
+  for (const app::HudRow& row : lines) {
+    ImGui::TableNextColumn();
+    faint(row.label);
+    ImGui::TableNextColumn();
+    text(row.value);
+    ImGui::TableNextColumn();
+    faint(row.remark);
+  }
+  ImGui::EndTable();
+}
+
+void stage_table(const app::Hud& hud) {
+  begin_columns("stages", 3);
+  for (const app::StageRow& row : hud.stages()) {
+    ImGui::TableNextColumn();
+    faint(row.label);
+    ImGui::TableNextColumn();
+    text(fmt::format("{:.2f} ms", row.ms));
+    ImGui::TableNextColumn();
+    ImGui::ProgressBar(static_cast<float>(row.percent / 100), {-1, 0.9F * em()},
+                       fmt::format("{:.0f} %", row.percent).c_str());
+  }
+  ImGui::EndTable();
+}
+
+/// Shares of tets by L/r, logarithmic: bars for now, steps for before. Colours are those of the quality's map.
+void histogram(const app::SessionView& view) {
+  const auto& before = view.quality_before;
+  const auto& now = view.quality;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, kHistogramHeight * em());
+  ImGui::Dummy(size);
+  constexpr std::size_t kBins = app::QualityFigures::kBins;
+  const auto share = [](const app::QualityFigures& f, std::size_t bin) {
+    return f.tets > 0 ? static_cast<float>(f.histogram[bin]) / static_cast<float>(f.tets) : 0.0F;
+  };
+  float most = 1e-6F;
+  for (std::size_t i = 0; i < kBins; ++i) most = std::max({most, share(before, i), share(now, i)});
+  // The square root of the share: few bad tets must be seen beside many good ones.
+  const auto top = [&](float value) { return at.y + size.y * (1 - std::sqrt(value / most)); };
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const float bottom = at.y + size.y;
+  list->AddLine({at.x, bottom}, {at.x + size.x, bottom}, color_of(ImGuiCol_TextDisabled));
+  for (std::size_t i = 0; i < kBins; ++i) {
+    const float left = at.x + size.x * static_cast<float>(i) / kBins;
+    const float right = at.x + size.x * static_cast<float>(i + 1) / kBins;
+    const float height = top(share(now, i));
+    list->AddRectFilled({left, height}, {right - 1, bottom}, color_of(app::quality_color(static_cast<std::uint8_t>(i * 8 + 4))));
+    list->AddRect({left, height}, {right - 1, bottom}, color_of(ImGuiCol_Text, 0.35F));
+    const float old = top(share(before, i));
+    list->AddLine({left, old}, {right, old}, color_of(ImGuiCol_Text), 1.5F);
+  }
+  faint("L/r: 4.9, good");
+  ImGui::SameLine(ImGui::GetContentRegionAvail().x - 4.5F * em());
+  faint("bad, 200");
+  hint("Bars: now. Lines: before the first cut. Heights grow with the square root of the share.");
+}
+
+void quality(const app::SessionView& view) {
+  begin_columns("quality", 3);
+  for (const char* head : {"L/r", "before", "now"}) {
+    ImGui::TableNextColumn();
+    faint(head);
+  }
+  for (const app::QualityRow& row : quality_rows(view)) {
+    ImGui::TableNextColumn();
+    faint(row.label);
+    ImGui::TableNextColumn();
+    text(row.before);
+    ImGui::TableNextColumn();
+    text(row.now);
+  }
+  ImGui::EndTable();
+  histogram(view);
+}
+
+void force(const app::SessionView& view) {
+  heading("Force on the blade");
+  rows("force", force_rows(view));
+  std::vector<float> samples;
+  for (const app::ForceSample& sample : view.figures.force) samples.push_back(sample.force);
+  const float most = std::max(1e-3F, static_cast<float>(1.1 * view.figures.peak_force));
+  const std::string scale = fmt::format("to {:.2g} N, last {:.0f} s", most, static_cast<double>(samples.size()) / 60);
+  ImGui::PlotLines("##force", samples.data(), static_cast<int>(samples.size()), 0, scale.c_str(), 0, most,
+                   {ImGui::GetContentRegionAvail().x, kForceHeight * em()});
+}
+
+void validity(const app::SessionView& view) {
+  constexpr std::array<app::Color, 4> kLights = {{{150, 150, 150}, {240, 228, 66}, {0, 158, 115}, {213, 94, 0}}};
+  constexpr std::array<const char*, 4> kMarks = {"?", "...", "OK", "X"};
+  const auto state = static_cast<std::size_t>(view.validity.state);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float radius = 0.42F * em();
+  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + radius, at.y + 0.55F * em()}, radius, color_of(kLights[state]));
+  ImGui::Dummy({2.2F * radius, em()});
+  ImGui::SameLine();
+  text(fmt::format("Mesh {}", kMarks[state]));
+  ImGui::SameLine();
+  faint(view.validity.text);
+}
+
+void draw_figures(const Viewer& viewer, const PanelContext& context) {
+  const app::SessionView& view = viewer.view();
+  const float screen = ImGui::GetMainViewport()->Size.y;
+  if (begin_panel("figures", {1, 0}, kFiguresWidth * em(), screen - 2 * kMargin * em())) {
+    rows("rates", rate_rows(viewer.hud(), view));
+    if (context.is_software) faint("drawn by the processor");
+    stage_table(viewer.hud());
+    heading("Mesh");
+    rows("mesh", mesh_rows(view));
+    validity(view);
+    heading("Quality, 4.9 is best");
+    quality(view);
+    force(view);
+  }
+  ImGui::End();
+}
+
+// --- time, at the bottom
+
+void replay_line(Viewer& viewer, const PanelContext& context) {
+  const app::SessionView& view = viewer.view();
+  auto call = static_cast<int>(view.place.call);
+  ImGui::SetNextItemWidth(18 * em());
+  const std::string format = fmt::format("%d of {}", view.place.calls);
+  if (ImGui::SliderInt("##place", &call, 0, static_cast<int>(view.place.calls), format.c_str())) {
+    viewer.session().seek(static_cast<std::uint64_t>(std::max(call, 0)));
+  }
+  ImGui::SameLine();
+  action_button(viewer, context, Action::kNextStep, "Next step", false);
+  ImGui::SameLine();
+  action_button(viewer, context, Action::kTakeOver, "Take over", false);
+}
+
+void log_lines(const app::SessionView& view) {
+  if (!view.log || view.log->empty()) return;
+  const std::vector<app::Operation>& all = *view.log;
+  const std::size_t first = all.size() - std::min<std::size_t>(all.size(), kLogLines);
+  for (std::size_t i = first; i < all.size(); ++i) faint(fmt::format("{:6.1f} s  {}", all[i].time, all[i].text));
+}
+
+void draw_time(Viewer& viewer, const PanelContext& context) {
+  const app::SessionView& view = viewer.view();
+  if (begin_panel("time", {0.5F, 1}, 0, 12 * em())) {
+    log_lines(view);
+    if (view.is_replay) replay_line(viewer, context);
+    action_button(viewer, context, Action::kPause, view.is_paused ? "Go on" : "Pause", false);
+    ImGui::SameLine();
+    action_button(viewer, context, Action::kStep, "Step", false);
+    ImGui::SameLine();
+    action_button(viewer, context, Action::kReset, "Reset", false);
+    ImGui::SameLine();
+    action_button(viewer, context, Action::kUndo, "Undo", false);
+    ImGui::SameLine();
+    action_button(viewer, context, Action::kRedo, "Redo", false);
+    ImGui::SameLine();
+    action_button(viewer, context, Action::kRecord, view.is_recording ? "End recording" : "Record", view.is_recording);
+    ImGui::SameLine();
+    text(fmt::format("{:.1f} s", view.figures.seconds));
+  }
+  ImGui::End();
+}
+
+// --- over the picture
+
+void draw_title(const app::SessionView& view, const app::ViewerState& state) {
+  const std::string& line = !view.busy.empty() ? view.busy : (!state.notice.empty() ? state.notice : view.title);
+  if (line.empty()) return;
+  const float width = ImGui::GetMainViewport()->Size.x - (kToolsWidth + kFiguresWidth + 5 * kMargin) * em();
+  const float wanted = std::min(ImGui::CalcTextSize(line.c_str()).x + 1.6F * em(), std::max(width, 10 * em()));
+  const float centre = 0.5F + 0.5F * (kToolsWidth - kFiguresWidth) * em() / ImGui::GetMainViewport()->Size.x;
+  if (begin_panel("title", {state.panels == app::Panels::kAll ? centre : 0.5F, 0}, wanted, 8 * em())) {
+    ImGui::PushTextWrapPos(0);
+    text(line);
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::End();
+}
+
+void draw_probe(const app::SessionView& view) {
+  if (!view.probe) return;
+  if (begin_panel("probe", {0, 1}, 26 * em(), 10 * em())) {
+    for (const std::string& line : to_lines(*view.probe)) text(line);
+  }
+  ImGui::End();
+}
+
+void draw_legend(const app::ViewerState& state) {
+  if (state.options.color != app::ColorBy::kQuality) return;
+  if (begin_panel("legend", {0.5F, 0.12F}, 20 * em(), 5 * em())) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = kLegendHeight * em();
+    for (int i = 0; i < 64; ++i) {
+      const float left = at.x + width * static_cast<float>(i) / 64, right = at.x + width * static_cast<float>(i + 1) / 64;
+      ImGui::GetWindowDrawList()->AddRectFilled({left, at.y}, {right, at.y + height},
+                                                color_of(app::quality_color(static_cast<std::uint8_t>(4 * i))));
+    }
+    ImGui::Dummy({width, height});
+    text("L/r 4.9, regular");
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - 6 * em());
+    text("200 and worse");
+  }
+  ImGui::End();
+}
+
+void draw_help(app::ViewerState& state) {
+  if (!state.shows_help) return;
+  const ImVec2 screen = ImGui::GetMainViewport()->Size;
+  ImGui::SetNextWindowPos({0.5F * screen.x, 0.5F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(62 * em(), 0.96F * screen.x), std::min(40 * em(), 0.94F * screen.y)});
+  if (ImGui::Begin("Keys", &state.shows_help, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+    text("Left drag: the tool. Right or middle drag, or Alt+drag: turn the view; with Shift: move it. Wheel: zoom.");
+    text("Shift+drag: grasp, whatever the tool. Drop a scene, a mesh or a recording on the window to open it.");
+    ImGui::Separator();
+    ImGui::Columns(2, nullptr, false);
+    std::string_view group;
+    std::size_t lines = 0;
+    for (const app::KeyBinding& binding : app::key_bindings()) {
+      if (lines++ == app::key_bindings().size() / 2) ImGui::NextColumn();
+      if (binding.group != group) heading(std::string(binding.group).c_str());
+      group = binding.group;
+      text(to_text(binding.press));
+      ImGui::SameLine(7 * em());
+      ImGui::PushTextWrapPos(0);
+      text(std::string(binding.text));
+      ImGui::PopTextWrapPos();
+    }
+    ImGui::Columns(1);
+  }
+  ImGui::End();
+}
+
+}  // namespace
+
+void draw_panels(Viewer& viewer, const PanelContext& context) {
+  const app::ViewerState& state = std::as_const(viewer).state();
+  if (state.panels == app::Panels::kAll) {
+    draw_tools(viewer, context);
+    draw_time(viewer, context);
+  }
+  if (state.panels != app::Panels::kNone) {
+    draw_figures(viewer, context);
+    draw_probe(viewer.view());
+    draw_legend(state);
+    draw_title(viewer.view(), state);
+  }
+  if (state.shows_help) draw_help(viewer.state());
+}
+
+}  // namespace incise_view

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "incise/app/viewer.h"
+
+namespace incise_view {
+
+/// What panels need to know beside the viewer.
+struct PanelContext {
+  incise::app::Viewport viewport;
+  std::string renderer_name;
+  bool is_software = false;  ///< the processor draws
+};
+
+/// Draws all panels for a frame; what the person changes in them goes to the viewer.
+void draw_panels(incise::app::Viewer& viewer, const PanelContext& context);
+
+}  // namespace incise_view
