@@ -31,6 +31,18 @@ std::uint8_t quality_byte_of(const TetMesh& mesh, TetId tet) {
   return quality_byte(longest_edge_over_inradius(mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])));
 }
 
+/// Both lips have an edge of the front once each, and in opposite directions: it is seen once. An edge within the lips
+/// whose ends are on the front is seen once per lip.
+void keep_single(std::vector<std::array<std::uint32_t, 2>>& edges) {
+  std::sort(edges.begin(), edges.end());
+  std::size_t kept = 0;
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    while (end < edges.size() && edges[end] == edges[i]) ++end;
+    if (end - i == 1) edges[kept++] = edges[i];
+  }
+  edges.resize(kept);
+}
+
 }  // namespace
 
 std::uint8_t quality_byte(double lr) {
@@ -76,7 +88,7 @@ struct SurfaceView::State {
   std::uint32_t take_slot();
   std::uint32_t take_point(VertexId vertex, Kind kind);
   void drop_point(std::uint32_t point, Kind kind);
-  void mark_newest();
+  void mark_newest(const TetMesh& mesh);
   void find_front(const TetMesh& mesh);
 };
 
@@ -222,30 +234,32 @@ void SurfaceView::State::drop_point(std::uint32_t point, Kind kind) {
   free_points.push_back(point);
 }
 
-void SurfaceView::State::mark_newest() {
-  for (TriangleLook& look : work.looks) {
+void SurfaceView::State::mark_newest(const TetMesh& mesh) {
+  for (std::size_t slot = 0; slot < work.looks.size(); ++slot) {
+    TriangleLook& look = work.looks[slot];
     if ((look.flags & TriangleLook::kWall) == 0) continue;
-    const bool is_newest = look.stroke == static_cast<std::uint8_t>(newest);
+    const bool is_newest = mesh.link(work.sides[slot]).tag() == newest;  // `stroke` alone repeats after 256
     look.flags = static_cast<std::uint8_t>(TriangleLook::kWall | (is_newest ? TriangleLook::kNewest : 0));
   }
 }
 
 void SurfaceView::State::find_front(const TetMesh& mesh) {
-  work.front_edges.clear();
+  auto& edges = work.front_edges;
+  edges.clear();
   const auto is_front = [&](std::uint32_t point) { return (mesh.shape_of(work.vertices[point]) & shape::kFront) != 0; };
   for (std::size_t slot = 0; slot < work.triangles.size(); ++slot) {
     if ((work.looks[slot].flags & TriangleLook::kWall) == 0) continue;
     const auto& corners = work.triangles[slot];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t from = corners[i], to = corners[(i + 1) % 3];
-      // Both lips have the edge, once in each direction.
-      if (from < to && is_front(from) && is_front(to)) work.front_edges.push_back({from, to});
+      if (from < to && is_front(from) && is_front(to)) edges.push_back({from, to});
     }
   }
+  keep_single(edges);
 }
 
 void SurfaceView::State::publish(const TetMesh& mesh) {
-  mark_newest();
+  mark_newest(mesh);
   find_front(mesh);
   ++work.version;
   published = std::make_shared<const SurfaceTopology>(work);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -43,7 +44,7 @@ struct PointerEvent {
 
 /// What tools are set to. Lengths in the mesh's unit.
 struct ToolSettings {
-  double depth = 0;            ///< of the scalpel below the surface, above 0
+  double depth = 0;            ///< of the scalpel's tip below the surface, whatever its angle; above 0
   double angle = 0;            ///< of the scalpel to the left of upright, seen along the cut; rad, within ±1.2
   double grasp_radius = 0;     ///< above 0
   double grasp_stiffness = 0;  ///< N/m per vertex, above 0
@@ -70,16 +71,27 @@ struct HandState {
 
 /// The tools. Left drags go to the chosen tool; right or middle drags, and left ones with Alt, turn the view, with
 /// Shift beside move it; left drags with Shift grasp whatever the tool; the wheel zooms, with Control it changes the
-/// scalpel's depth, with Shift its angle. An event with buttons that are not pressed, or out of order, does nothing.
+/// scalpel's depth, with Shift its angle; while something is grasped it pulls it nearer or pushes it away. One drag at
+/// a time: what other buttons do meanwhile is ignored, and so are events out of order or with numbers that are not
+/// finite.
+///
+/// The scalpel's edge has the same number of points always. A drag that begins beside the body cuts in from its rim:
+/// the blade is first seen off the rim, at the event that comes onto the body. Whoever feeds a simulation has to take
+/// `hands` after each event, and let no two strokes become one. Cost of an event: one `pick`. Not thread-safe.
 class ToolMachine {
  public:
+  /// The scalpel is chosen. Settings out of range are brought into it.
   explicit ToolMachine(const ToolSettings& settings);
+  ToolMachine(ToolMachine&&) noexcept;
+  ToolMachine& operator=(ToolMachine&&) noexcept;
+  ~ToolMachine();
 
   [[nodiscard]] ToolKind tool() const;
   /// Chooses a tool. What is under way ends as if it were released.
   void choose(ToolKind tool);
   [[nodiscard]] const ToolSettings& settings() const;
-  /// Takes settings, each brought into its range.
+  /// Takes settings, each brought into its range; what is not finite, or not above 0 where it has to be, stays as it
+  /// was.
   void set(const ToolSettings& settings);
 
   /// Does what an event asks, to the camera as well.
@@ -102,7 +114,8 @@ class ToolMachine {
   void draw(const ToolContext& context, const Camera& camera, Marks& marks) const;
 
  private:
-  ToolKind tool_ = ToolKind::kScalpel;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace app
