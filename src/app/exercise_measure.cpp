@@ -13,6 +13,7 @@ namespace app {
 namespace {
 
 constexpr double kNearTolerances = 3;  // how many tolerances of the line from it a cut is an attempt at it
+constexpr double kSteepest = 80;       // degrees, of what is counted as below the line
 constexpr double kPiecesPerBin = 2;    // so that no part of the line is stepped over
 
 /// The boundary of a mesh as a soup, in the rest shape.
@@ -53,7 +54,8 @@ TargetLine::TargetLine(const Exercise& exercise, const TetMesh& mesh)
   for (std::size_t i = 1; i < points_.size(); ++i) {
     arcs_.push_back(arcs_.back() + (points_[i] - points_[i - 1]).norm());
   }
-  slope_ = std::max(1.0, std::tan(exercise.angle * std::numbers::pi / 180));
+  const double steepest = std::min(exercise.angle + exercise.tolerances.angle, kSteepest);
+  slope_ = std::tan(steepest * std::numbers::pi / 180);
   skin_.resize(kBins);
   find_skin(mesh);
 }
@@ -196,7 +198,7 @@ class MeshMeasure {
       score_.away_length += 0.5 * length;
     } else if (place.depth > 0.5 * exercise_.depth) {  // cut from within: of a wall that was opened
       score_.is_through =
-          score_.is_through || place.depth > exercise_.depth + std::max(exercise_.tolerances.depth, 0.0);
+          score_.is_through || place.depth > exercise_.depth + exercise_.tolerances.depth;
     } else {
       add_entry(place, length, bin);
     }

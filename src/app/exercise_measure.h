@@ -54,7 +54,7 @@ class TargetLine {
 
   std::vector<Vec3> points_;
   std::vector<double> arcs_;  // per point
-  double near_ = 0, slope_ = 1;
+  double near_ = 0, slope_ = 0;
   std::vector<Skin> skin_;  // per bin
 };
 

@@ -24,8 +24,9 @@ struct ExerciseDeduction {
 /// What was measured on an attempt, and the grade. Lengths in the model's unit, of the rest shape; angles in degrees.
 ///
 /// A point of the cut belongs to the attempt where it is *near* the target line: within three times the tolerance of
-/// the line, and for what is below the skin as much further as it is deep. What is not near is *elsewhere*. The skin's
-/// height and normal are those of the uncut mesh along the line. A figure is NaN where there is nothing to measure it on.
+/// the line, and below the skin as much further as the angle asked for, with its tolerance, takes it. What is not near
+/// is *elsewhere*. The skin's height and normal are those of the uncut mesh along the line. A figure is NaN where there
+/// is nothing to measure it on.
 struct ExerciseScore {
   static constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
 
