@@ -123,6 +123,7 @@ void add_simulate(CLI::App& root, Arguments& a) {
   add_budget(*simulate, s.budget_us,
              "Microseconds for maintenance per frame, 1 to 3600000000, taken as 50 work units each: no clock is read");
   simulate->add_option("--seed", s.seed, "Seed, instead of the scene's");
+  simulate->add_flag("--ideal", s.is_ideal, "Show and score an exercise's ideal strokes, instead of the scene's");
   simulate->add_option("--threads", s.threads, "Worker threads, 1 to 256; the result does not depend on it")
       ->check(CLI::Range(1, 256));
 }

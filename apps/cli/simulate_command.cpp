@@ -32,6 +32,7 @@ std::string usage_problem(const SimulateArguments& a) {
 
 /// The scene with what the arguments ask for instead.
 app::Scene overridden(app::Scene scene, const SimulateArguments& a) {
+  if (a.is_ideal) scene = app::with_ideal(scene);
   EngineOptions& engine = scene.options.engine;
   if (a.frames > 0) scene.frames = a.frames;
   if (a.seed) scene.seed = *a.seed;
@@ -91,6 +92,10 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   if (const std::string problem = output_problem(arguments); !problem.empty()) return fail(terminal, problem, kFailure);
   Result<app::Scene> read = app::read_scene(arguments.scene);
   if (!read.ok()) return fail(terminal, read.error(), kBadInput);
+  if (arguments.is_ideal && (!read->exercise || read->exercise->ideal.empty())) {
+    return fail(terminal, arguments.scene + ": --ideal shows how an exercise is done; this scene has no exercise.ideal",
+                kBadInput);
+  }
   const app::Scene scene = overridden(std::move(read).value(), arguments);
   const Result<std::filesystem::path> model = app::find_model(scene);
   if (!scene.model.file.empty() && !model.ok()) return fail(terminal, model.error(), kBadInput);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/scene_blade.h"
 #include "incise/app/scene.h"
 
 namespace incise::inline v0 {
@@ -24,9 +25,8 @@ double between(double a, double b, double share) {
 
 /// A frame's end and beginning, in seconds.
 struct Moment {
-  Moment(const Scene& scene, std::uint64_t frame)
-      : begin(static_cast<double>(frame) * scene.options.frame_seconds),
-        end(static_cast<double>(frame + 1) * scene.options.frame_seconds) {}
+  Moment(double frame_seconds, std::uint64_t frame)
+      : begin(static_cast<double>(frame) * frame_seconds), end(static_cast<double>(frame + 1) * frame_seconds) {}
 
   double begin, end;
 };
@@ -58,8 +58,11 @@ struct Blend {
   }
 };
 
-std::optional<BladePose> blade_at(const Scene& scene, const Moment& now) {
-  for (const SceneStroke& s : scene.strokes) {
+}  // namespace
+
+std::optional<BladePose> blade_at(const std::vector<SceneStroke>& strokes, double frame_seconds, std::uint64_t frame) {
+  const Moment now(frame_seconds, frame);
+  for (const SceneStroke& s : strokes) {
     const auto span = find_span(s.stroke.times, now);
     if (!span) continue;
     BladePose pose{s.stroke.edges[span->from], s.direction};
@@ -70,12 +73,10 @@ std::optional<BladePose> blade_at(const Scene& scene, const Moment& now) {
   return std::nullopt;
 }
 
-}  // namespace
-
 FrameInput scene_input(const Scene& scene, std::uint64_t frame) {
-  const Moment now(scene, frame);
+  const Moment now(scene.options.frame_seconds, frame);
   FrameInput input;
-  input.blade = blade_at(scene, now);
+  input.blade = blade_at(scene.strokes, scene.options.frame_seconds, frame);
   for (std::size_t i = 0; i < scene.hooks.size(); ++i) {
     const SceneHook& hook = scene.hooks[i];
     const auto span = find_span(hook.times, now);

@@ -9,6 +9,7 @@
 
 #include "app/range_reader.h"
 #include "app/stroke_reader.h"
+#include "app/view_names.h"
 #include "incise/app/blade_file.h"
 #include "incise/app/text_file.h"
 
@@ -27,13 +28,18 @@ constexpr double kMaxJitter = 0.15;        // as `jitter`
 constexpr double kMaxStretch = 1e6;
 constexpr double kTail = 0.5;  // s, that a scene without frames and duration goes on after its last key time
 constexpr double kFramesBetweenStrokes = 2;
+constexpr double kSteepestAngle = 89;          // degrees, of an exercise: an edge along the surface cuts no depth
+constexpr std::size_t kMaxTargetPoints = 1000;  // each part of an attempt is compared with each of them
+constexpr double kLineTolerance = 0.05;         // of the target line's length
+constexpr double kDepthTolerance = 0.25;        // of the depth
 
 class SceneReader {
  public:
   SceneReader(std::string_view file_name, const fs::path& folder) : read_(file_name) { scene_.folder = folder; }
 
   Result<Scene> run(const JsonValue& root) {
-    if (read_header(root) && read_body(root) && read_options(root) && read_hands(root) && read_frames(root)) {
+    if (read_header(root) && read_body(root) && read_options(root) && read_hands(root) && read_exercise(root.find("exercise")) &&
+        read_frames(root) && read_view(root.find("view"))) {
       return std::move(scene_);
     }
     return blade_error_ ? *blade_error_ : read_.error();
@@ -47,7 +53,8 @@ class SceneReader {
            read_.is_object(
                root, "", {"format",        "version",     "name",  "model",  "length_unit", "materials", "gravity",
                           "damping",       "attachments", "tools", "hooks",  "strokes",     "frames",    "duration",
-                          "frame_seconds", "settle",      "seed",  "solver", "cut",         "maintain",  "contact"}) &&
+                          "frame_seconds", "settle",      "seed",  "solver", "cut",         "maintain",  "contact",
+                          "view",          "exercise"}) &&
            read_.optional_text(root, "", "name", scene_.name) &&
            read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
   }
@@ -357,6 +364,10 @@ class SceneReader {
   };
 
   bool read_blade_entry(const JsonValue& value, const std::string& path) {
+    return read_blade_entry(value, path, scene_.strokes);
+  }
+  /// Appends the strokes of one blade.
+  bool read_blade_entry(const JsonValue& value, const std::string& path, std::vector<SceneStroke>& out) {
     std::vector<Stroke> strokes;
     Timing timing;
     Vec3 direction = Vec3::Zero();
@@ -371,8 +382,8 @@ class SceneReader {
     for (Stroke& stroke : strokes) {
       place_in_time(timing, earliest, stroke.times);
       earliest = stroke.times.back() + timing.pause;
-      if (!is_fit(value, path, stroke)) return false;
-      scene_.strokes.push_back({std::move(stroke), direction});
+      if (!is_fit(value, path, stroke, out)) return false;
+      out.push_back({std::move(stroke), direction});
     }
     return true;
   }
@@ -397,7 +408,8 @@ class SceneReader {
     if (!(delay > 0)) return;
     for (double& t : times) t += delay;
   }
-  bool is_fit(const JsonValue& value, const std::string& path, const Stroke& stroke) {
+  bool is_fit(const JsonValue& value, const std::string& path, const Stroke& stroke,
+              const std::vector<SceneStroke>& others) {
     const double frame = scene_.options.frame_seconds;
     const double first = stroke.times.front();
     if (!check(stroke).ok()) return read_.fail(value, path, "has times that are equal in the scene; stretch them");
@@ -405,12 +417,114 @@ class SceneReader {
     if (!(stroke.times.back() - first >= frame)) {
       return read_.fail(value, path, "lasts less than a frame; stretch it, or give it two times");
     }
-    if (scene_.strokes.empty()) return true;
-    const double before = scene_.strokes.back().stroke.times.back();
+    if (others.empty()) return true;
+    const double before = others.back().stroke.times.back();
     if (first - before >= kFramesBetweenStrokes * frame) return true;
     return read_.fail(value, path,
                       "begins at " + short_number(first) + " s, but the stroke before it ends at " +
                           short_number(before) + " s; leave two frames between strokes, in order of time");
+  }
+
+  // --- what a trainee shall do
+
+  bool read_exercise(const JsonValue* value) {
+    if (value == nullptr) return true;
+    const std::string path = "exercise";
+    Exercise& exercise = scene_.exercise.emplace();
+    std::uint64_t strokes = exercise.strokes;
+    if (!read_.is_object(*value, path,
+                         {"name", "instructions", "target", "depth", "angle", "tolerances", "max_force", "strokes",
+                          "ideal"}) ||
+        !read_.optional_text(*value, path, "name", exercise.name) ||
+        !read_.optional_text(*value, path, "instructions", exercise.instructions) ||
+        !read_target(*value, path, exercise) || !read_.need_ranged(*value, path, "depth", kAbove0, exercise.depth) ||
+        !read_.optional_ranged(*value, path, "angle", {0, kSteepestAngle}, exercise.angle) ||
+        !read_tolerances(*value, path + ".tolerances", exercise) ||
+        !read_.optional_ranged(*value, path, "max_force", kAtLeast0, exercise.max_force) ||
+        !read_.optional_whole(*value, path, "strokes", 1, kMaxSceneItems, strokes)) {
+      return false;
+    }
+    exercise.strokes = static_cast<std::uint32_t>(strokes);
+    return read_ideal(value->find("ideal"), path + ".ideal", exercise.ideal);
+  }
+  bool read_target(const JsonValue& value, const std::string& path, Exercise& exercise) {
+    const JsonValue* target = read_.member(value, path, "target");
+    if (target == nullptr || !read_.points(*target, path + ".target", kMaxTargetPoints, exercise.target)) return false;
+    for (std::size_t i = 1; i < exercise.target.size(); ++i) {
+      const double length = (exercise.target[i] - exercise.target[i - 1]).norm();
+      if (length > 0 && std::isfinite(length)) continue;
+      return read_.fail(target->items[i], at(path + ".target", i), "must be apart from the point before it");
+    }
+    return true;
+  }
+  bool read_tolerances(const JsonValue& value, const std::string& path, Exercise& exercise) {
+    ExerciseTolerances& allowed = exercise.tolerances;
+    double length = 0;
+    for (std::size_t i = 1; i < exercise.target.size(); ++i) {
+      length += (exercise.target[i] - exercise.target[i - 1]).norm();
+    }
+    allowed.line = kLineTolerance * length;
+    allowed.depth = kDepthTolerance * exercise.depth;
+    const JsonValue* given = value.find("tolerances");
+    if (given == nullptr) return true;
+    return read_.is_object(*given, path, {"line", "depth", "angle", "force"}) &&
+           read_.optional_ranged(*given, path, "line", kAbove0, allowed.line) &&
+           read_.optional_ranged(*given, path, "depth", kAbove0, allowed.depth) &&
+           read_.optional_ranged(*given, path, "angle", {0, 90, true}, allowed.angle) &&
+           read_.optional_ranged(*given, path, "force", kAtLeast0, allowed.force);
+  }
+  /// One of the scene's strokes by its number, or a blade.
+  bool read_ideal(const JsonValue* value, const std::string& path, std::vector<SceneStroke>& ideal) {
+    if (value == nullptr) return true;
+    if (value->kind == JsonValue::Kind::kObject) return read_blade_entry(*value, path, ideal);
+    if (!value->is_whole || value->whole >= scene_.strokes.size()) {
+      return read_.fail(*value, path, "must be the number of one of the scene's strokes, from 0, or a blade");
+    }
+    ideal.push_back(scene_.strokes[static_cast<std::size_t>(value->whole)]);
+    return true;
+  }
+
+  // --- how it is first seen
+
+  bool read_view(const JsonValue* value) {
+    if (value == nullptr) return true;
+    SceneView& view = scene_.view.emplace();
+    return read_.is_object(*value, "view",
+                           {"from", "up", "target", "distance", "zoom", "color", "wireframe", "opacity", "theme",
+                            "clip"}) &&
+           read_direction(*value, "from", view.from) && read_direction(*value, "up", view.up) &&
+           read_eye(*value, view) && read_.optional_ranged(*value, "view", "zoom", kAbove0, view.zoom) &&
+           read_name(*value, "color", kColorNames, view.color) &&
+           read_.optional_boolean(*value, "view", "wireframe", view.shows_wireframe) &&
+           read_.optional_ranged(*value, "view", "opacity", {0, 1, true}, view.skin_opacity) &&
+           read_name(*value, "theme", kThemeNames, view.theme) && read_clip(value->find("clip"), view);
+  }
+  bool read_eye(const JsonValue& value, SceneView& view) {
+    const JsonValue* target = value.find("target");
+    const JsonValue* distance = value.find("distance");
+    return (target == nullptr || read_.numbers(*target, "view.target", view.target.emplace().data(), 3)) &&
+           (distance == nullptr || read_.ranged(*distance, "view.distance", kAbove0, view.distance.emplace()));
+  }
+  bool read_direction(const JsonValue& view, const std::string& key, std::optional<Vec3>& out) {
+    const JsonValue* value = view.find(key);
+    if (value == nullptr) return true;
+    if (!read_.numbers(*value, "view." + key, out.emplace().data(), 3)) return false;
+    return !out->isZero(0) || read_.fail(*value, "view." + key, "is zero; give a direction [x,y,z]");
+  }
+  bool read_clip(const JsonValue* value, SceneView& view) {
+    return value == nullptr || read_plane(*value, "view.clip", view.clip.emplace());
+  }
+  /// One of the names of an enumeration, in the order of its values.
+  template <class Names, class Enum>
+  bool read_name(const JsonValue& view, const std::string& key, const Names& names, Enum& out) {
+    std::string name(names[static_cast<std::size_t>(out)]);
+    if (!read_.optional_text(view, "view", key, name)) return false;
+    std::string all;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i] == name) return out = static_cast<Enum>(i), true;
+      all += (i > 0 ? ", " : "") + std::string(names[i]);
+    }
+    return read_.fail(*view.find(key), "view." + key, "must be one of " + all);
   }
 
   // --- how long

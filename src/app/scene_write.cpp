@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "app/view_names.h"
+
 namespace incise::inline v0 {
 namespace app {
 namespace {
@@ -113,6 +115,49 @@ Json json_of_all(const std::vector<Item>& items) {
   return list;
 }
 
+template <class Value>
+void add_if(const std::optional<Value>& value, const char* key, Json& root) {
+  if (value) root[key] = encode(*value);
+}
+
+Json json_of(const SceneView& view) {
+  Json root = Json::object();
+  add_if(view.from, "from", root);
+  add_if(view.up, "up", root);
+  add_if(view.target, "target", root);
+  add_if(view.distance, "distance", root);
+  root["zoom"] = view.zoom;
+  root["color"] = name_of(view.color);
+  root["wireframe"] = view.shows_wireframe;
+  root["opacity"] = view.skin_opacity;
+  root["theme"] = name_of(view.theme);
+  if (view.clip) root["clip"] = json_of(*view.clip);
+  return root;
+}
+
+/// The ideal as one blade: its times are the scene's already, and nothing is put off.
+Json json_of_ideal(const std::vector<SceneStroke>& strokes) {
+  Json root = json_of(strokes.front());
+  for (std::size_t i = 1; i < strokes.size(); ++i) root["blade"].push_back(json_of(strokes[i])["blade"][0]);
+  root["pause"] = 0.0;
+  return root;
+}
+
+Json json_of(const Exercise& exercise) {
+  const ExerciseTolerances& allowed = exercise.tolerances;
+  Json root = {{"name", exercise.name},
+               {"instructions", exercise.instructions},
+               {"target", encode(exercise.target)},
+               {"depth", exercise.depth},
+               {"angle", exercise.angle},
+               {"tolerances",
+                {{"line", allowed.line}, {"depth", allowed.depth}, {"angle", allowed.angle}, {"force", allowed.force}}},
+               {"max_force", exercise.max_force},
+               {"strokes", exercise.strokes}};
+  if (!exercise.ideal.empty()) root["ideal"] = json_of_ideal(exercise.ideal);
+  return root;
+}
+
 void add_options(const SimulationOptions& options, Json& root) {
   const MaintainOptions& maintain = options.engine.maintain;
   const bool is_descent = options.body.relaxation == Relaxation::kBlockDescent;
@@ -146,6 +191,8 @@ Json scene_tree(const Scene& scene) {
   root["settle"] = {{"frames", scene.settle.frames}, {"speed", scene.settle.speed}};
   root["seed"] = scene.seed;
   add_options(scene.options, root);
+  if (scene.view) root["view"] = json_of(*scene.view);
+  if (scene.exercise) root["exercise"] = json_of(*scene.exercise);
   return root;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/job_internal.h"
+#include "incise/app/exercise_score.h"
 #include "incise/app/frame_series.h"
 #include "incise/app/mesh_export.h"
 #include "incise/app/scene_hand.h"
@@ -20,7 +21,9 @@ constexpr std::uint32_t kSettleChunk = 30;  // frames between two questions whet
 class SceneRunner {
  public:
   SceneRunner(const Scene& scene, const SimulateJob& job, RecordedSimulation simulation, SimulationReport& report)
-      : scene_(scene), job_(job), simulation_(std::move(simulation)), report_(report), hand_(scene) {}
+      : scene_(scene), job_(job), simulation_(std::move(simulation)), report_(report), hand_(scene) {
+    if (scene.exercise) scorer_.emplace(scene, this->simulation().mesh());
+  }
 
   Status settle();
   Status run_frames(FrameSeries* series, const LoadedMesh& loaded);
@@ -44,6 +47,7 @@ class SceneRunner {
   RecordedSimulation simulation_;
   SimulationReport& report_;
   SceneHand hand_;
+  std::optional<ExerciseScorer> scorer_;  // where the scene is an exercise
   bool had_blade_ = false;
   bool was_stopped_ = false;
 };
@@ -89,6 +93,7 @@ Status SceneRunner::run_frame(std::uint64_t index) {
     return error;
   }
   add(*frame, input);
+  if (scorer_) scorer_->add(input, *frame, simulation());
   hand_.feel(index, simulation().haptic_snapshot());
   had_blade_ = input.blade.has_value();
   return {};
@@ -140,6 +145,7 @@ void SceneRunner::measure() {
   report_.inverted_tets = end.body().count_inverted();
   report_.is_finite = end.body().is_finite();
   report_.state_hash = end.hash();
+  if (scorer_) report_.exercise = scorer_->score(end);
 }
 
 void describe(const Scene& scene, const SimulateJob& job, const LoadedMesh& loaded, SimulationReport& report) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "app/exercise_score_tree.h"
 #include "app/report_tree.h"
 
 namespace incise::inline v0 {
@@ -71,6 +72,7 @@ std::string to_json(const SimulationReport& report) {
   root["haptics"] = json_of(report.haptics);
   root["body"] = {{"inverted_tets", report.inverted_tets}, {"is_finite", report.is_finite}};
   root["state_hash"] = hash_text(report.state_hash);
+  if (report.exercise) root["exercise"] = score_tree(*report.exercise);
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -99,6 +101,7 @@ std::string to_text(const SimulationReport& report) {
   }
   if (f.peak_hook_force > 0) text += fmt::format("hooks: at most {:.3g} N\n", f.peak_hook_force);
   if (report.inverted_tets > 0) text += fmt::format("{} tets stand turned inside out\n", report.inverted_tets);
+  if (report.exercise) text += to_text(*report.exercise);
   return text;
 }
 

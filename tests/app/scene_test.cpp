@@ -70,6 +70,79 @@ TEST(Scene, reads_every_key) {
   EXPECT_TRUE(scene.strokes[1].stroke.edges[1][0].isApprox(Vec3(1.2, 0.6, -0.2), 1e-12));
 }
 
+TEST(Scene, reads_how_it_is_first_seen) {
+  const app::Scene scene = parsed(full_scene());
+  ASSERT_TRUE(scene.view.has_value());
+  EXPECT_EQ(scene.view->from, Vec3(1, -2, 3));
+  EXPECT_EQ(scene.view->target, Vec3(0.5, 0.4, 0.9));
+  EXPECT_EQ(scene.view->distance, 4.5);
+  EXPECT_EQ(scene.view->clip->offset, 0.1);
+  const app::ViewOptions options = view_options_of(scene);
+  EXPECT_EQ(options.color, app::ColorBy::kRegion);
+  EXPECT_EQ(options.theme, app::Theme::kLight);
+  EXPECT_EQ(options.skin_opacity, 0.25);
+  EXPECT_TRUE(options.shows_wireframe);
+  EXPECT_FALSE(parsed(least_scene()).view.has_value());
+}
+
+TEST(Scene, reads_the_exercise_and_its_ideal) {
+  const app::Scene scene = parsed(full_scene());
+  ASSERT_TRUE(scene.exercise.has_value());
+  const app::Exercise& exercise = *scene.exercise;
+  EXPECT_EQ(exercise.instructions, "Cut along the line.");
+  EXPECT_EQ(exercise.target.size(), 2U);
+  EXPECT_EQ(exercise.tolerances.angle, 15);
+  EXPECT_EQ(exercise.strokes, 2U);
+  ASSERT_EQ(exercise.ideal.size(), 1U);
+  EXPECT_EQ(exercise.ideal[0].stroke.times.back(), 0.5);
+  EXPECT_EQ(exercise.ideal[0].direction, Vec3(0, 1, 0));
+  Json json = full_scene();
+  json["exercise"]["ideal"] = 1;
+  json["exercise"].erase("tolerances");
+  const app::Exercise other = *parsed(json).exercise;
+  EXPECT_EQ(other.ideal[0].stroke.edges, scene.strokes[1].stroke.edges);
+  EXPECT_DOUBLE_EQ(other.tolerances.line, 0.05 * 0.8);
+  EXPECT_EQ(other.tolerances.depth, 0.125);
+}
+
+TEST(Scene, without_view_and_exercise_is_written_without_them) {
+  const Json written = Json::parse(app::to_json(parsed(least_scene())));
+  EXPECT_FALSE(written.contains("view") || written.contains("exercise"));
+  Json json = least_scene();
+  json["view"] = Json::object();
+  const std::string text = app::to_json(parsed(json));
+  EXPECT_EQ(Json::parse(text)["view"].size(), 5U);  // what has a default
+  EXPECT_EQ(app::to_json(parsed(Json::parse(text))), text);
+}
+
+TEST(SceneView, frames_the_body_from_where_the_scene_says) {
+  const Box body{Vec3::Zero(), Vec3(4, 2, 1)};
+  const app::Viewport viewport;
+  Json json = least_scene();
+  const app::Camera plain = camera_of(parsed(json), body, viewport);
+  EXPECT_EQ(plain.up, Vec3(0, 0, 1));
+  EXPECT_EQ(plain.target, Vec3(2, 1, 0.5));
+  json["view"] = {{"from", {3, 0, 4}}, {"zoom", 2}};
+  const app::Camera seen = camera_of(parsed(json), body, viewport);
+  EXPECT_TRUE(seen.backward().isApprox(Vec3(0.6, 0, 0.8), 1e-12));
+  app::Camera all = seen;
+  frame_all(all, viewport, body);
+  EXPECT_DOUBLE_EQ(2 * seen.distance, all.distance);
+  json["view"] = {{"target", {1, 0, 0}}, {"distance", 6}, {"up", {0, 3, 0}}};
+  const app::Camera placed = camera_of(parsed(json), Box(), viewport);
+  EXPECT_EQ(placed.target, Vec3(1, 0, 0));
+  EXPECT_EQ(placed.distance, 6);
+  EXPECT_EQ(placed.up, Vec3(0, 1, 0));
+}
+
+TEST(SceneView, has_up_against_gravity) {
+  Json json = least_scene();
+  json["gravity"] = {0, 9.81, 0};
+  EXPECT_EQ(camera_of(parsed(json), Box(), {}).up, Vec3(0, -1, 0));
+  json["gravity"] = {0, 0, 0};
+  EXPECT_EQ(camera_of(parsed(json), Box(), {}).up, Vec3(0, 0, 1));
+}
+
 TEST(Scene, written_and_read_again_is_the_same_bit_for_bit) {
   for (const Json& json : {least_scene(), full_scene()}) {
     const app::Scene scene = parsed(json);
@@ -111,6 +184,34 @@ TEST(Scene, refuses_numbers_out_of_range_and_says_where) {
   expect_refused("/cut/profile", "best", "cut.profile must be");
   expect_refused("/settle", Json::object(), "lacks the key \"frames\"");
   expect_refused("/seed", -1, "seed must be a whole number");
+}
+
+TEST(Scene, refuses_views_that_cannot_be_seen) {
+  expect_refused("/view/from", {0, 0, 0}, "view.from is zero; give a direction");
+  expect_refused("/view/up", {0, 0}, "view.up must be an array of 3");
+  expect_refused("/view/distance", 0, "view.distance is 0; it must be above 0");
+  expect_refused("/view/zoom", -1, "view.zoom is -1");
+  expect_refused("/view/opacity", 0, "view.opacity is 0; it must be above 0 and at most 1");
+  expect_refused("/view/color", "blue", "view.color must be one of tissue, region, stroke, quality");
+  expect_refused("/view/theme", "blue", "view.theme must be one of dark, light");
+  expect_refused("/view/clip", {0, 0, 0, 1}, "view.clip needs a normal that is not zero");
+}
+
+TEST(Scene, refuses_exercises_that_cannot_be_done) {
+  expect_refused("/exercise/target", Json::array({{0, 0, 0}}), "exercise.target");
+  expect_refused("/exercise/target/1", {0.45, 0.1, 1}, "exercise.target[1] must be apart from the point before it");
+  expect_refused("/exercise/depth", 0, "exercise.depth is 0; it must be above 0");
+  expect_refused("/exercise/angle", 90, "exercise.angle is 90");
+  expect_refused("/exercise/tolerances/line", 0, "exercise.tolerances.line is 0");
+  expect_refused("/exercise/tolerances/angle", 91, "exercise.tolerances.angle is 91");
+  expect_refused("/exercise/tolerances/force", -1, "exercise.tolerances.force is -1");
+  expect_refused("/exercise/max_force", -1, "exercise.max_force is -1");
+  expect_refused("/exercise/strokes", 0, "exercise.strokes is 0; it must be from 1");
+  expect_refused("/exercise/ideal", 2, "exercise.ideal must be the number of one of the scene's strokes");
+  expect_refused("/exercise/ideal", "none.json", "exercise.ideal must be the number");
+  expect_refused("/exercise/ideal/stretch", 0.001, "exercise.ideal lasts less than a frame");
+  expect_refused("/exercise", Json{{"depth", 1}}, "lacks the key \"target\"");
+  expect_refused("/exercise", Json{{"target", {{0, 0, 0}, {1, 0, 0}}}}, "lacks the key \"depth\"");
 }
 
 TEST(Scene, refuses_what_contradicts_itself) {
@@ -315,7 +416,10 @@ TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
       {"/tools/4/rod/path/0", "/properties/tools/items/properties/rod/properties/path/items"},
       {"/hooks/0", "/properties/hooks/items"},
       {"/hooks/0/path/0", "/properties/hooks/items/properties/path/items"},
-      {"/strokes/0", "/properties/strokes/items"},
+      {"/strokes/0", "/$defs/scene_stroke"},
+      {"/view", "/properties/view"},
+      {"/exercise", "/properties/exercise"},
+      {"/exercise/tolerances", "/properties/exercise/properties/tolerances"},
       {"/strokes/0/blade/0", "/$defs/stroke/oneOf/0"},
       {"/strokes/0/blade/0/edges/0", "/$defs/stroke/oneOf/0/properties/edges/items"},
       {"/strokes/1/blade/0", "/$defs/stroke/oneOf/1"},

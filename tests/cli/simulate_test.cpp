@@ -64,6 +64,34 @@ TEST_F(CliSimulate, spends_at_most_a_budget_on_maintenance_and_the_same_every_ti
   EXPECT_EQ(report_of({"--budget-us", "1"})["state_hash"], tight["state_hash"]);
 }
 
+TEST_F(CliSimulate, scores_the_attempt_of_the_scene_and_the_ideal) {
+  Json json = full_scene();
+  json["materials"] = Json::object();
+  json["exercise"]["target"] = {{0.45, 0, 1}, {0.45, 1, 1}};
+  json["exercise"]["depth"] = 1;
+  json["tools"] = Json::array();
+  json["hooks"] = Json::array();
+  json["strokes"] = Json::array();
+  folder_.write("scene.json", json.dump(1));
+  const Json attempt = report_of({})["exercise"];
+  EXPECT_EQ(attempt["format"], "incise-exercise-score");
+  EXPECT_EQ(attempt["points"], 0);
+  EXPECT_EQ(attempt["deductions"][0]["kind"], "nothing");
+  const Json ideal = report_of({"--ideal"})["exercise"];
+  EXPECT_GT(ideal["points"], 50);
+  EXPECT_EQ(ideal["cuts"]["strokes"], 1);
+  const Outcome text = simulate({"--ideal", "--record", folder_ / "r.jsonl"});
+  EXPECT_NE(text.out.find("of 100 points"), std::string::npos) << text.out;
+  EXPECT_EQ(run({"replay", folder_ / "r.jsonl", "--verify"}).code, 0);
+}
+
+TEST_F(CliSimulate, has_no_ideal_where_the_scene_has_none) {
+  folder_.write("scene.json", least_scene().dump(1));
+  EXPECT_EQ(simulate({"--ideal"}).code, 3);
+  EXPECT_NE(simulate({"--ideal"}).err.find("this scene has no exercise.ideal"), std::string::npos);
+  EXPECT_FALSE(report_of({}).contains("exercise"));
+}
+
 TEST_F(CliSimulate, exits_with_2_on_usage) {
   EXPECT_EQ(run({"simulate"}).code, 2);
   EXPECT_EQ(simulate({"--frames", "0"}).code, 2);

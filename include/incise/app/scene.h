@@ -6,23 +6,21 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "incise/app/exercise.h"
+#include "incise/app/half_space.h"
+#include "incise/app/scene_stroke.h"
+#include "incise/app/scene_view.h"
 #include "incise/core/result.h"
-#include "incise/cut/stroke.h"
 #include "incise/engine/simulation.h"
 
 namespace incise::inline v0 {
 namespace app {
-
-/// All points with normal · x <= offset.
-struct HalfSpace {
-  Vec3 normal = Vec3::UnitZ();  ///< of any length but zero
-  double offset = 0;
-};
 
 /// A generated box of Kuhn tets; see `kuhn_box` and `jitter`.
 struct SceneBox {
@@ -67,12 +65,6 @@ struct SceneHook {
   std::vector<Vec3> positions;  ///< one per time
 };
 
-/// A stroke of the blade; its times are the scene's.
-struct SceneStroke {
-  Stroke stroke;
-  Vec3 direction = Vec3::Zero();  ///< as in `BladePose`
-};
-
 /// How long the body comes to rest before the first frame; see `Simulation::settle`.
 struct SceneSettle {
   std::uint32_t frames = 0;  ///< at most
@@ -91,6 +83,8 @@ struct Scene {
   std::uint64_t frames = 0;
   SceneSettle settle;
   std::uint64_t seed = 0;
+  std::optional<SceneView> view;     ///< how it is first seen; unset: as every body without a word about it
+  std::optional<Exercise> exercise;  ///< what a trainee shall do
 };
 
 /// Bounds on what a scene may hold.

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "incise/app/exercise_score.h"
 #include "incise/app/report.h"
 #include "incise/app/scene_hand.h"
 #include "incise/sim/body.h"
@@ -52,6 +54,7 @@ struct SimulationReport {
   std::uint64_t inverted_tets = 0;  ///< as the body stands at the end
   bool is_finite = true;            ///< the body's positions
   std::uint64_t state_hash = 0;     ///< of the mesh and the body at the end
+  std::optional<ExerciseScore> exercise;  ///< where the scene is one
 };
 
 /// The report as JSON, format "incise-report" version 1, with a newline at the end. Cost: O(frames + pieces).

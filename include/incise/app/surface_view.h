@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "incise/app/scene.h"
+#include "incise/app/half_space.h"
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
 

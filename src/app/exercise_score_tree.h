@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/json_write.h"
+#include "incise/app/exercise_score.h"
+
+namespace incise::inline v0 {
+namespace app {
+
+/// What `to_json` prints.
+[[nodiscard]] Json score_tree(const ExerciseScore& score);
+
+}  // namespace app
+}  // namespace incise::inline v0
