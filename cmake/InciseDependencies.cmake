@@ -24,6 +24,22 @@ if(INCISE_BUILD_APPS)
   find_package(CLI11 REQUIRED)
   find_package(spdlog REQUIRED)
 endif()
+if(INCISE_BUILD_VIEW)
+  # libepoxy's pkg-config file would need pkg-config. Its EGL header wants those of libegl-dev.
+  find_path(INCISE_EPOXY_INCLUDE epoxy/egl.h)
+  find_library(INCISE_EPOXY_LIBRARY epoxy)
+  find_path(INCISE_EGL_INCLUDE EGL/eglplatform.h)
+  find_path(INCISE_STB_INCLUDE stb/stb_image_write.h)
+  mark_as_advanced(INCISE_EPOXY_INCLUDE INCISE_EPOXY_LIBRARY INCISE_EGL_INCLUDE INCISE_STB_INCLUDE)
+  if(NOT (INCISE_EPOXY_INCLUDE AND INCISE_EPOXY_LIBRARY AND INCISE_EGL_INCLUDE AND INCISE_STB_INCLUDE))
+    message(FATAL_ERROR "INCISE_BUILD_VIEW needs libepoxy-dev libegl-dev libstb-dev: install them, or configure with "
+                        "-DINCISE_BUILD_VIEW=OFF")
+  endif()
+  add_library(incise_epoxy INTERFACE)
+  target_link_libraries(incise_epoxy INTERFACE ${INCISE_EPOXY_LIBRARY})
+  target_include_directories(incise_epoxy SYSTEM INTERFACE ${INCISE_EPOXY_INCLUDE} ${INCISE_EGL_INCLUDE}
+                                                           ${INCISE_STB_INCLUDE})
+endif()
 
 # Package that provides each imported target that a module may link privately, for the installed config file.
 set(incise_package_of_TBB::tbb TBB)

@@ -15,6 +15,7 @@ MAY_INCLUDE = {
     "io": LOWEST,
     "engine": LOWEST + ("cut", "improve", "sim", "io"),
     "app": LOWEST + ("cut", "improve", "sim", "io", "engine"),
+    "render": LOWEST + ("app",),
 }
 FRONT_ENDS = ("apps", "bindings", "bench", "examples")
 # Third-party headers, and the modules whose .cpp files may include them. No public header may, but for Eigen.
@@ -28,6 +29,9 @@ PRIVATE_HEADERS = {
     "fmt/": ("io", "app"),
     "spdlog/": ("app",),
     "CLI/": (),
+    "epoxy/": ("render",),
+    "EGL/": ("render",),
+    "stb/": ("render",),
     "iostream": ("app",),  # the library prints nothing
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "background_pass.h"
+
+#include <epoxy/gl.h>
+
+#include "full_screen.h"
+#include "ink_style.h"
+
+namespace incise::inline v0 {
+namespace render {
+namespace {
+
+constexpr const char* kFragment = R"(
+in vec2 place;
+uniform vec3 top, bottom;
+out vec4 color;
+void main() { color = vec4(mix(bottom, top, smoothstep(0.0, 1.0, place.y)), 1); }
+)";
+
+}  // namespace
+
+Result<BackgroundPass> BackgroundPass::create() {
+  auto program = make_program("background", "", kFullScreenVertex, kFragment);
+  if (!program.ok()) return program.error();
+  BackgroundPass pass;
+  pass.program_ = std::move(program).value();
+  pass.array_ = make_vertex_array();
+  return pass;
+}
+
+void BackgroundPass::draw(app::Theme theme) const {
+  const Grounds grounds = grounds_of(theme);
+  glUseProgram(program_.id());
+  glUniform3fv(location(program_, "top"), 1, grounds.top.data());
+  glUniform3fv(location(program_, "bottom"), 1, grounds.bottom.data());
+  glBindVertexArray(array_.id());
+  glDisable(GL_DEPTH_TEST);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+}
+
+}  // namespace render
+}  // namespace incise::inline v0

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gl_object.h"
+#include "incise/app/picture.h"
+#include "incise/core/result.h"
+
+namespace incise::inline v0 {
+namespace render {
+
+/// What is behind everything: a quiet gradient from top to bottom.
+class BackgroundPass {
+ public:
+  static Result<BackgroundPass> create();
+  /// Covers all; leaves depth alone.
+  void draw(app::Theme theme) const;
+
+ private:
+  GlObject program_, array_;
+};
+
+}  // namespace render
+}  // namespace incise::inline v0

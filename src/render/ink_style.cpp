@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ink_style.h"
+
+namespace incise::inline v0 {
+namespace render {
+namespace {
+
+using Rgb = std::array<float, 3>;
+
+constexpr Rgb rgb(unsigned hex) {
+  constexpr float kMost = 255;
+  return {static_cast<float>(hex >> 16U) / kMost, static_cast<float>((hex >> 8U) & 255U) / kMost,
+          static_cast<float>(hex & 255U) / kMost};
+}
+
+struct InkRow {
+  unsigned dark, light;  // colours, by theme
+  LinePattern line;
+  BallGlyph ball;
+  FillPattern fill;
+};
+
+// In the order of app::Ink, then the front. Equal patterns never come with colours that the colour-blind confuse.
+constexpr std::array<InkRow, kStyles> kRows = {{
+    {0xF2F5F8, 0x2A2F36, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},         // blade
+    {0xCC79A7, 0xA8487F, LinePattern::kDashDot, BallGlyph::kDonut, FillPattern::kRising},     // trajectory
+    {0xF0E442, 0xF0E442, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kFalling},       // incision
+    {0x1FC79A, 0x009E73, LinePattern::kDotted, BallGlyph::kDisc, FillPattern::kDotted},       // vertex
+    {0x56B4E9, 0x1F86C4, LinePattern::kDashed, BallGlyph::kRing, FillPattern::kPlain},        // preview
+    {0x1FC79A, 0x009E73, LinePattern::kDashed, BallGlyph::kBullseye, FillPattern::kCrossed},  // target
+    {0x4FA3DC, 0x0072B2, LinePattern::kDotted, BallGlyph::kDonut, FillPattern::kDotted},      // ideal
+    {0xE69F00, 0xE69F00, LinePattern::kSolid, BallGlyph::kBullseye, FillPattern::kPlain},     // hook
+    {0xF0F0F0, 0x30343A, LinePattern::kSolid, BallGlyph::kCross, FillPattern::kCrossed},      // pin
+    {0xF0E442, 0xF0E442, LinePattern::kSolid, BallGlyph::kRing, FillPattern::kRising},        // picked
+    {0xFF7A1F, 0xD55E00, LinePattern::kDashDot, BallGlyph::kDonut, FillPattern::kCrossed},    // worst
+    {0xA9B4C0, 0x7A858F, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},         // tool
+    {0xFFF3D6, 0xFFF3D6, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},         // front
+}};
+
+bool is_bright(const Rgb& c) {
+  return 0.3F * c[0] + 0.59F * c[1] + 0.11F * c[2] > 0.38F;
+}
+
+}  // namespace
+
+std::array<InkStyle, kStyles> ink_styles(app::Theme theme) {
+  std::array<InkStyle, kStyles> styles;
+  for (std::size_t i = 0; i < kStyles; ++i) {
+    const InkRow& row = kRows[i];
+    const Rgb color = rgb(theme == app::Theme::kDark ? row.dark : row.light);
+    styles[i] = {color, is_bright(color) ? rgb(0x101317) : rgb(0xFFFFFF), row.line, row.ball, row.fill};
+  }
+  return styles;
+}
+
+Grounds grounds_of(app::Theme theme) {
+  if (theme == app::Theme::kLight) return {rgb(0xF7F8FA), rgb(0xD9DEE5), rgb(0x39424C), 0.10F};
+  return {rgb(0x2B323B), rgb(0x14171B), rgb(0xB4C0CC), 0.30F};
+}
+
+}  // namespace render
+}  // namespace incise::inline v0
