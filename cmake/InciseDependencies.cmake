@@ -39,6 +39,15 @@ if(INCISE_BUILD_VIEW)
   target_link_libraries(incise_epoxy INTERFACE ${INCISE_EPOXY_LIBRARY})
   target_include_directories(incise_epoxy SYSTEM INTERFACE ${INCISE_EPOXY_INCLUDE} ${INCISE_EGL_INCLUDE}
                                                            ${INCISE_STB_INCLUDE})
+  # The window. Dear ImGui has no package file that CMake reads.
+  find_package(glfw3 3.3 REQUIRED)
+  find_path(INCISE_IMGUI_INCLUDE imgui.h PATH_SUFFIXES imgui REQUIRED)
+  find_library(INCISE_IMGUI_LIBRARY imgui REQUIRED)
+  find_library(INCISE_STB_LIBRARY stb REQUIRED)  # Debian's Dear ImGui takes its fonts from it
+  mark_as_advanced(INCISE_IMGUI_INCLUDE INCISE_IMGUI_LIBRARY INCISE_STB_LIBRARY)
+  add_library(incise_imgui INTERFACE)
+  target_link_libraries(incise_imgui INTERFACE ${INCISE_IMGUI_LIBRARY} ${INCISE_STB_LIBRARY} glfw ${CMAKE_DL_LIBS})
+  target_include_directories(incise_imgui SYSTEM INTERFACE ${INCISE_IMGUI_INCLUDE})
 endif()
 
 # Package that provides each imported target that a module may link privately, for the installed config file.

@@ -63,31 +63,35 @@ void add_view(CLI::App& root, Arguments& a) {
       change(value...);
     };
   };
-  root.add_option_function<std::string>(
-          "--color",
-          seen([&a](const std::string& name) {
-            static const Colors kColors = {{"tissue", app::ColorBy::kTissue},
-                                           {"region", app::ColorBy::kRegion},
-                                           {"stroke", app::ColorBy::kStroke},
-                                           {"quality", app::ColorBy::kQuality}};
-            a.view.color = kColors.at(name);
-          }),
-          "What colours tell: tissue, region, stroke or quality")
+  root.add_option_function<std::string>("--color", seen([&a](const std::string& name) {
+                                          static const Colors kColors = {{"tissue", app::ColorBy::kTissue},
+                                                                         {"region", app::ColorBy::kRegion},
+                                                                         {"stroke", app::ColorBy::kStroke},
+                                                                         {"quality", app::ColorBy::kQuality}};
+                                          a.view.color = kColors.at(name);
+                                        }),
+                                        "What colours tell: tissue, region, stroke or quality")
       ->check(CLI::IsMember({"tissue", "region", "stroke", "quality"}));
   root.add_option_function<std::string>("--theme", seen([&a](const std::string& name) {
                                           a.view.theme = name == "light" ? app::Theme::kLight : app::Theme::kDark;
                                         }),
                                         "dark or light")
       ->check(CLI::IsMember({"dark", "light"}));
-  root.add_flag_callback("--wireframe", [&a] {
-    a.has_view = true;
-    a.view.shows_wireframe = true;
-  }, "Draw the edges of the mesh");
-  root.add_flag_callback("--lines-only", [&a] {
-    a.has_view = true;
-    a.view.shows_wireframe = true;
-    a.view.shows_surface = false;
-  }, "Draw nothing but the edges");
+  root.add_flag_callback(
+      "--wireframe",
+      [&a] {
+        a.has_view = true;
+        a.view.shows_wireframe = true;
+      },
+      "Draw the edges of the mesh");
+  root.add_flag_callback(
+      "--lines-only",
+      [&a] {
+        a.has_view = true;
+        a.view.shows_wireframe = true;
+        a.view.shows_surface = false;
+      },
+      "Draw nothing but the edges");
   root.add_option_function<double>("--opacity", seen([&a](double value) { a.view.skin_opacity = value; }),
                                    "Of the skin, above 0, at most 1")
       ->check(CLI::Range(0.05, 1.0));
@@ -106,7 +110,10 @@ void add_camera(CLI::App& root, Arguments& a) {
       ->expected(3);
   root.add_option("--zoom", a.zoom, "Above 1: nearer than what shows the whole body")->check(CLI::Range(0.01, 100.0));
   root.add_option_function<std::vector<double>>(
-          "--clip", [&a](const std::vector<double>& n) { a.clip = app::HalfSpace{vector_of(n), n[3]}; },
+          "--clip",
+          [&a](const std::vector<double>& n) {
+            a.clip = app::HalfSpace{vector_of(n), n[3]};
+          },
           "nx,ny,nz,d: leave out the tets where n.x <= d")
       ->delimiter(',')
       ->expected(4);

@@ -13,7 +13,7 @@ namespace incise_view {
 struct Arguments {
   std::string file;  ///< scene, mesh or recording; empty: a cube
   unsigned threads = 1;
-  std::string record;          ///< from the start
+  std::string record;            ///< from the start
   std::string device = "mouse";  ///< "mouse", "none", or a blade file that is the hand
   std::string up = "z";
   bool is_paused = false;

@@ -28,6 +28,7 @@ using namespace incise;
 constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
 constexpr int kSettlingFrames = 3;         // panels find their sizes within so many after something happened
 constexpr unsigned kSamples = 4;
+const app::Vec2 kFreeShare(0.56, 1);       // of the picture, between the panels
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -41,10 +42,8 @@ class Application {
         window_(window),
         renderer_(std::move(renderer)),
         interface_(window),
-        viewer_(session, {".", arguments.view, arguments.has_view}) {
-    panels_.renderer_name = window.renderer_name();
-    panels_.is_software = render::is_software_renderer(panels_.renderer_name);
-  }
+        panels_{{}, window.renderer_name(), render::is_software_renderer(window.renderer_name())},
+        viewer_(session, {".", arguments.view, arguments.has_view, !panels_.is_software, kFreeShare}) {}
 
   ExitCode run();
 
@@ -60,8 +59,8 @@ class Application {
   Window& window_;
   render::Renderer renderer_;
   Interface interface_;
-  app::Viewer viewer_;
   PanelContext panels_;
+  app::Viewer viewer_;
   int frames_to_draw_ = kSettlingFrames;
   bool is_dragging_ = false;  // from the picture, wherever the pointer is meanwhile
   std::string title_;

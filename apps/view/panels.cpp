@@ -220,7 +220,8 @@ void histogram(const app::SessionView& view) {
     const float left = at.x + size.x * static_cast<float>(i) / kBins;
     const float right = at.x + size.x * static_cast<float>(i + 1) / kBins;
     const float height = top(share(now, i));
-    list->AddRectFilled({left, height}, {right - 1, bottom}, color_of(app::quality_color(static_cast<std::uint8_t>(i * 8 + 4))));
+    list->AddRectFilled({left, height}, {right - 1, bottom},
+                        color_of(app::quality_color(static_cast<std::uint8_t>(i * 8 + 4))));
     list->AddRect({left, height}, {right - 1, bottom}, color_of(ImGuiCol_Text, 0.35F));
     const float old = top(share(before, i));
     list->AddLine({left, old}, {right, old}, color_of(ImGuiCol_Text), 1.5F);
@@ -255,9 +256,11 @@ void force(const app::SessionView& view) {
   std::vector<float> samples;
   for (const app::ForceSample& sample : view.figures.force) samples.push_back(sample.force);
   const float most = std::max(1e-3F, static_cast<float>(1.1 * view.figures.peak_force));
-  const std::string scale = fmt::format("to {:.2g} N, last {:.0f} s", most, static_cast<double>(samples.size()) / 60);
-  ImGui::PlotLines("##force", samples.data(), static_cast<int>(samples.size()), 0, scale.c_str(), 0, most,
+  ImGui::PlotLines("##force", samples.data(), static_cast<int>(samples.size()), 0, nullptr, 0, most,
                    {ImGui::GetContentRegionAvail().x, kForceHeight * em()});
+  if (view.figures.force.empty()) return;
+  const float seconds = view.figures.force.back().time - view.figures.force.front().time;
+  faint(fmt::format("0 to {:.2g} N over the last {:.0f} s", most, seconds));
 }
 
 void validity(const app::SessionView& view) {
@@ -366,7 +369,8 @@ void draw_legend(const app::ViewerState& state) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = kLegendHeight * em();
     for (int i = 0; i < 64; ++i) {
-      const float left = at.x + width * static_cast<float>(i) / 64, right = at.x + width * static_cast<float>(i + 1) / 64;
+      const float left = at.x + width * static_cast<float>(i) / 64,
+                  right = at.x + width * static_cast<float>(i + 1) / 64;
       ImGui::GetWindowDrawList()->AddRectFilled({left, at.y}, {right, at.y + height},
                                                 color_of(app::quality_color(static_cast<std::uint8_t>(4 * i))));
     }

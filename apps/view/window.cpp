@@ -34,11 +34,11 @@ Error no_display() {
 /// Keys without a character, by their names in `KeyPress`.
 const char* special_name(int key) {
   static const std::map<int, const char*> kNames = {
-      {GLFW_KEY_SPACE, "Space"},       {GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_ENTER, "Enter"},
-      {GLFW_KEY_KP_ENTER, "Enter"},    {GLFW_KEY_LEFT, "Left"},     {GLFW_KEY_RIGHT, "Right"},
-      {GLFW_KEY_UP, "Up"},             {GLFW_KEY_DOWN, "Down"},     {GLFW_KEY_HOME, "Home"},
-      {GLFW_KEY_PAGE_UP, "PageUp"},    {GLFW_KEY_F1, "F1"},         {GLFW_KEY_PAGE_DOWN, "PageDown"},
-      {GLFW_KEY_F11, "F11"},           {GLFW_KEY_KP_ADD, "+"},      {GLFW_KEY_KP_SUBTRACT, "-"},
+      {GLFW_KEY_SPACE, "Space"},    {GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_ENTER, "Enter"},
+      {GLFW_KEY_KP_ENTER, "Enter"}, {GLFW_KEY_LEFT, "Left"},     {GLFW_KEY_RIGHT, "Right"},
+      {GLFW_KEY_UP, "Up"},          {GLFW_KEY_DOWN, "Down"},     {GLFW_KEY_HOME, "Home"},
+      {GLFW_KEY_PAGE_UP, "PageUp"}, {GLFW_KEY_F1, "F1"},         {GLFW_KEY_PAGE_DOWN, "PageDown"},
+      {GLFW_KEY_F11, "F11"},        {GLFW_KEY_KP_ADD, "+"},      {GLFW_KEY_KP_SUBTRACT, "-"},
       {GLFW_KEY_KP_DECIMAL, "."},
   };
   const auto found = kNames.find(key);

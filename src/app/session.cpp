@@ -16,7 +16,7 @@ namespace incise::inline v0 {
 namespace app {
 namespace {
 
-constexpr double kPauses = 3;  // frames between two strokes that the blade follows
+constexpr double kPauses = 3;                        // frames between two strokes that the blade follows
 constexpr std::uint32_t kFirstHandHook = 1U << 16U;  // those of scenes come before
 
 Eigen::Vector3f to_float(const Vec3& point) {
@@ -173,7 +173,8 @@ void Session::follow(const Stroke& stroke) {
     s.followed_frame = 0;
   }
   const double frame = s.scene.options.frame_seconds;
-  const double begin = s.followed->strokes.empty() ? 0 : s.followed->strokes.back().stroke.times.back() + kPauses * frame;
+  const double begin =
+      s.followed->strokes.empty() ? 0 : s.followed->strokes.back().stroke.times.back() + kPauses * frame;
   SceneStroke& added = s.followed->strokes.emplace_back(SceneStroke{stroke, Vec3::Zero()});
   for (double& time : added.stroke.times) time += begin - stroke.times.front();
   s.followed->frames = static_cast<std::uint64_t>(added.stroke.times.back() / frame) + 2;

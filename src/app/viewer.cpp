@@ -57,6 +57,7 @@ struct Viewer::State {
   Hud hud;
   ToolMachine tools{ToolSettings{1, 0, 1, 1, 1, 1}};
   std::uint64_t session_seen = 0, notices_seen = 0;
+  std::string scene_seen;
   bool is_changed = true;
   double now = 0, notice_until = 0;
   bool wants_screenshot = false;
@@ -67,6 +68,7 @@ struct Viewer::State {
   [[nodiscard]] ToolContext context(const Viewport& viewport) const {
     return {viewport, &session.view().surface, session.view().body};
   }
+  [[nodiscard]] Viewport free_part(const Viewport& viewport) const;
   void begin_session(const Viewport& viewport);
   void say(const std::string& text);
   void hand_over();
@@ -248,7 +250,7 @@ bool Viewer::State::act_on_camera(Action action, const Viewport& viewport) {
   const double turn = kTurnShare * viewport.height;
   switch (action) {
     case Action::kFrameAll:
-      frame_all(camera, viewport, session.view().body);
+      frame_all(camera, free_part(viewport), session.view().body);
       return true;
     case Action::kTurnLeft:
       orbit(camera, viewport, Vec2(turn, 0));
@@ -384,15 +386,23 @@ bool Viewer::update(const Viewport& viewport, double now) {
   return true;
 }
 
+/// What panels leave free. A body that fits into a part of the picture is seen in it as a camera of that part sees it,
+/// but for the field of view, which is that of the whole height.
+Viewport Viewer::State::free_part(const Viewport& viewport) const {
+  if (shown.panels != Panels::kAll) return viewport;
+  return {std::max(1, static_cast<int>(options.free_share.x() * viewport.width)), viewport.height};
+}
+
 void Viewer::State::begin_session(const Viewport& viewport) {
   const SessionView& view = session.view();
   const Scene& scene = *view.scene;
   tools.reset(settings_for(view.body, stiffest(scene), scene.options.body.length_unit));
-  if (session_seen == 0 || view.figures.frames == 0) {
-    picture.camera.up =
-        scene.options.body.gravity.norm() > 0 ? Vec3(-scene.options.body.gravity.normalized()) : Vec3(Vec3::UnitZ());
-    frame_all(picture.camera, viewport, view.body);
+  if (scene_seen != view.title) {  // the same scene from its start keeps the person's view
+    picture.camera = camera_of(scene, view.body, free_part(viewport));
+    if (!options.keeps_view) shown.options = view_options_of(scene);
+    shown.options.shows_occlusion = options.shades_hollows;
   }
+  scene_seen = view.title;
   shown.is_clipped = false;
   session.set_hands(tools.hands());
 }

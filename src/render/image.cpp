@@ -64,7 +64,8 @@ Status write_png(const Image& image, const fs::path& path) {
   }
   std::string text;
   const int row_bytes = image.width * kChannels;
-  if (stbi_write_png_to_func(append, &text, image.width, image.height, kChannels, image.pixels.data(), row_bytes) == 0) {
+  if (stbi_write_png_to_func(append, &text, image.width, image.height, kChannels, image.pixels.data(), row_bytes) ==
+      0) {
     return Error{ErrorCode::kOutOfMemory, path.string() + ": there is no memory to pack the picture", {}};
   }
   return app::write_text_file(path, text);
