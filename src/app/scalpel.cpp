@@ -12,6 +12,7 @@ namespace {
 constexpr double kClearance = 0.5;       // of the edge above the surface: lips that bulge are still cut
 constexpr double kNormalReach = 1;       // of travel over which facets are smoothed
 constexpr double kDirectionReach = 0.5;  // of travel over which turns are smoothed, and the blade leans over
+constexpr double kLift = 0.25;           // of the tip above the surface before the blade goes in
 constexpr double kLeastTravel = 0.02;    // that changes the pose: the hand trembles
 constexpr double kSlack = 0.5;           // that tissue may have risen or sunk under the pointer
 constexpr double kMostDrift = 2;         // that the surface may be off the plane after a blind stretch
@@ -81,6 +82,9 @@ void Scalpel::begin(const PointerPlace& place, const ToolSettings& settings) {
   normal_ = place.hit->normal;
   pixel_ = place.pixel;
   put(settings, place.pressure);
+  // From outside, as blades do: one that stands in tissue which it has not cut has no way to go on from.
+  const Vec3 lift = (place.pressure + kLift) * settings.depth * normal_;
+  for (Vec3& point : pose_->edge) point += lift;
 }
 
 void Scalpel::begin_from_air(const PointerPlace& place, const ToolSettings& settings) {
