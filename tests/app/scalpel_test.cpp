@@ -52,6 +52,23 @@ TEST(ScalpelOnTissue, ADragAcrossTheTopCutsToItsDepth) {
   EXPECT_LT(walls.hi.x() - walls.lo.x(), 0.05 * kSide);  // straight, though the wound opens under the pointer
 }
 
+TEST(ScalpelOnTissue, CutsAlikeWhereverItIsSeenFrom) {
+  for (const Vec3& view : {Vec3(0, 0, -1), Vec3(1, 0.2, -0.5), Vec3(-0.3, 1, -0.3), Vec3(0.2, -1, -0.4)}) {
+    for (const int moves : {8, 30, 200}) {
+      TouchedCube cube(6, view);
+      const double depth = cube.tools().settings().depth;
+      cube.drag(cube.pixel(top(0.3, 0.2)), cube.pixel(top(0.6, 0.8)), moves);
+      ASSERT_TRUE(is_valid(cube.mesh()));
+      const Box walls = wall_box(cube.mesh());
+      EXPECT_NEAR(kSide - walls.lo.z(), depth, 0.3 * depth) << view.transpose() << ", moves: " << moves;
+      EXPECT_NEAR(walls.lo.y(), 0.2 * kSide, kNear) << view.transpose() << ", moves: " << moves;
+      EXPECT_NEAR(walls.hi.y(), 0.8 * kSide, kNear) << view.transpose() << ", moves: " << moves;
+      EXPECT_NEAR(walls.lo.x(), 0.3 * kSide, kNear) << view.transpose() << ", moves: " << moves;
+      EXPECT_NEAR(walls.hi.x(), 0.6 * kSide, kNear) << view.transpose() << ", moves: " << moves;
+    }
+  }
+}
+
 TEST(ScalpelOnTissue, PressureScalesTheDepth) {
   TouchedCube cube;
   PointerEvent event;
