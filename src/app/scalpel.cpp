@@ -8,18 +8,21 @@ namespace incise::inline v0 {
 namespace app {
 namespace {
 
-// All in depths of the scalpel but the last three.
+// In depths of the scalpel.
 constexpr double kClearance = 0.5;       // of the edge above the surface: lips that bulge are still cut
 constexpr double kNormalReach = 1;       // of travel over which facets are smoothed
 constexpr double kDirectionReach = 0.5;  // of travel over which turns are smoothed, and the blade leans over
+constexpr double kLift = 0.25;           // of the tip above the surface before the blade goes in
 constexpr double kLeastTravel = 0.02;    // that changes the pose: the hand trembles
 constexpr double kSlack = 0.5;           // that tissue may have risen or sunk under the pointer
 constexpr double kMostDrift = 2;         // that the surface may be off the plane after a blind stretch
 constexpr double kMostLeadIn = 3;        // back to where the pointer went down beside the body
 constexpr double kBackOfBlade = 0.6;     // behind the edge, as drawn
-constexpr double kSteepest = 1.5;        // rise of the surface per travel along the plane
-constexpr double kGrazing = 0.02;        // sine of the flattest angle at which a plane is met
-constexpr double kSettled = 1e-3;        // length of the smoothed direction below which it says nothing
+// Others.
+constexpr double kSteepest = 1.5;   // rise of the surface per travel along the plane
+constexpr double kMostOblique = 4;  // along the ray, per rise off the plane
+constexpr double kGrazing = 0.02;   // sine of the flattest angle at which a plane is met
+constexpr double kSettled = 1e-3;   // length of the smoothed direction below which it says nothing
 constexpr double kLeastPixels = 0.5;
 constexpr int kSegments = 4;  // of the edge
 
@@ -81,6 +84,9 @@ void Scalpel::begin(const PointerPlace& place, const ToolSettings& settings) {
   normal_ = place.hit->normal;
   pixel_ = place.pixel;
   put(settings, place.pressure);
+  // From outside, as blades do: one that stands in tissue which it has not cut has no way to go on from.
+  const Vec3 lift = (place.pressure + kLift) * settings.depth * normal_;
+  for (Vec3& point : pose_->edge) point += lift;
 }
 
 void Scalpel::begin_from_air(const PointerPlace& place, const ToolSettings& settings) {
@@ -118,12 +124,14 @@ void Scalpel::move(const PointerPlace& place, const ToolSettings& settings, doub
 /// Whether the pointer is on the skin that the stroke runs along, and not deep in the wound or on what lies behind.
 bool Scalpel::is_on_surface(const PointerPlace& place, double depth) const {
   if (!place.hit || place.is_wall) return false;
+  const Vec3& hit = place.hit->point;
+  const double near = kSlack * depth + std::min(kSteepest * (point_ - seen_).norm(), kMostDrift * depth);
   const std::optional<Vec3> expected = meet(place.ray, point_, normal_);
-  const double travel = ((expected ? *expected : place.hit->point) - point_).norm();
-  const double off = expected ? (place.hit->point - *expected).norm() : travel;
-  const double drift = std::min(kSteepest * (point_ - seen_).norm(), kMostDrift * depth);
   // Without a place on the plane the surface bends away from the viewer: only what is near can be the same.
-  return off <= kSlack * depth + drift + (expected ? kSteepest * travel : 0);
+  if (!expected) return (hit - point_).norm() <= near;
+  const double most = near + kSteepest * (*expected - point_).norm();
+  // Seen flat, a small rise is far along the ray.
+  return std::abs((hit - *expected).dot(normal_)) <= most && (hit - *expected).norm() <= kMostOblique * most;
 }
 
 std::optional<Vec3> Scalpel::on_plane(const PointerPlace& place, double furthest) const {
@@ -141,7 +149,7 @@ void Scalpel::advance(const Vec3& to, double depth) {
 
 void Scalpel::put(const ToolSettings& settings, double pressure) {
   const Vec3 left = normal_.cross(across(direction_, normal_));
-  const double angle = left.isZero() ? 0 : std::min(direction_.norm(), 1.0) * settings.angle;
+  const double angle = left.isZero(0) ? 0 : std::min(direction_.norm(), 1.0) * settings.angle;
   const Vec3 up = std::cos(angle) * normal_ + std::sin(angle) * left;
   // A blade that leans has to go in further to reach as deep.
   const double reach = settings.depth / std::cos(angle);
@@ -156,7 +164,7 @@ void Scalpel::draw(Marks& marks) const {
   const Vec3 top = edge.front(), tip = edge.back();
   const Vec3 along = (top - tip).normalized();
   const Vec3 back = -kBackOfBlade * (top - tip).norm() * across(direction_, along);
-  if (back.isZero()) return;
+  if (back.isZero(0)) return;
   const Vec3 shoulder = tip + 0.4 * (top - tip) + back;
   add_line(marks, tip, shoulder, 1.5F);
   add_line(marks, shoulder, top + back, 1.5F);

@@ -24,7 +24,8 @@ struct PointerPlace {
 /// goes on in the plane through the last good place.
 class Scalpel {
  public:
-  /// The pointer goes down: on the body the blade is in place at once, else as soon as the drag comes onto it.
+  /// The pointer goes down: on the body the blade is in place just above it, and goes in as the drag goes on; else it
+  /// comes in from beside the body as soon as the drag comes onto it.
   void press(const PointerPlace& place, const ToolSettings& settings);
   /// Brings the blade to where the pointer is now. `size` of the body, length unit: no move goes further.
   void move(const PointerPlace& place, const ToolSettings& settings, double size);

@@ -96,7 +96,9 @@ void SurfaceView::State::rebuild(const TetMesh& mesh) {
   const std::uint64_t version = work.version;
   work = {};
   work.version = version;
-  slot_of_side.assign(std::size_t{mesh.tet_slots()} * 4, kNone);
+  const std::size_t sides = std::size_t{mesh.tet_slots()} * 4;
+  slot_of_side.reserve(sides + sides / 2);  // so that the first steps of a blade need not move all of it
+  slot_of_side.assign(sides, kNone);
   free_slots.clear();
   free_points.clear();
   uses.clear();

@@ -93,13 +93,13 @@ TEST_F(Hand, ToolsHaveNames) {
   EXPECT_STREQ(name_of(ToolKind::kScalpel), "Scalpel");
 }
 
-TEST_F(Hand, APressOnTheBodyPutsTheBladeInPlaceUpright) {
+TEST_F(Hand, APressOnTheBodyPutsTheBladeUprightAboveThePlace) {
   send(Kind::kPress, top(0.5, 0.5));
   ASSERT_TRUE(blade().has_value());
   const double depth = tools_.settings().depth;
   EXPECT_EQ(blade()->edge.size(), 5U);
-  EXPECT_LT((blade()->edge.front() - Vec3(0.5, 0.5, 1 + 0.5 * depth)).norm(), 1e-5);
-  EXPECT_LT((blade()->edge.back() - Vec3(0.5, 0.5, 1 - depth)).norm(), 1e-5);
+  EXPECT_LT((blade()->edge.front() - Vec3(0.5, 0.5, 1 + 1.75 * depth)).norm(), 1e-5);
+  EXPECT_LT((blade()->edge.back() - Vec3(0.5, 0.5, 1 + 0.25 * depth)).norm(), 1e-5);
   EXPECT_EQ(blade()->direction, Vec3(Vec3::Zero()));
   EXPECT_TRUE(tools_.is_busy());
 }

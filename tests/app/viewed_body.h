@@ -72,6 +72,8 @@ class TouchedCube {
     view_->fill(sim_->mesh(), surface_);
     camera_ = camera_along(view, box);
     tools_.set(settings_for(box, kYoung, 1));
+    frame();  // from now on the body stands otherwise than at rest, if only by rounding
+    frame();
   }
 
   [[nodiscard]] Simulation& sim() { return *sim_; }

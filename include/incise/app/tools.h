@@ -75,9 +75,10 @@ struct HandState {
 /// a time: what other buttons do meanwhile is ignored, and so are events out of order or with numbers that are not
 /// finite.
 ///
-/// The scalpel's edge has the same number of points always. A drag that begins beside the body cuts in from its rim:
-/// the blade is first seen off the rim, at the event that comes onto the body. Whoever feeds a simulation has to take
-/// `hands` after each event, and let no two strokes become one. Cost of an event: one `pick`. Not thread-safe.
+/// The scalpel's edge has the same number of points always. Where it is pressed on the body it stands just above, and
+/// goes in with the first move. A drag that begins beside the body cuts in from its rim: the blade is first seen off
+/// the rim, at the event that comes onto the body. Whoever feeds a simulation has to take `hands` after each event, and
+/// let no two strokes become one. Cost of an event: one `pick`. Not thread-safe.
 class ToolMachine {
  public:
   /// The scalpel is chosen. Settings out of range are brought into it.
