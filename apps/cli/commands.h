@@ -44,7 +44,7 @@ struct SimulateArguments {
   std::uint64_t budget_us = 0;        // 0: the scene's work units
   std::optional<std::uint64_t> seed;  // unset: the scene's
   unsigned threads = 1;
-  bool is_ideal = false;              // the exercise's ideal strokes instead of the scene's
+  bool is_ideal = false;  // the exercise's ideal strokes instead of the scene's
 };
 
 struct ConvertArguments {

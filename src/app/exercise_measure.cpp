@@ -197,8 +197,7 @@ class MeshMeasure {
     if (place.lateral > line_.reach(place.depth) || !line_.is_on_skin(bin)) {
       score_.away_length += 0.5 * length;
     } else if (place.depth > 0.5 * exercise_.depth) {  // cut from within: of a wall that was opened
-      score_.is_through =
-          score_.is_through || place.depth > exercise_.depth + exercise_.tolerances.depth;
+      score_.is_through = score_.is_through || place.depth > exercise_.depth + exercise_.tolerances.depth;
     } else {
       add_entry(place, length, bin);
     }

@@ -81,7 +81,8 @@ class Grader {
          fmt::format("the depth is off by {:.2g} on average; {:.2g} is allowed", off, allowed));
     take("too_deep", kTooDeepPoints * fault(score_.too_deep, allowed),
          fmt::format("the cut goes {:.2g} too deep; {:.2g} is allowed", score_.too_deep, allowed));
-    take("through", score_.is_through ? kThroughPoints : 0, "the blade went through, and out again or into another wall");
+    take("through", score_.is_through ? kThroughPoints : 0,
+         "the blade went through, and out again or into another wall");
   }
 
   void judge_angle() {

@@ -14,9 +14,12 @@ Json score_tree(const ExerciseScore& s) {
   for (const ExerciseDeduction& d : s.deductions) {
     root["deductions"].push_back({{"kind", d.kind}, {"points", d.points}, {"reason", d.reason}});
   }
-  root["line"] = {{"mean", encode(s.line_mean)},           {"rms", encode(s.line_rms)},
-                  {"max", encode(s.line_max)},             {"length", encode(s.target_length)},
-                  {"missed_length", encode(s.missed_length)}, {"coverage_pct", encode(s.coverage_pct)},
+  root["line"] = {{"mean", encode(s.line_mean)},
+                  {"rms", encode(s.line_rms)},
+                  {"max", encode(s.line_max)},
+                  {"length", encode(s.target_length)},
+                  {"missed_length", encode(s.missed_length)},
+                  {"coverage_pct", encode(s.coverage_pct)},
                   {"overshoot", encode(s.overshoot)}};
   root["depth"] = {{"mean", encode(s.depth_mean)},
                    {"error_mean", encode(s.depth_error_mean)},
@@ -44,7 +47,8 @@ namespace {
 std::string line_text(const ExerciseScore& s) {
   std::string text = fmt::format("  line: {:.0f} % cut, {:.3g} missed, {:.3g} beyond its ends", s.coverage_pct,
                                  s.missed_length, s.overshoot);
-  if (std::isfinite(s.line_rms)) text += fmt::format("; {:.3g} beside it (RMS), {:.3g} at most", s.line_rms, s.line_max);
+  if (std::isfinite(s.line_rms))
+    text += fmt::format("; {:.3g} beside it (RMS), {:.3g} at most", s.line_rms, s.line_max);
   return text + "\n";
 }
 

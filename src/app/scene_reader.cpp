@@ -28,7 +28,7 @@ constexpr double kMaxJitter = 0.15;        // as `jitter`
 constexpr double kMaxStretch = 1e6;
 constexpr double kTail = 0.5;  // s, that a scene without frames and duration goes on after its last key time
 constexpr double kFramesBetweenStrokes = 2;
-constexpr double kSteepestAngle = 89;          // degrees, of an exercise: an edge along the surface cuts no depth
+constexpr double kSteepestAngle = 89;           // degrees, of an exercise: an edge along the surface cuts no depth
 constexpr std::size_t kMaxTargetPoints = 1000;  // each part of an attempt is compared with each of them
 constexpr double kLineTolerance = 0.05;         // of the target line's length
 constexpr double kDepthTolerance = 0.25;        // of the depth
@@ -38,8 +38,8 @@ class SceneReader {
   SceneReader(std::string_view file_name, const fs::path& folder) : read_(file_name) { scene_.folder = folder; }
 
   Result<Scene> run(const JsonValue& root) {
-    if (read_header(root) && read_body(root) && read_options(root) && read_hands(root) && read_exercise(root.find("exercise")) &&
-        read_frames(root) && read_view(root.find("view"))) {
+    if (read_header(root) && read_body(root) && read_options(root) && read_hands(root) &&
+        read_exercise(root.find("exercise")) && read_frames(root) && read_view(root.find("view"))) {
       return std::move(scene_);
     }
     return blade_error_ ? *blade_error_ : read_.error();
@@ -50,11 +50,10 @@ class SceneReader {
 
   bool read_header(const JsonValue& root) {
     return read_.is_format(root, "incise-scene", kVersion) &&
-           read_.is_object(
-               root, "", {"format",        "version",     "name",  "model",  "length_unit", "materials", "gravity",
-                          "damping",       "attachments", "tools", "hooks",  "strokes",     "frames",    "duration",
-                          "frame_seconds", "settle",      "seed",  "solver", "cut",         "maintain",  "contact",
-                          "view",          "exercise"}) &&
+           read_.is_object(root, "", {"format",  "version",  "name",          "model",  "length_unit", "materials",
+                                      "gravity", "damping",  "attachments",   "tools",  "hooks",       "strokes",
+                                      "frames",  "duration", "frame_seconds", "settle", "seed",        "solver",
+                                      "cut",     "maintain", "contact",       "view",   "exercise"}) &&
            read_.optional_text(root, "", "name", scene_.name) &&
            read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
   }
@@ -432,9 +431,9 @@ class SceneReader {
     const std::string path = "exercise";
     Exercise& exercise = scene_.exercise.emplace();
     std::uint64_t strokes = exercise.strokes;
-    if (!read_.is_object(*value, path,
-                         {"name", "instructions", "target", "depth", "angle", "tolerances", "max_force", "strokes",
-                          "ideal"}) ||
+    if (!read_.is_object(
+            *value, path,
+            {"name", "instructions", "target", "depth", "angle", "tolerances", "max_force", "strokes", "ideal"}) ||
         !read_.optional_text(*value, path, "name", exercise.name) ||
         !read_.optional_text(*value, path, "instructions", exercise.instructions) ||
         !read_target(*value, path, exercise) || !read_.need_ranged(*value, path, "depth", kAbove0, exercise.depth) ||
@@ -489,9 +488,9 @@ class SceneReader {
   bool read_view(const JsonValue* value) {
     if (value == nullptr) return true;
     SceneView& view = scene_.view.emplace();
-    return read_.is_object(*value, "view",
-                           {"from", "up", "target", "distance", "zoom", "color", "wireframe", "opacity", "theme",
-                            "clip"}) &&
+    return read_.is_object(
+               *value, "view",
+               {"from", "up", "target", "distance", "zoom", "color", "wireframe", "opacity", "theme", "clip"}) &&
            read_direction(*value, "from", view.from) && read_direction(*value, "up", view.up) &&
            read_eye(*value, view) && read_.optional_ranged(*value, "view", "zoom", kAbove0, view.zoom) &&
            read_name(*value, "color", kColorNames, view.color) &&

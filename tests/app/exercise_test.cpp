@@ -166,8 +166,8 @@ TEST(ExerciseScore, counts_strokes_beyond_those_allowed) {
 }
 
 TEST(ExerciseScore, tells_a_second_wound) {
-  const app::ExerciseScore score = score_of(
-      {straight_cut(0.1, {8, 8.3, 6}, {22, 8.3, 6}), straight_cut(1.1, {8, 13.1, 6}, {15, 13.1, 6})});
+  const app::ExerciseScore score =
+      score_of({straight_cut(0.1, {8, 8.3, 6}, {22, 8.3, 6}), straight_cut(1.1, {8, 13.1, 6}, {15, 13.1, 6})});
   EXPECT_NEAR(score.away_length, 7, 1.1);
   EXPECT_GT(score.away_area, 20);
   EXPECT_GT(lost(score, "elsewhere"), 20);

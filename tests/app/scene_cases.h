@@ -72,9 +72,9 @@ inline Json full_scene() {
   scene["cut"] = {{"snap", 0.1}, {"profile", "incise"}};
   scene["maintain"] = {{"merge", true}, {"improve", true}, {"work_units", 5000}};
   scene["contact"] = {{"stiffness", 100}, {"flat_height", 0.1}};
-  scene["view"] = {{"from", {1, -2, 3}},  {"up", {0, 0, 2}},        {"target", {0.5, 0.4, 0.9}}, {"distance", 4.5},
-                   {"zoom", 1.5},         {"color", "region"},      {"wireframe", true},         {"opacity", 0.25},
-                   {"theme", "light"},    {"clip", {0, 1, 0, 0.1}}};
+  scene["view"] = {{"from", {1, -2, 3}}, {"up", {0, 0, 2}},       {"target", {0.5, 0.4, 0.9}}, {"distance", 4.5},
+                   {"zoom", 1.5},        {"color", "region"},     {"wireframe", true},         {"opacity", 0.25},
+                   {"theme", "light"},   {"clip", {0, 1, 0, 0.1}}};
   scene["exercise"] = {{"name", "a cut"},
                        {"instructions", "Cut along the line."},
                        {"target", {{0.45, 0.1, 1}, {0.45, 0.9, 1}}},

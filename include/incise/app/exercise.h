@@ -30,9 +30,9 @@ struct Exercise {
   double depth = 0;          ///< below the surface, above 0
   double angle = 0;          ///< of the edge against the surface's normal, degrees, in [0, 89]
   ExerciseTolerances tolerances;
-  double max_force = 0;              ///< of the tissue on the edge, N, above 0; 0: not judged
-  std::uint32_t strokes = 1;         ///< allowed, at least 1
-  std::vector<SceneStroke> ideal;    ///< how the blade moves ideally, in order of time; empty: nobody knows
+  double max_force = 0;            ///< of the tissue on the edge, N, above 0; 0: not judged
+  std::uint32_t strokes = 1;       ///< allowed, at least 1
+  std::vector<SceneStroke> ideal;  ///< how the blade moves ideally, in order of time; empty: nobody knows
 };
 
 /// The ideal blade at a frame of an attempt, to be shown beside it.
