@@ -28,7 +28,7 @@ using namespace incise;
 constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
 constexpr int kSettlingFrames = 3;         // panels find their sizes within so many after something happened
 constexpr unsigned kSamples = 4;
-const app::Vec2 kFreeShare(0.56, 1);       // of the picture, between the panels
+const app::Vec2 kFreeShare(0.56, 1);  // of the picture, between the panels
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -53,6 +53,7 @@ class Application {
   void handle_events();
   void handle(const app::PointerEvent& event);
   void draw();
+  void print_score();
   void save_picture();
 
   const Arguments& arguments_;
@@ -63,6 +64,7 @@ class Application {
   app::Viewer viewer_;
   int frames_to_draw_ = kSettlingFrames;
   bool is_dragging_ = false;  // from the picture, wherever the pointer is meanwhile
+  bool has_printed_ = false;  // the score
   std::string title_;
 };
 
@@ -96,6 +98,7 @@ void Application::frame() {
     interface_.skip();
   }
   window_.set_full_screen(state.is_full_screen);
+  print_score();
   if (title_ != viewer_.view().title) {
     title_ = viewer_.view().title;
     window_.show_title(title_.empty() ? "Incise" : title_ + " - Incise");
@@ -135,6 +138,13 @@ void Application::draw() {
   interface_.draw();
   viewer_.drawn(seconds_now(), 1e3 * (seconds_now() - begin));
   window_.swap();
+}
+
+/// Each score once, on stdout.
+void Application::print_score() {
+  const std::optional<app::ExerciseScore>& score = viewer_.view().score;
+  if (score && !has_printed_) fmt::print("{}", app::to_text(*score));
+  has_printed_ = score.has_value();
 }
 
 /// Without the panels.

@@ -363,6 +363,34 @@ void draw_probe(const app::SessionView& view) {
   ImGui::End();
 }
 
+/// What a trainee shall do; afterwards, how it was done.
+void draw_exercise(Viewer& viewer, const PanelContext& context) {
+  const app::SessionView& view = viewer.view();
+  if (!view.scene || !view.scene->exercise) return;
+  const app::Exercise& exercise = *view.scene->exercise;
+  if (begin_panel("exercise", {0, 1}, 25 * em(), 0.6F * ImGui::GetMainViewport()->Size.y)) {
+    ImGui::PushTextWrapPos(0);
+    faint("Exercise: " + exercise.name);
+    if (view.score) {
+      ImGui::ProgressBar(static_cast<float>(view.score->points / 100), {-1, 0},
+                         fmt::format("{:.0f} of 100 points", view.score->points).c_str());
+      for (const app::ExerciseDeduction& deduction : view.score->deductions) {
+        text(fmt::format("-{:.1f}  {}", deduction.points, deduction.reason));
+      }
+      if (view.score->deductions.empty()) text("Nothing to take off.");
+    } else {
+      text(exercise.instructions);
+    }
+    ImGui::PopTextWrapPos();
+    action_button(viewer, context, Action::kScore, view.score ? "Score again" : "Finish", false);
+    ImGui::SameLine();
+    action_button(viewer, context, Action::kIdeal, "Ideal", std::as_const(viewer).state().shows_ideal);
+    ImGui::SameLine();
+    action_button(viewer, context, Action::kReset, "Try again", false);
+  }
+  ImGui::End();
+}
+
 void draw_legend(const app::ViewerState& state) {
   if (state.options.color != app::ColorBy::kQuality) return;
   if (begin_panel("legend", {0.5F, 0.12F}, 20 * em(), 5 * em())) {
@@ -382,28 +410,39 @@ void draw_legend(const app::ViewerState& state) {
   ImGui::End();
 }
 
+/// In two columns; a group is not torn apart.
+void key_columns() {
+  const std::vector<app::KeyRow> all = app::key_rows();
+  std::string_view group;
+  bool is_second = false;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].group != group) {
+      if (!is_second && 2 * i >= all.size()) {
+        ImGui::NextColumn();
+        is_second = true;
+      }
+      heading(std::string(all[i].group).c_str());
+    }
+    group = all[i].group;
+    text(all[i].keys);
+    ImGui::SameLine((is_second ? ImGui::GetColumnOffset() : 0) + 9.5F * em());
+    text(std::string(all[i].text));
+  }
+}
+
 void draw_help(app::ViewerState& state) {
   if (!state.shows_help) return;
   const ImVec2 screen = ImGui::GetMainViewport()->Size;
   ImGui::SetNextWindowPos({0.5F * screen.x, 0.5F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(62 * em(), 0.96F * screen.x), std::min(40 * em(), 0.94F * screen.y)});
+  ImGui::SetNextWindowSize({std::min(66 * em(), 0.97F * screen.x), std::min(39 * em(), 0.96F * screen.y)});
+  ImGui::SetNextWindowFocus();  // over the other panels
+  ImGui::SetNextWindowBgAlpha(1);
   if (ImGui::Begin("Keys", &state.shows_help, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
     text("Left drag: the tool. Right or middle drag, or Alt+drag: turn the view; with Shift: move it. Wheel: zoom.");
     text("Shift+drag: grasp, whatever the tool. Drop a scene, a mesh or a recording on the window to open it.");
     ImGui::Separator();
     ImGui::Columns(2, nullptr, false);
-    std::string_view group;
-    std::size_t lines = 0;
-    for (const app::KeyBinding& binding : app::key_bindings()) {
-      if (lines++ == app::key_bindings().size() / 2) ImGui::NextColumn();
-      if (binding.group != group) heading(std::string(binding.group).c_str());
-      group = binding.group;
-      text(to_text(binding.press));
-      ImGui::SameLine(7 * em());
-      ImGui::PushTextWrapPos(0);
-      text(std::string(binding.text));
-      ImGui::PopTextWrapPos();
-    }
+    key_columns();
     ImGui::Columns(1);
   }
   ImGui::End();
@@ -416,6 +455,7 @@ void draw_panels(Viewer& viewer, const PanelContext& context) {
   if (state.panels == app::Panels::kAll) {
     draw_tools(viewer, context);
     draw_time(viewer, context);
+    draw_exercise(viewer, context);
   }
   if (state.panels != app::Panels::kNone) {
     draw_figures(viewer, context);

@@ -36,7 +36,7 @@ constexpr KeyBinding kBindings[] = {
     {Action::kScreenshot, {"S"}, "Files", "Save a picture"},
     {Action::kImageSequence, {"S", false, kShift}, "Files", "Save every picture from now on, or end that"},
     {Action::kExportMesh, {"E", kControl}, "Files", "Write the mesh"},
-    {Action::kFrameAll, {"F"}, "View", "See the whole body (also Home)"},
+    {Action::kFrameAll, {"F"}, "View", "See the whole body"},
     {Action::kFrameAll, {"Home"}, "View", "See the whole body"},
     {Action::kTurnLeft, {"Left"}, "View", "Turn the view to the left"},
     {Action::kTurnRight, {"Right"}, "View", "Turn the view to the right"},
@@ -58,7 +58,7 @@ constexpr KeyBinding kBindings[] = {
     {Action::kLarger, {"+", kControl}, "View", "Larger text"},
     {Action::kLarger, {"=", kControl}, "View", "Larger text"},
     {Action::kSmaller, {"-", kControl}, "View", "Smaller text"},
-    {Action::kIdeal, {"I"}, "Exercise", "Show the ideal cut, step by step with the replay"},
+    {Action::kIdeal, {"I"}, "Exercise", "The ideal blade; after the score, beside the attempt"},
     {Action::kScore, {"Enter"}, "Exercise", "Finish, and see the score"},
     {Action::kFullScreen, {"F11"}, "Window", "Full screen"},
     {Action::kHelp, {"H"}, "Window", "This list"},
@@ -91,13 +91,27 @@ std::string key_of(Action action) {
   return {};
 }
 
+std::vector<KeyRow> key_rows() {
+  std::vector<KeyRow> rows;
+  const KeyBinding* before = nullptr;
+  for (const KeyBinding& binding : kBindings) {
+    if (before != nullptr && before->action == binding.action) {
+      rows.back().keys += ", " + to_text(binding.press);
+    } else {
+      rows.push_back({binding.group, to_text(binding.press), binding.text});
+    }
+    before = &binding;
+  }
+  return rows;
+}
+
 std::string list_of_keys() {
   std::string list;
   std::string_view group;
-  for (const KeyBinding& binding : kBindings) {
-    if (binding.group != group) list += fmt::format("{}:\n", binding.group);
-    group = binding.group;
-    list += fmt::format("  {:<13} {}\n", to_text(binding.press), binding.text);
+  for (const KeyRow& row : key_rows()) {
+    if (row.group != group) list += fmt::format("{}:\n", row.group);
+    group = row.group;
+    list += fmt::format("  {:<20} {}\n", row.keys, row.text);
   }
   return list;
 }

@@ -23,9 +23,9 @@ Eigen::Vector3f to_float(const Vec3& point) {
   return point.cast<float>();
 }
 
-void draw_blade(const BladePose& blade, Marks& marks) {
-  for (std::size_t i = 1; i < blade.edge.size(); ++i) {
-    marks.lines.push_back({to_float(blade.edge[i - 1]), to_float(blade.edge[i]), Ink::kBlade, 4, true, false});
+void draw_line(const std::vector<Vec3>& points, Ink ink, Marks& marks) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    marks.lines.push_back({to_float(points[i - 1]), to_float(points[i]), ink, 4, true, false});
   }
 }
 
@@ -110,6 +110,8 @@ Status Session::State::run(const FrameInput& input) {
     note(Operation::Kind::kNotice, report.error().message);
     return report.error();
   }
+  if (input.blade && !attempt_began) attempt_began = figures.frames;
+  if (scorer) scorer->add(input, *report, simulation->simulation());
   add(*report);
   return {};
 }
@@ -259,9 +261,22 @@ OperationLog& Session::log() {
   return state_->log;
 }
 
-void Session::draw(Marks& marks) const {
+std::optional<ExerciseScore> Session::score() const {
   const State& s = *state_;
-  if (s.last_input.blade && s.blade_source != State::BladeSource::kHand) draw_blade(*s.last_input.blade, marks);
+  if (!s.scorer) return std::nullopt;
+  return s.scorer->score(s.simulation->simulation());
+}
+
+void Session::draw(Marks& marks, bool shows_ideal) const {
+  const State& s = *state_;
+  if (s.scene.exercise) draw_line(s.scene.exercise->target, Ink::kTarget, marks);
+  if (shows_ideal) {
+    const std::uint64_t frame = s.attempt_began ? s.figures.frames - *s.attempt_began : 0;
+    for (const BladePose& blade : ideal_poses(s.scene, frame)) draw_line(blade.edge, Ink::kIdeal, marks);
+  }
+  if (s.last_input.blade && s.blade_source != State::BladeSource::kHand) {
+    draw_line(s.last_input.blade->edge, Ink::kBlade, marks);
+  }
   for (const Hook& hook : s.last_input.hooks) {
     if (hook.id < kFirstHandHook || s.is_replay) marks.balls.push_back({to_float(hook.position), Ink::kHook, 7, true});
   }

@@ -152,6 +152,8 @@ Status Session::State::start() {
   blade_source = BladeSource::kNone;
   stroke_under_way = 0;
   next_call = 0;
+  attempt_began.reset();
+  scorer.reset();
   plays_script = options.plays_script;
   const Status status = is_engine_replay ? start_engine() : start_simulation();
   if (status.ok()) count();
@@ -166,6 +168,7 @@ Status Session::State::start_simulation() {
   Result<RecordedSimulation> made = RecordedSimulation::create(scene, initial, run);
   if (!made.ok()) return made.error();
   simulation.emplace(std::move(made).value());
+  if (scene.exercise) scorer.emplace(scene, initial);
   if (is_replay || scene.settle.frames == 0) return {};
   const Result<unsigned> settled = simulation->settle(scene.settle);
   return settled.ok() ? Status() : Status(settled.error());

@@ -29,6 +29,8 @@ struct Session::State {
   // What changes.
   std::optional<RecordedSimulation> simulation;
   std::optional<Engine> engine;  // of a recording of an engine
+  std::optional<ExerciseScorer> scorer;
+  std::optional<std::uint64_t> attempt_began;  // the first frame with a blade
   bool is_replay = false;
   std::size_t next_call = 0;
   bool plays_script = true;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "incise/app/cut_job.h"
+#include "incise/app/text_file.h"
 #include "incise/core/triple_buffer.h"
 
 namespace incise::inline v0 {
@@ -64,6 +65,7 @@ struct SessionThread::State {
   SessionView view;
   std::optional<std::pair<Side, std::uint32_t>> probed;  // with the generation of its tet
   std::uint64_t log_seen = 0;
+  bool shows_ideal = false;
   unsigned steps_left = 0;  // to be made while it is paused
   Clock::time_point next_frame;
   Clock::time_point rate_since;
@@ -82,6 +84,7 @@ struct SessionThread::State {
   void publish();
   void check_validity();
   void find_worst();
+  void score(const std::filesystem::path& json, const std::filesystem::path& attempt);
   void draw_marks();
   void measure_rates();
   void busy(const std::string& text);
@@ -144,6 +147,7 @@ void SessionThread::State::look_at_session() {
   checked = {engine.journal().position(), engine.journal().rewinds()};
   find_worst();
   probed.reset();
+  view.score.reset();
   ++view.session;
   view.scene = std::make_shared<const Scene>(session.scene());
   view.title = session.title();
@@ -248,9 +252,21 @@ void SessionThread::State::find_worst() {
   if (options.worst_shown > 0) worst = quality->worst(options.worst_shown);
 }
 
+void SessionThread::State::score(const std::filesystem::path& json, const std::filesystem::path& attempt) {
+  view.score = session.score();
+  if (!view.score) return tell("This scene is no exercise");
+  options.is_paused = true;
+  if (const Status status = write_text_file(json, to_json(*view.score)); !status.ok()) return tell(status);
+  if (!session.is_replay() && !session.is_recording()) {
+    if (const Status status = session.start_recording(attempt); !status.ok()) return tell(status);
+    session.stop_recording();
+  }
+  tell("Score in " + json.string());
+}
+
 void SessionThread::State::draw_marks() {
   view.marks = {};
-  session.draw(view.marks);
+  session.draw(view.marks, shows_ideal);
   const TetMesh& mesh = session.mesh();
   for (const TetId tet : worst) add_edges(corners_of(mesh, tet), Ink::kWorst, view.marks);
   view.probe.reset();
@@ -389,6 +405,12 @@ void SessionThread::show(const SurfaceOptions& surface, std::size_t worst) {
     s->options.worst_shown = worst;
     s->find_worst();
   });
+}
+void SessionThread::score(const std::filesystem::path& json, const std::filesystem::path& attempt) {
+  state_->post([s = state_.get(), json, attempt] { s->score(json, attempt); });
+}
+void SessionThread::show_ideal(bool is_shown) {
+  state_->post([s = state_.get(), is_shown] { s->shows_ideal = is_shown; });
 }
 void SessionThread::set_speed(double speed) {
   state_->post([s = state_.get(), speed] { s->options.speed = speed; });

@@ -90,6 +90,7 @@ struct SurfaceView::State {
   void drop_point(std::uint32_t point, Kind kind);
   void mark_newest(const TetMesh& mesh);
   void find_front(const TetMesh& mesh);
+  void find_contour();
 };
 
 void SurfaceView::State::rebuild(const TetMesh& mesh) {
@@ -263,8 +264,24 @@ void SurfaceView::State::find_front(const TetMesh& mesh) {
 void SurfaceView::State::publish(const TetMesh& mesh) {
   mark_newest(mesh);
   find_front(mesh);
+  find_contour();
   ++work.version;
   published = std::make_shared<const SurfaceTopology>(work);
+}
+
+/// Where a wall has no other wall beside it: an edge of walls that is there in one direction only.
+void SurfaceView::State::find_contour() {
+  auto& edges = work.contour_edges;
+  edges.clear();
+  for (std::size_t slot = 0; slot < work.triangles.size(); ++slot) {
+    if ((work.looks[slot].flags & TriangleLook::kWall) == 0) continue;
+    const auto& corners = work.triangles[slot];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = corners[i], to = corners[(i + 1) % 3];
+      edges.push_back({std::min(from, to), std::max(from, to)});
+    }
+  }
+  keep_single(edges);
 }
 
 SurfaceView::SurfaceView(const TetMesh& mesh, const Journal& journal) : state_(std::make_unique<State>()) {

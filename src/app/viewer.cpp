@@ -63,6 +63,7 @@ struct Viewer::State {
   bool wants_screenshot = false;
   std::uint64_t sequence_serial = 0, sequence_number = 0;
   fs::path sequence_folder;
+  fs::path attempt;  // the recording of what was scored last
   Vec3 clip_normal = Vec3::UnitX();
 
   [[nodiscard]] ToolContext context(const Viewport& viewport) const {
@@ -75,6 +76,7 @@ struct Viewer::State {
   void change_settings(double depth_factor, double tilt);
   void clip(bool is_on);
   void show_surface();
+  void show_ideal();
   void toggle_recording();
   void toggle_sequence();
   bool act_on_tools(Action action);
@@ -221,12 +223,30 @@ bool Viewer::State::act_on_files(Action action) {
     case Action::kImageSequence:
       toggle_sequence();
       return true;
+    case Action::kScore:
+      attempt = free_name(options.folder, "incise-attempt", ".jsonl");
+      session.score(free_name(options.folder, "incise-score", ".json"), attempt);
+      return true;
+    case Action::kIdeal:
+      show_ideal();
+      return true;
     case Action::kExportMesh:
       session.export_mesh(free_name(options.folder, "incise-mesh", ".vtu"));
       return true;
     default:
       return false;
   }
+}
+
+/// Beside the attempt that was scored, where there is one; else beside the blade from now on.
+void Viewer::State::show_ideal() {
+  const SessionView& view = session.view();
+  if (!view.scene || !view.scene->exercise) return say("This scene is no exercise");
+  shown.shows_ideal = view.score.has_value() || !shown.shows_ideal;
+  session.show_ideal(shown.shows_ideal);
+  if (!view.score || view.is_replay || attempt.empty()) return;
+  session.open(attempt);
+  session.pause(false);
 }
 
 void Viewer::State::toggle_recording() {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace incise::inline v0 {
 namespace app {
@@ -82,6 +83,14 @@ struct KeyBinding {
 [[nodiscard]] std::string to_text(const KeyPress& press);
 /// The first binding's key of an action, as text: for buttons and their hints.
 [[nodiscard]] std::string key_of(Action action);
+/// A row of the list of keys: "Ctrl+Shift+Z, Ctrl+Y".
+struct KeyRow {
+  std::string_view group;
+  std::string keys;
+  std::string_view text;
+};
+/// One row per action.
+[[nodiscard]] std::vector<KeyRow> key_rows();
 /// The whole list as text, one key a line, for `--help`.
 [[nodiscard]] std::string list_of_keys();
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "incise/app/exercise_score.h"
 #include "incise/app/hand_queue.h"
 #include "incise/app/operation_log.h"
 #include "incise/app/picture.h"
@@ -114,8 +115,11 @@ class Session {
   [[nodiscard]] const SessionFigures& figures() const;
   [[nodiscard]] const OperationLog& log() const;
   [[nodiscard]] OperationLog& log();
-  /// Adds the marks of what the scene or the recording does: its blade, hooks and tools.
-  void draw(Marks& marks) const;
+  /// How well the exercise of the scene was done so far; nothing where it has none. Cost: O(tets).
+  [[nodiscard]] std::optional<ExerciseScore> score() const;
+  /// Adds the marks of what the scene or the recording does: its blade, hooks and tools, and an exercise's target.
+  /// @param shows_ideal  the ideal blade of the exercise as well, where it would be now.
+  void draw(Marks& marks, bool shows_ideal = false) const;
 
  private:
   struct State;

@@ -31,6 +31,7 @@ struct SessionView {
   ValidityLight validity;
   std::shared_ptr<const std::vector<Operation>> log;  ///< never null
   std::optional<ProbeInfo> probe;
+  std::optional<ExerciseScore> score;  ///< once it was asked for, until the body starts anew
   ReplayPlace place;
   double steps_per_second = 0;  ///< of the simulation, by the clock
   double real_time = 0;         ///< seconds simulated per second, where it runs; 1: it keeps up
@@ -80,6 +81,10 @@ class SessionThread {
   void export_mesh(const std::filesystem::path& path);
   void show(const SurfaceOptions& surface, std::size_t worst);
   void set_speed(double speed);
+  /// Scores the exercise as it stands, pauses, and writes the score (JSON) and the attempt (a recording).
+  void score(const std::filesystem::path& json, const std::filesystem::path& attempt);
+  /// Whether the ideal of the exercise is shown beside the blade.
+  void show_ideal(bool is_shown);
 
  private:
   struct State;

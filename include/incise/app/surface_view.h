@@ -42,11 +42,12 @@ struct SurfaceTopology {
   /// Per slot: three indices of points, counter-clockwise seen from outside. Skin and walls share no points, nor do
   /// `kInside` triangles with either, so that normals averaged at points keep the rims sharp.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<TriangleLook> looks;                        ///< per slot
-  std::vector<Side> sides;                                ///< per slot: which side of which tet it is
-  std::vector<VertexId> vertices;                         ///< per point: the mesh vertex that it stands for
-  std::vector<std::array<std::uint32_t, 2>> front_edges;  ///< pairs of points: where cuts end inside the body
-  std::size_t used = 0;                                   ///< slots that are no free ones
+  std::vector<TriangleLook> looks;                          ///< per slot
+  std::vector<Side> sides;                                  ///< per slot: which side of which tet it is
+  std::vector<VertexId> vertices;                           ///< per point: the mesh vertex that it stands for
+  std::vector<std::array<std::uint32_t, 2>> contour_edges;  ///< pairs of points: where walls meet skin, a wound's rim
+  std::vector<std::array<std::uint32_t, 2>> front_edges;    ///< pairs of points: where cuts end inside the body
+  std::size_t used = 0;                                     ///< slots that are no free ones
 };
 
 /// A surface as it stands at one moment. Copies share the topology.

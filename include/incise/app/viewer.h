@@ -23,9 +23,10 @@ enum class Panels : std::uint8_t { kAll, kFigures, kNone };
 struct ViewerOptions {
   std::filesystem::path folder = ".";  ///< of screenshots, recordings and meshes that are written
   ViewOptions view;
-  bool keeps_view = false;  ///< `view` stands, whatever a scene says
+  bool keeps_view = false;     ///< `view` stands, whatever a scene says
   bool shades_hollows = true;  ///< at first; it costs a renderer without a graphics processor much
-  Vec2 free_share = Vec2::Ones();  ///< of the picture, around its middle, that panels leave free: bodies are framed there
+  Vec2 free_share =
+      Vec2::Ones();  ///< of the picture, around its middle, that panels leave free: bodies are framed there
 };
 
 /// What the person sees beside the body; a front end draws it and may change it.
@@ -36,6 +37,7 @@ struct ViewerState {
   bool is_clipped = false;
   double clip_depth = 0.5;  ///< share of the body, seen along the clip plane's normal, that is cut away; in [0, 1]
   bool shows_worst = false;
+  bool shows_ideal = false;  ///< of an exercise
   bool is_full_screen = false;
   double text_scale = 1;  ///< in [0.6, 3]
   bool wants_quit = false;
