@@ -417,7 +417,7 @@ void key_columns() {
   bool is_second = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].group != group) {
-      if (!is_second && 2 * i >= all.size()) {
+      if (!is_second && 5 * i >= 2 * all.size()) {
         ImGui::NextColumn();
         is_second = true;
       }
@@ -425,7 +425,7 @@ void key_columns() {
     }
     group = all[i].group;
     text(all[i].keys);
-    ImGui::SameLine((is_second ? ImGui::GetColumnOffset() : 0) + 9.5F * em());
+    ImGui::SameLine(10.5F * em());
     text(std::string(all[i].text));
   }
 }
