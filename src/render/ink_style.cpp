@@ -37,8 +37,8 @@ constexpr std::array<InkRow, kStyles> kRows = {{
     {0xFFF3D6, 0xFFF3D6, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},         // front
 }};
 
-bool is_bright(const Rgb& c) {
-  return 0.3F * c[0] + 0.59F * c[1] + 0.11F * c[2] > 0.38F;
+float lightness(const Rgb& c) {
+  return 0.3F * c[0] + 0.59F * c[1] + 0.11F * c[2];
 }
 
 }  // namespace
@@ -47,8 +47,11 @@ std::array<InkStyle, kStyles> ink_styles(app::Theme theme) {
   std::array<InkStyle, kStyles> styles;
   for (std::size_t i = 0; i < kStyles; ++i) {
     const InkRow& row = kRows[i];
-    const Rgb color = rgb(theme == app::Theme::kDark ? row.dark : row.light);
-    styles[i] = {color, is_bright(color) ? rgb(0x101317) : rgb(0xFFFFFF), row.line, row.ball, row.fill};
+    const bool is_dark = theme == app::Theme::kDark;
+    const Rgb color = rgb(is_dark ? row.dark : row.light);
+    // Light around dark inks and dark around light ones; in between, like the ground.
+    const bool has_dark_casing = lightness(color) > (is_dark ? 0.3F : 0.6F);
+    styles[i] = {color, has_dark_casing ? rgb(0x101317) : rgb(0xFFFFFF), row.line, row.ball, row.fill};
   }
   return styles;
 }

@@ -58,10 +58,10 @@ out vec4 color;
 // Pixels to the nearest stretch of ink along the line, from the patterns' tables: starts and ends in widths.
 float off_ink(float x, int pattern, float width) {
   if (pattern == 0) return 0.0;
-  float period = pattern == 1 ? 5.0 : pattern == 2 ? 2.6 : 7.0;
-  float t = mod(x / width, period), ink = pattern == 1 ? 3.0 : pattern == 2 ? 0.6 : 3.2;
+  float period = pattern == 1 ? 6.5 : pattern == 2 ? 3.4 : 9.0;
+  float t = mod(x / width, period), ink = pattern == 1 ? 3.0 : pattern == 2 ? 0.4 : 3.0;
   float off = min(max(t - ink, 0.0), period - t);
-  if (pattern == 3 && t > ink) off = min(off, abs(t - 5.1) - 0.3);
+  if (pattern == 3 && t > ink) off = min(off, abs(t - 6.0) - 0.2);
   return max(off, 0.0) * width;
 }
 
@@ -121,7 +121,7 @@ out vec4 color;
 // Below 0: ink. Pixels, for a glyph that fits a circle of radius r.
 float glyph(vec2 p, float r, int shape) {
   float away = length(p), thick = max(0.26 * r, 1.2);
-  if (shape == 1) return abs(away - r + thick) - thick;
+  if (shape == 1) return abs(away - r + 0.6 * thick) - 0.6 * thick;
   if (shape == 2) return min(abs(away - r + 0.7 * thick) - 0.7 * thick, away - 0.42 * r);
   if (shape == 3) {
     vec2 q = abs(vec2(p.x + p.y, p.x - p.y)) * 0.7071;
@@ -150,9 +150,9 @@ void draw_sphere() {
   if (opacity <= 0.0) discard;
   vec3 at = ray * (along - sqrt(max(inside, 0.0))), n = (at - ball.xyz) / ball.w;
   float key = max(0.0, (dot(n, normalize(vec3(-0.45, 0.65, 0.70))) + 0.3) / 1.3);
-  vec3 base = pow(inks[int(look.x)], vec3(2.2));
+  vec3 base = inks[int(look.x)] * inks[int(look.x)];
   vec3 lit = base * (0.16 + 0.80 * key) + 0.20 * pow(max(0.0, dot(n, normalize(vec3(-0.25, 0.36, 0.9)))), 40.0);
-  color = vec4(pow(clamp(lit, 0.0, 1.0), vec3(1.0 / 2.2)), opacity);
+  color = vec4(sqrt(clamp(lit, 0.0, 1.0)), opacity);
   vec4 clip = to_clip * vec4(at, 1);
   gl_FragDepth = clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 1.0);
 }
