@@ -55,11 +55,11 @@ flat in uvec2 look;
 uniform bool is_behind;
 out vec4 color;
 
-// Pixels to the nearest stretch of ink along the line, from the patterns' tables: starts and ends in widths.
+// Pixels along the line to the nearest stretch of ink; the patterns' measures are in widths.
 float off_ink(float x, int pattern, float width) {
-  if (pattern == 0) return 0.0;
-  float period = pattern == 1 ? 6.5 : pattern == 2 ? 3.4 : 9.0;
-  float t = mod(x / width, period), ink = pattern == 1 ? 3.0 : pattern == 2 ? 0.4 : 3.0;
+  if (pattern == 0 || pattern == 4) return 0.0;
+  float period = pattern == 1 ? 6.5 : pattern == 2 ? 3.4 : pattern == 3 ? 9.0 : 12.0;
+  float t = mod(x / width, period), ink = pattern == 2 ? 0.4 : pattern == 5 ? 8.5 : 3.0;
   float off = min(max(t - ink, 0.0), period - t);
   if (pattern == 3 && t > ink) off = min(off, abs(t - 6.0) - 0.2);
   return max(off, 0.0) * width;
@@ -67,12 +67,14 @@ float off_ink(float x, int pattern, float width) {
 
 void main() {
   int style = int(look.x), pattern = shapes[style].x;
-  if (look.y != 0u && pattern == 0) pattern = 1;
+  bool is_hollow = pattern == 4 && sizes.y >= 1.4;
+  if (look.y != 0u && (pattern == 0 || pattern == 4)) pattern = 1;
   if (is_behind && (place.x < 0.0 || place.x > sizes.x)) discard;  // caps that overlap would show
   float beyond = max(max(-place.x, place.x - sizes.x), 0.0);
   float inked = clamp(place.x, 0.0, sizes.x);
   float away = length(vec2(max(beyond, off_ink(inked, pattern, max(2.0 * sizes.y, 2.0))), place.y)) - sizes.y;
-  float ink = clamp(0.5 - away, 0.0, 1.0), casing = 0.75 * clamp(0.5 + kCasing - away, 0.0, 1.0);
+  float ink = clamp(0.5 - (is_hollow ? max(away, -away - 0.62 * sizes.y) : away), 0.0, 1.0);
+  float casing = 0.75 * clamp(0.5 + kCasing - away, 0.0, 1.0);
   float opacity = max(ink, casing);
   if (opacity < 0.03) discard;
   color = vec4(mix(casings[style], inks[style], ink), is_behind ? 0.32 * ink : opacity);
@@ -193,6 +195,7 @@ float on_pattern(int pattern) {
   if (pattern == 2) return falling;
   if (pattern == 3) return step(length(mod(p, 7.0) - 3.5), 1.7);
   if (pattern == 4) return max(rising, falling);
+  if (pattern == 5) return step(mod(p.y, 6.0), 2.0);
   return 0.5;
 }
 

@@ -93,7 +93,7 @@ void main() {
   vec3 base = base_color(look);
 #ifdef WIRE
   float lightness = dot(base, vec3(0.21, 0.72, 0.07));
-  vec3 line = lightness > 0.12 ? to_screen(base * 0.22) : to_screen(mix(base, vec3(0.9), 0.11));
+  vec3 line = lightness > 0.2 ? to_screen(base * 0.22) : to_screen(mix(base, vec3(0.9), 0.11));
   color = vec4(lone_wire.r < 0.0 ? line : lone_wire, opacity);
 #else
   vec3 to_eye = normalize(-view_position);
