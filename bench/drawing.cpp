@@ -20,6 +20,7 @@ namespace incise::bench {
 namespace {
 
 constexpr std::uint32_t kMeridians = 224, kParallels = 224;  // about 100 000 triangles at 50 000 points
+constexpr std::uint32_t kFewParallels = 50;                  // about 22 000 triangles
 constexpr app::Viewport kScreen{1280, 720};
 constexpr double kMostMs = 1;  // of the calling thread beside the rasteriser
 
@@ -152,7 +153,9 @@ std::vector<Case> cases() {
           {"1280 x 720, no samples, no occlusion", kParallels, kScreen, Moves::kAll, false, 0},
           {"1280 x 720, no samples", kParallels, kScreen, Moves::kAll, true, 0},
           {"1280 x 720, 4 samples, no occlusion", kParallels, kScreen, Moves::kAll, false, 4},
-          {"1280 x 720, 4 samples", kParallels, kScreen, Moves::kAll, true, 4}};
+          {"1280 x 720, 4 samples", kParallels, kScreen, Moves::kAll, true, 4},
+          {"1280 x 720, no samples, no occlusion", kFewParallels, kScreen, Moves::kAll, false, 0},
+          {"1280 x 720, 4 samples", kFewParallels, kScreen, Moves::kAll, true, 4}};
 }
 
 int run(const std::filesystem::path& folder, int frames) {
