@@ -24,7 +24,7 @@ PRIVATE_HEADERS = {
     "oneapi/": (),
     "hwy/": ("geom", "mesh", "cut", "improve", "sim"),
     "pugixml.hpp": ("io",),
-    "zlib.h": ("io",),
+    "zlib.h": ("io", "render"),
     "nlohmann/": ("io", "app"),
     "fmt/": ("io", "app"),
     "spdlog/": ("app",),

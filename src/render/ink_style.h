@@ -11,9 +11,9 @@ namespace incise::inline v0 {
 namespace render {
 
 /// Numbers that the shaders know, too.
-enum class LinePattern : int { kSolid, kDashed, kDotted, kDashDot };
+enum class LinePattern : int { kSolid, kDashed, kDotted, kDashDot, kHollow, kLongDashed };
 enum class BallGlyph : int { kDisc, kRing, kBullseye, kCross, kDonut };
-enum class FillPattern : int { kPlain, kRising, kFalling, kDotted, kCrossed };
+enum class FillPattern : int { kPlain, kRising, kFalling, kDotted, kCrossed, kLevel };
 
 struct InkStyle {
   std::array<float, 3> color{};   ///< sRGB, in [0, 1]

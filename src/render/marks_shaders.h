@@ -55,24 +55,26 @@ flat in uvec2 look;
 uniform bool is_behind;
 out vec4 color;
 
-// Pixels to the nearest stretch of ink along the line, from the patterns' tables: starts and ends in widths.
+// Pixels along the line to the nearest stretch of ink; the patterns' measures are in widths.
 float off_ink(float x, int pattern, float width) {
-  if (pattern == 0) return 0.0;
-  float period = pattern == 1 ? 5.0 : pattern == 2 ? 2.6 : 7.0;
-  float t = mod(x / width, period), ink = pattern == 1 ? 3.0 : pattern == 2 ? 0.6 : 3.2;
+  if (pattern == 0 || pattern == 4) return 0.0;
+  float period = pattern == 1 ? 6.5 : pattern == 2 ? 3.4 : pattern == 3 ? 9.0 : 12.0;
+  float t = mod(x / width, period), ink = pattern == 2 ? 0.4 : pattern == 5 ? 8.5 : 3.0;
   float off = min(max(t - ink, 0.0), period - t);
-  if (pattern == 3 && t > ink) off = min(off, abs(t - 5.1) - 0.3);
+  if (pattern == 3 && t > ink) off = min(off, abs(t - 6.0) - 0.2);
   return max(off, 0.0) * width;
 }
 
 void main() {
   int style = int(look.x), pattern = shapes[style].x;
-  if (look.y != 0u && pattern == 0) pattern = 1;
+  bool is_hollow = pattern == 4 && sizes.y >= 1.4;
+  if (look.y != 0u && (pattern == 0 || pattern == 4)) pattern = 1;
   if (is_behind && (place.x < 0.0 || place.x > sizes.x)) discard;  // caps that overlap would show
   float beyond = max(max(-place.x, place.x - sizes.x), 0.0);
   float inked = clamp(place.x, 0.0, sizes.x);
   float away = length(vec2(max(beyond, off_ink(inked, pattern, max(2.0 * sizes.y, 2.0))), place.y)) - sizes.y;
-  float ink = clamp(0.5 - away, 0.0, 1.0), casing = 0.75 * clamp(0.5 + kCasing - away, 0.0, 1.0);
+  float ink = clamp(0.5 - (is_hollow ? max(away, -away - 0.62 * sizes.y) : away), 0.0, 1.0);
+  float casing = 0.75 * clamp(0.5 + kCasing - away, 0.0, 1.0);
   float opacity = max(ink, casing);
   if (opacity < 0.03) discard;
   color = vec4(mix(casings[style], inks[style], ink), is_behind ? 0.32 * ink : opacity);
@@ -121,7 +123,7 @@ out vec4 color;
 // Below 0: ink. Pixels, for a glyph that fits a circle of radius r.
 float glyph(vec2 p, float r, int shape) {
   float away = length(p), thick = max(0.26 * r, 1.2);
-  if (shape == 1) return abs(away - r + thick) - thick;
+  if (shape == 1) return abs(away - r + 0.6 * thick) - 0.6 * thick;
   if (shape == 2) return min(abs(away - r + 0.7 * thick) - 0.7 * thick, away - 0.42 * r);
   if (shape == 3) {
     vec2 q = abs(vec2(p.x + p.y, p.x - p.y)) * 0.7071;
@@ -150,9 +152,9 @@ void draw_sphere() {
   if (opacity <= 0.0) discard;
   vec3 at = ray * (along - sqrt(max(inside, 0.0))), n = (at - ball.xyz) / ball.w;
   float key = max(0.0, (dot(n, normalize(vec3(-0.45, 0.65, 0.70))) + 0.3) / 1.3);
-  vec3 base = pow(inks[int(look.x)], vec3(2.2));
+  vec3 base = inks[int(look.x)] * inks[int(look.x)];
   vec3 lit = base * (0.16 + 0.80 * key) + 0.20 * pow(max(0.0, dot(n, normalize(vec3(-0.25, 0.36, 0.9)))), 40.0);
-  color = vec4(pow(clamp(lit, 0.0, 1.0), vec3(1.0 / 2.2)), opacity);
+  color = vec4(sqrt(clamp(lit, 0.0, 1.0)), opacity);
   vec4 clip = to_clip * vec4(at, 1);
   gl_FragDepth = clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 1.0);
 }
@@ -193,6 +195,7 @@ float on_pattern(int pattern) {
   if (pattern == 2) return falling;
   if (pattern == 3) return step(length(mod(p, 7.0) - 3.5), 1.7);
   if (pattern == 4) return max(rising, falling);
+  if (pattern == 5) return step(mod(p.y, 6.0), 2.0);
   return 0.5;
 }
 

@@ -9,7 +9,7 @@ namespace incise::inline v0 {
 namespace render {
 namespace {
 
-constexpr float kRadius = 0.045F;  // of the hollows that are found, per scene size
+constexpr float kRadius = 0.09F;  // of the hollows that are found, per scene size
 
 // What all three need: where a pixel of the depth buffer is, as the eye sees it.
 constexpr const char* kPrelude = R"(
@@ -54,11 +54,11 @@ void main() {
     float there = depth_at(tap);
     if (there >= 1.0) continue;
     vec3 v = position_at(tap, view_depth(there)) - here;
-    float vv = dot(v, v), vn = dot(v, normal) - 0.012 * depth * radius / (radius + depth);
+    float vv = dot(v, v), vn = dot(v, normal) - 0.03 * radius;
     float fall = max(radius * radius - vv, 0.0) / (radius * radius);
-    hidden += fall * fall * max(vn, 0.0) * inversesqrt(vv + 1e-4 * radius * radius);
+    hidden += fall * max(vn, 0.0) * inversesqrt(vv + 1e-4 * radius * radius);
   }
-  result = vec2(max(0.0, 1.0 - 1.9 * hidden / float(kTaps)), depth);
+  result = vec2(max(0.0, 1.0 - 4.5 * hidden / float(kTaps)), depth);
 }
 )";
 

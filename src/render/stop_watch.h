@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
+#include <ctime>
 #include <utility>
 
 namespace incise::inline v0 {
 namespace render {
 
-/// Wall time from one lap to the next.
+/// Processor time of this thread from one lap to the next: what others do on the same core does not count.
 class StopWatch {
  public:
   /// Milliseconds since the last lap, or since it was made.
   double lap() {
-    const Clock::time_point now = Clock::now();
-    const std::chrono::duration<double, std::milli> passed = now - std::exchange(last_, now);
-    return passed.count();
+    const double time = now();
+    return time - std::exchange(last_, time);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point last_ = Clock::now();
+  static double now() {
+    timespec time{};
+    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) != 0) return 0;
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  }
+
+  double last_ = now();
 };
 
 }  // namespace render

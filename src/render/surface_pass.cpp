@@ -40,13 +40,6 @@ void attach(unsigned place, unsigned buffer) {
   glEnableVertexAttribArray(place);
 }
 
-std::size_t stream(const GlObject& buffer, const std::vector<Eigen::Vector3f>& values) {
-  const std::size_t size = values.size() * sizeof(Eigen::Vector3f);
-  glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(size), values.data(), GL_STREAM_DRAW);
-  return size;
-}
-
 }  // namespace
 
 Result<SurfacePass> SurfacePass::create() {
@@ -67,14 +60,14 @@ Result<SurfacePass> SurfacePass::create() {
 void SurfacePass::set_up() {
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_looks_);
   palette_ = make_palette();
-  normals_buffer_ = make_buffer();
   positions_ = MirroredBuffer(GL_ARRAY_BUFFER);
+  normals_ = MirroredBuffer(GL_ARRAY_BUFFER);
   triangles_ = MirroredBuffer(GL_ELEMENT_ARRAY_BUFFER);
   looks_ = MirroredBuffer(GL_TEXTURE_BUFFER);
   array_ = make_vertex_array();
   glBindVertexArray(array_.id());
   attach(0, positions_.id());
-  attach(1, normals_buffer_.id());
+  attach(1, normals_.id());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
   glBindBuffer(GL_TEXTURE_BUFFER, looks_.id());
   looks_texture_ = make_texture();
@@ -114,18 +107,20 @@ Status SurfacePass::upload(const app::SurfaceFrame& frame, DrawStatistics& stati
   const app::SurfaceTopology& topology = *frame.topology;
   glBindVertexArray(array_.id());
   std::size_t bytes = positions_.update(frame.positions.data(), frame.positions.size(), sizeof(Eigen::Vector3f));
+  std::size_t look_bytes = 0;
   if (frame.topology != topology_) {
     bytes += triangles_.update(topology.triangles.data(), topology.triangles.size(), sizeof topology.triangles[0]);
-    bytes += looks_.update(topology.looks.data(), topology.looks.size(), sizeof(app::TriangleLook));
+    look_bytes = looks_.update(topology.looks.data(), topology.looks.size(), sizeof(app::TriangleLook));
   }
   topology_ = frame.topology;
   statistics.upload_ms += watch.lap();
   if (bytes > 0) {
-    average_normals(topology.triangles, frame.positions, normals_);
+    average_normals(topology.triangles, frame.positions, sums_);
     statistics.normals_ms += watch.lap();
-    bytes += stream(normals_buffer_, normals_);
+    bytes += normals_.update(sums_.data(), sums_.size(), sizeof(Eigen::Vector3f));
     statistics.upload_ms += watch.lap();
   }
+  bytes += look_bytes;
   statistics.bytes_uploaded += bytes;
   statistics.triangles = topology.used;
   statistics.points = frame.positions.size();

@@ -38,9 +38,9 @@ class SurfacePass {
   void draw() const;
 
   GlObject all_, some_, wire_;  // programs; `some_` leaves triangles out
-  GlObject array_, normals_buffer_, palette_, looks_texture_;
-  MirroredBuffer positions_, triangles_, looks_;
-  std::vector<Eigen::Vector3f> normals_;
+  GlObject array_, palette_, looks_texture_;
+  MirroredBuffer positions_, normals_, triangles_, looks_;
+  std::vector<Eigen::Vector3f> sums_;                     // scratch: of normals at points
   std::shared_ptr<const app::SurfaceTopology> topology_;  // as uploaded
   int most_looks_ = 0;
 };

@@ -10,8 +10,9 @@
 namespace incise::inline v0 {
 namespace render {
 
-/// What one `Renderer::draw` did. Times are those of the calling thread, in ms, and leave out what the graphics
-/// processor does meanwhile; a software renderer does part of that in the calling thread, within `submit_ms`.
+/// What one `Renderer::draw` did. Times are processor time of the calling thread, in ms, and leave out what the
+/// graphics processor does meanwhile; a software renderer does part of its work in the calling thread, within
+/// `submit_ms`.
 struct DrawStatistics {
   std::size_t bytes_uploaded = 0;  ///< into buffers; 0 where the picture is the same but for the camera
   std::size_t triangles = 0;       ///< slots of the surface, free ones left out

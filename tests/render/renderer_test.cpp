@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "incise/render/image.h"
+#include "pictures.h"
+
+using incise::ErrorCode;
+using incise_test::Drawing;
+namespace app = incise::app;
+
+namespace {
+
+constexpr std::size_t kBlock = 4096;
+constexpr std::size_t kPointBlock = kBlock * sizeof(Eigen::Vector3f);
+
+void expect_drawn(Drawing& drawing, const app::Picture& picture) {
+  const auto status = drawing.draw(picture);
+  ASSERT_TRUE(status.ok()) << status.error().message;
+  EXPECT_EQ(drawing.complaints(), "");
+}
+
+void expect_refused(Drawing& drawing, const app::Picture& picture) {
+  const auto status = drawing.draw(picture);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().code, ErrorCode::kBadArgument);
+  EXPECT_EQ(drawing.complaints(), "");
+}
+
+app::Picture with_marks() {
+  app::Picture picture = incise_test::sheet(8);
+  picture.marks.lines.push_back({{0, 0, 0.3F}, {1, 1, 0.3F}, app::Ink::kBlade, 3, true, true});
+  picture.marks.balls.push_back({{0.5F, 0.5F, 0.2F}, app::Ink::kHook, 0.1F, false});
+  picture.marks.triangles.push_back({{{{0, 0, 0.2F}, {1, 0, 0.2F}, {0, 1, 0.4F}}}, app::Ink::kIncision, 0.5F});
+  return picture;
+}
+
+}  // namespace
+
+TEST(Renderer, same_picture_uploads_nothing) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = with_marks();
+  expect_drawn(drawing, picture);
+  EXPECT_GT(drawing.statistics().bytes_uploaded, 0U);
+  EXPECT_EQ(drawing.statistics().triangles, 128U);
+  EXPECT_EQ(drawing.statistics().points, 81U);
+  EXPECT_EQ(drawing.statistics().marks, 3U);
+  expect_drawn(drawing, picture);
+  EXPECT_EQ(drawing.statistics().bytes_uploaded, 0U);
+  picture.surface.topology = incise_test::copy_of(picture.surface);
+  picture.camera.azimuth += 0.1;
+  expect_drawn(drawing, picture);
+  EXPECT_EQ(drawing.statistics().bytes_uploaded, 0U) << "an equal topology, seen from elsewhere";
+}
+
+TEST(Renderer, small_changes_upload_their_blocks) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = incise_test::sheet(200);
+  expect_drawn(drawing, picture);
+  auto topology = incise_test::copy_of(picture.surface);
+  topology->looks[70000].flags = app::TriangleLook::kWall;
+  picture.surface.topology = topology;
+  expect_drawn(drawing, picture);
+  EXPECT_EQ(drawing.statistics().bytes_uploaded, kBlock * sizeof(app::TriangleLook));
+  picture.surface.positions[10000].z() += 0.1F;
+  expect_drawn(drawing, picture);
+  EXPECT_EQ(drawing.statistics().bytes_uploaded, 2 * kPointBlock) << "positions, and normals of the same block";
+}
+
+TEST(Renderer, shrinks_and_grows) {
+  std::vector<incise::render::Image> expected;
+  for (const std::uint32_t n : {60U, 3U, 90U}) {
+    Drawing fresh;
+    INCISE_SKIP_WITHOUT(fresh);
+    expect_drawn(fresh, incise_test::sheet(n));
+    expected.push_back(fresh.read());
+  }
+  Drawing drawing;
+  for (const std::size_t i : {0U, 1U, 2U, 1U, 0U}) {
+    constexpr std::array<std::uint32_t, 3> kSizes = {60, 3, 90};
+    expect_drawn(drawing, incise_test::sheet(kSizes[i]));
+    EXPECT_EQ(compare(expected[i], drawing.read()).greatest, 0) << kSizes[i];
+  }
+}
+
+TEST(Renderer, empty_picture_is_background) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture;
+  expect_drawn(drawing, picture);
+  const auto dark = drawing.read();
+  picture.surface.topology = std::make_shared<app::SurfaceTopology>();
+  expect_drawn(drawing, picture);
+  EXPECT_EQ(compare(dark, drawing.read()).greatest, 0);
+  EXPECT_EQ(dark.at(0, 100), dark.at(319, 100));
+  EXPECT_EQ(drawing.statistics().triangles, 0U);
+}
+
+TEST(Renderer, picture_without_topology_forgets_what_was_there) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture nothing;
+  expect_drawn(drawing, nothing);
+  const auto before = drawing.read();
+  expect_drawn(drawing, incise_test::sheet(4));
+  EXPECT_GT(compare(before, drawing.read()).differing, 0.1);
+  expect_drawn(drawing, nothing);
+  EXPECT_EQ(compare(before, drawing.read()).greatest, 0);
+}
+
+TEST(Renderer, absurd_cameras_are_refused) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kMost = std::numeric_limits<double>::infinity();
+  const app::Picture sane = incise_test::sheet(4);
+  const auto refused = [&](auto change) {
+    app::Picture picture = sane;
+    change(picture.camera);
+    expect_refused(drawing, picture);
+  };
+  refused([&](app::Camera& c) { c.distance = 0; });
+  refused([&](app::Camera& c) { c.distance = kMost; });
+  refused([&](app::Camera& c) { c.distance = 1e300; });
+  refused([&](app::Camera& c) { c.azimuth = kNan; });
+  refused([&](app::Camera& c) { c.target.x() = kNan; });
+  refused([&](app::Camera& c) { c.target.x() = 1e300; });
+  refused([&](app::Camera& c) { c.up.setZero(); });
+  refused([&](app::Camera& c) { c.field_of_view = 4; });
+  expect_drawn(drawing, sane);
+}
+
+TEST(Renderer, surfaces_that_contradict_themselves_are_refused) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = incise_test::sheet(4);
+  picture.surface.positions.pop_back();
+  expect_refused(drawing, picture);
+  picture = incise_test::sheet(4);
+  auto topology = incise_test::copy_of(picture.surface);
+  topology->triangles[3][1] = 1000;
+  picture.surface.topology = topology;
+  expect_refused(drawing, picture);
+  picture = incise_test::sheet(4);
+  picture.surface.positions[2].y() = std::numeric_limits<float>::infinity();
+  expect_refused(drawing, picture);
+  picture = incise_test::sheet(4);
+  picture.options.skin_opacity = 0;
+  expect_refused(drawing, picture);
+}
+
+TEST(Renderer, sizes_out_of_range_are_refused) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  const app::Picture picture = incise_test::sheet(4);
+  for (const app::Viewport viewport : {app::Viewport{0, 240}, {320, 0}, {-1, -1}, {1 << 20, 10}}) {
+    const auto status = drawing.renderer().draw(picture, viewport, drawing.target().framebuffer());
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().code, ErrorCode::kBadArgument);
+    EXPECT_FALSE(incise::render::OffscreenTarget::create(viewport).ok());
+  }
+  EXPECT_EQ(drawing.complaints(), "");
+}
+
+TEST(Renderer, sizes_of_one_pixel_and_odd_ones_are_drawn) {
+  for (const app::Viewport viewport : {app::Viewport{1, 1}, {3, 5}, {321, 7}}) {
+    Drawing drawing(viewport);
+    INCISE_SKIP_WITHOUT(drawing);
+    expect_drawn(drawing, with_marks());
+  }
+}
+
+TEST(Renderer, every_option_draws_without_complaint) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = with_marks();
+  for (unsigned bits = 0; bits < 64; ++bits) {
+    picture.options.theme = (bits & 1U) != 0 ? app::Theme::kLight : app::Theme::kDark;
+    picture.options.shows_wireframe = (bits & 2U) != 0;
+    picture.options.shows_surface = (bits & 4U) == 0;
+    picture.options.skin_opacity = (bits & 8U) != 0 ? 0.4 : 1;
+    picture.options.shows_occlusion = (bits & 16U) != 0;
+    picture.options.color = (bits & 32U) != 0 ? app::ColorBy::kQuality : app::ColorBy::kTissue;
+    expect_drawn(drawing, picture);
+    EXPECT_FALSE(is_blank(drawing.read()));
+  }
+}
+
+TEST(Renderer, without_samples_the_picture_is_about_the_same) {
+  Drawing smooth;
+  INCISE_SKIP_WITHOUT(smooth);
+  const app::Picture picture = incise_test::sheet(8);
+  expect_drawn(smooth, picture);
+  const auto expected = smooth.read();
+  Drawing rough(incise_test::kSmall, 0);
+  expect_drawn(rough, picture);
+  EXPECT_EQ(rough.renderer().samples(), 0U);
+  EXPECT_LT(compare(expected, rough.read(), 24).differing, 0.03);
+}
+
+TEST(Renderer, marks_that_are_no_numbers_do_no_harm) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  app::Picture picture = incise_test::sheet(4);
+  picture.marks.lines.push_back({{kNan, 0, 0}, {1, 1, 0}, app::Ink::kBlade, kNan, true, true});
+  picture.marks.balls.push_back({{0, kNan, 0}, app::Ink::kPin, kNan, false});
+  picture.marks.triangles.push_back({{{{kNan, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, app::Ink::kTool, 0.5F});
+  picture.marks.balls.push_back({{0, 0, 0}, static_cast<app::Ink>(200), 4, true});
+  expect_drawn(drawing, picture);
+}
