@@ -35,6 +35,7 @@ constexpr std::array<InkRow, kStyles> kRows = {{
     {0xFF7A1F, 0xD55E00, LinePattern::kDashDot, BallGlyph::kDonut, FillPattern::kCrossed},        // worst
     {0xA9B4C0, 0x7A858F, LinePattern::kHollow, BallGlyph::kDisc, FillPattern::kPlain},            // tool
     {0xFFF3D6, 0xFFF3D6, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // front
+    {0x5A1210, 0x5A1210, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // contour
 }};
 
 float lightness(const Rgb& c) {
@@ -51,6 +52,10 @@ std::array<InkStyle, kStyles> ink_styles(app::Theme theme) {
     const Rgb color = rgb(is_dark ? row.dark : row.light);
     // Light around dark inks and dark around light ones; in between, like the ground.
     const bool has_dark_casing = lightness(color) > (is_dark ? 0.3F : 0.6F);
+    if (i == kContourStyle) {  // no casing: it is as if drawn on the skin
+      styles[i] = {color, color, row.line, row.ball, row.fill};
+      continue;
+    }
     styles[i] = {color, has_dark_casing ? rgb(0x101317) : rgb(0xFFFFFF), row.line, row.ball, row.fill};
   }
   return styles;

@@ -24,8 +24,9 @@ struct InkStyle {
 };
 
 inline constexpr std::size_t kInks = static_cast<std::size_t>(app::Ink::kTool) + 1;
-inline constexpr std::size_t kFrontStyle = kInks;  ///< front edges come after the inks
-inline constexpr std::size_t kStyles = kInks + 1;
+inline constexpr std::size_t kFrontStyle = kInks;        ///< front edges come after the inks
+inline constexpr std::size_t kContourStyle = kInks + 1;  ///< and then the rims of wounds
+inline constexpr std::size_t kStyles = kInks + 2;
 
 /// Indexed by ink. **Source** of the colours: Okabe and Ito, Color Universal Design (2008), and greys.
 [[nodiscard]] std::array<InkStyle, kStyles> ink_styles(app::Theme theme);

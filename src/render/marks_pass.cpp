@@ -14,8 +14,8 @@ namespace incise::inline v0 {
 namespace render {
 namespace {
 
-constexpr float kFrontWidth = 1.6F;  // pixels
-constexpr float kMostPixels = 1024;  // of widths and radii
+constexpr float kFrontWidth = 1.6F, kContourWidth = 0.6F;  // pixels
+constexpr float kMostPixels = 1024;                        // of widths and radii
 
 /// How an array of instances (`divisor` 1) or vertices (0) is laid out.
 class Layout {
@@ -116,6 +116,12 @@ void MarksPass::gather_lines(const app::Picture& picture) {
     for (const auto& [from, to] : surface.topology->front_edges) {
       if (from >= surface.positions.size() || to >= surface.positions.size()) continue;
       lines_.push_back({surface.positions[from], surface.positions[to], kFrontWidth, kFrontStyle, 0, 0});
+    }
+  }
+  if (surface.topology && picture.options.shows_surface) {
+    for (const auto& [from, to] : surface.topology->contour_edges) {
+      if (from >= surface.positions.size() || to >= surface.positions.size()) continue;
+      lines_.push_back({surface.positions[from], surface.positions[to], kContourWidth, kContourStyle, 0, 0});
     }
   }
   for (const app::Marks::Line& line : picture.marks.lines) {
