@@ -434,7 +434,7 @@ void draw_help(app::ViewerState& state) {
   if (!state.shows_help) return;
   const ImVec2 screen = ImGui::GetMainViewport()->Size;
   ImGui::SetNextWindowPos({0.5F * screen.x, 0.5F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(66 * em(), 0.97F * screen.x), std::min(39 * em(), 0.96F * screen.y)});
+  ImGui::SetNextWindowSize({std::min(66 * em(), 0.97F * screen.x), std::min(46 * em(), 0.98F * screen.y)});
   ImGui::SetNextWindowFocus();  // over the other panels
   ImGui::SetNextWindowBgAlpha(1);
   if (ImGui::Begin("Keys", &state.shows_help, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {

@@ -121,7 +121,7 @@ void MarksPass::gather_lines(const app::Picture& picture) {
   if (surface.topology && picture.options.shows_surface) {
     for (const auto& [from, to] : surface.topology->contour_edges) {
       if (from >= surface.positions.size() || to >= surface.positions.size()) continue;
-      lines_.push_back({surface.positions[from], surface.positions[to], kContourWidth, kContourStyle, 0, 0});
+      lines_.push_back({surface.positions[from], surface.positions[to], kContourWidth, kContourStyle, 2, 0});
     }
   }
   for (const app::Marks::Line& line : picture.marks.lines) {

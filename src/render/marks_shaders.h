@@ -19,16 +19,17 @@ inline constexpr const char* kLineVertex = R"(
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
 layout(location = 2) in float width;
-layout(location = 3) in uvec3 traits;  // style, on top, dashed
+layout(location = 3) in uvec3 traits;  // style, depth (1: on top, 2: well before a surface), dashed
 uniform bool is_behind;
 noperspective out vec2 place;  // pixels along the line from its start, and across
 flat out vec2 sizes;           // length and half width in pixels
 flat out uvec2 look;           // style, dashed
 const float kNearer = 8e-4;    // lines on a surface come before it
+const float kMuchNearer = 6e-3;  // rims of wounds: lips may overlap
 
 void main() {
   gl_Position = vec4(2, 2, 2, 1);  // seen by nobody
-  if (is_behind && traits.y == 0u) return;
+  if (is_behind && traits.y != 1u) return;
   vec4 a = to_clip * (to_view * vec4(from, 1)), b = to_clip * (to_view * vec4(to, 1));
   float da = a.z + a.w, db = b.z + b.w;  // below 0: nearer than the near plane
   if (da < 0.0 && db < 0.0) return;
@@ -44,7 +45,7 @@ void main() {
   place = vec2(end * size + (2.0 * end - 1.0) * reach, side * reach);
   sizes = vec2(size, 0.5 * width);
   look = traits.xz;
-  gl_Position = vec4(p / (0.5 * pixels) * at.w, at.z - (is_behind ? 0.0 : kNearer) * at.w, at.w);
+  gl_Position = vec4(p / (0.5 * pixels) * at.w, at.z - (is_behind ? 0.0 : traits.y == 2u ? kMuchNearer : kNearer) * at.w, at.w);
 }
 )";
 

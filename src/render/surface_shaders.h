@@ -61,7 +61,7 @@ vec3 facing_normal(bool is_flat, vec3 to_eye) {
   flat_normal *= dot(flat_normal, to_eye) < 0.0 ? -1.0 : 1.0;
   vec3 n = has_none ? flat_normal : normalize(view_normal) * (gl_FrontFacing ? 1.0 : -1.0);
   // Where the averaged normal leans far from the triangle's own there is an edge, and it shall look like one.
-  n = mix(flat_normal, n, smoothstep(0.65, 0.92, dot(n, flat_normal)));
+  n = mix(flat_normal, n, smoothstep(0.72, 0.95, dot(n, flat_normal)));
   // Normals averaged on coarse meshes lean away from the eye at outlines; no light would then fit.
   return normalize(n + max(0.0, 0.05 - dot(n, to_eye)) * to_eye);
 }
