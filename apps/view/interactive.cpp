@@ -28,7 +28,7 @@ using namespace incise;
 constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
 constexpr int kSettlingFrames = 3;         // panels find their sizes within so many after something happened
 constexpr unsigned kSamples = 4;
-const app::Vec2 kFreeShare(0.56, 1);       // of the picture, between the panels
+const app::Vec2 kFreeShare(0.56, 1);  // of the picture, between the panels
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

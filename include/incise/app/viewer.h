@@ -23,9 +23,10 @@ enum class Panels : std::uint8_t { kAll, kFigures, kNone };
 struct ViewerOptions {
   std::filesystem::path folder = ".";  ///< of screenshots, recordings and meshes that are written
   ViewOptions view;
-  bool keeps_view = false;  ///< `view` stands, whatever a scene says
+  bool keeps_view = false;     ///< `view` stands, whatever a scene says
   bool shades_hollows = true;  ///< at first; it costs a renderer without a graphics processor much
-  Vec2 free_share = Vec2::Ones();  ///< of the picture, around its middle, that panels leave free: bodies are framed there
+  Vec2 free_share =
+      Vec2::Ones();  ///< of the picture, around its middle, that panels leave free: bodies are framed there
 };
 
 /// What the person sees beside the body; a front end draws it and may change it.
