@@ -58,7 +58,7 @@ void Photographer::aim(const app::Session& session) {
     return;
   }
   app::look_along(picture_.camera, -*arguments_.from);
-  app::frame_all(picture_.camera, arguments_.size, body);
+  app::frame_points(picture_.camera, arguments_.size, picture_.surface.positions);
   app::zoom(picture_.camera, 1 / arguments_.zoom, body);
 }
 
