@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether drawing slows the simulation: steps per second of a body that moves, alone and while its pictures are drawn.
 // usage: bench_window_rate [--quick] [--out FOLDER]
-#include <cstdio>
-#include <cstring>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
