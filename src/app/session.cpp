@@ -96,6 +96,7 @@ void Session::State::choose_blade(const HandState& hands, FrameInput& input) {
   const bool changes_hands =
       source != blade_source && source != BladeSource::kNone && blade_source != BladeSource::kNone;
   if (changes_hands) {
+    if (source == BladeSource::kFollowed) --followed_frame;  // it begins a frame later
     input.blade.reset();
     source = BladeSource::kNone;
   }

@@ -265,6 +265,22 @@ TEST_F(SessionFiles, between_the_scripts_blade_and_the_hands_is_a_frame_without)
   EXPECT_EQ(blades[10], 0.7);
 }
 
+TEST_F(SessionFiles, a_stroke_that_is_followed_after_the_scripts_loses_nothing) {
+  std::vector<std::ptrdiff_t> frames;
+  for (const int before : {2, 8}) {  // the script's blade is not there yet, or is
+    SessionOptions options;
+    options.record = folder_ / "log.jsonl";
+    Session session = opened(cut_scene(), options);
+    play(session, before);
+    session.follow(stroke_at(0.7));
+    play(session, 20);
+    const auto blades = blades_of(folder_ / "log.jsonl");
+    frames.push_back(std::count(blades.begin(), blades.end(), std::optional<double>(0.7)));
+  }
+  EXPECT_GT(frames[0], 4);
+  EXPECT_EQ(frames[0], frames[1]);
+}
+
 TEST_F(SessionFiles, between_a_recordings_blade_and_the_hands_is_a_frame_without) {
   Session session = open_file(write_simulation_recording(folder_));
   ASSERT_TRUE(session.seek(10).ok());  // within the stroke
