@@ -70,6 +70,7 @@ Scene scene_of_mesh(const fs::path& mesh, const Box& body, const Vec3& up) {
   scene.options.engine.maintain.work_units = kUnits;
   const double low = std::min(body.lo.dot(up), body.hi.dot(up)), height = std::abs(size.dot(up));
   scene.attachments.push_back({HalfSpace{up, low + kHeldShare * height}});
+  scene.tools.push_back({"table", {}, {PlaneTool{up, low}}});
   scene.settle.frames = 120;
   scene.frames = kMaxSceneFrames;
   return scene;

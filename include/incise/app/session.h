@@ -21,8 +21,8 @@
 namespace incise::inline v0 {
 namespace app {
 
-/// The scene of a mesh without one: soft tissue (20 kPa, 1000 kg/m³) whose longest side is 10 cm, standing on its
-/// lowest tenth under gravity along −`up`.
+/// The scene of a mesh without one: soft tissue (20 kPa, 1000 kg/m³) whose longest side is 10 cm, held by its
+/// lowest tenth on a table under gravity along −`up`.
 ///
 /// @param body  the mesh's bounds, in its own unit. @param up  unit.
 [[nodiscard]] Scene scene_of_mesh(const std::filesystem::path& mesh, const Box& body, const Vec3& up);
