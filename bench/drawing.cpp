@@ -2,10 +2,13 @@
 // What a picture costs the thread that draws it, and what the rasteriser takes, told apart.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>

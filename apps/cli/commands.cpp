@@ -17,6 +17,7 @@
 #include "incise/app/replay_job.h"
 #include "incise/app/text_file.h"
 #include "incise/mesh/bounds.h"
+#include "picture.h"
 
 namespace incise_cli {
 namespace {
@@ -49,8 +50,16 @@ std::optional<Plane> parse_plane(const std::string& text) {
 
 /// Whether the recording would take the place of something else that the command reads or writes.
 bool takes_a_place(const CutArguments& a) {
-  for (const std::string& other : {a.mesh, a.blade, a.output, a.report}) {
+  for (const std::string& other : {a.mesh, a.blade, a.output, a.report, a.picture}) {
     if (!a.record.empty() && !other.empty() && is_same_file(a.record, other)) return true;
+  }
+  return false;
+}
+
+/// Likewise for the picture.
+bool draws_over(const CutArguments& a) {
+  for (const std::string& other : {a.mesh, a.blade, a.output, a.report}) {
+    if (!a.picture.empty() && !other.empty() && is_same_file(a.picture, other)) return true;
   }
   return false;
 }
@@ -63,6 +72,10 @@ std::string usage_problem(const CutArguments& a) {
   }
   if (!std::isfinite(a.snap) || a.snap < 0 || a.snap > 0.4) return "--snap must lie between 0 and 0.4";
   if (takes_a_place(a)) return "--record " + a.record + " is another file of this command; give it a name of its own";
+  if (draws_over(a)) return "--picture " + a.picture + " is another file of this command; give it a name of its own";
+  if (!a.picture.empty() && fs::path(a.picture).extension() != ".png") {
+    return "--picture " + a.picture + ": unknown extension; pictures are .png";
+  }
   return {};
 }
 
@@ -175,8 +188,12 @@ int run_check(const InfoArguments& arguments, const Terminal& terminal) {
 
 int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
-  if (const auto code = refuse_outputs(arguments.output, {arguments.report, arguments.record}, terminal)) {
+  if (const auto code =
+          refuse_outputs(arguments.output, {arguments.report, arguments.record, arguments.picture}, terminal)) {
     return *code;
+  }
+  if (!arguments.picture.empty()) {  // before anything is written
+    if (const Status status = check_drawing(); !status.ok()) return fail(terminal, status.error(), kNoDisplay);
   }
   note_idle_flags(arguments, terminal);
   Result<app::LoadedMesh> loaded = app::load_mesh(arguments.mesh);
@@ -184,8 +201,11 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   print_notes(loaded->source.notes, arguments.mesh, terminal);
   Result<std::vector<Stroke>> strokes = strokes_of(arguments, loaded->mesh);
   if (!strokes.ok()) return fail(terminal, strokes.error(), kBadInput);
-  const app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal);
+  app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal);
+  Status drawn;
+  if (!arguments.picture.empty()) job.look = [&](const Engine& end) { drawn = draw_cut(end, arguments.picture); };
   const Result<app::JobResult> result = app::run_cut(std::move(loaded).value(), job, !arguments.output.empty());
+  if (!drawn.ok()) return fail(terminal, drawn.error(), kFailure);
   if (result.ok()) return finish_job(arguments.output, arguments.report, "cut", *result, terminal);
   return fail(terminal, result.error(), result.error().code == ErrorCode::kBadArgument ? kBadInput : kFailure);
 }

@@ -15,7 +15,7 @@ struct InfoArguments {
 };
 
 struct CutArguments {
-  std::string mesh, blade, plane, output, report, record;
+  std::string mesh, blade, plane, output, report, record, picture;
   std::string profile = "incise";
   double snap = 0.2;
   bool has_snap = false;

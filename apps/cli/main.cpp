@@ -22,7 +22,6 @@ struct Arguments {
   SimulateArguments simulate;
   ReplayArguments replay;
   ConvertArguments convert;
-  std::string unbuilt_picture;
 };
 
 constexpr const char* kExitCodes =
@@ -63,7 +62,8 @@ void add_cut(CLI::App& root, Arguments& a) {
                               "  incise cut bunny.node --plane=-1,0,2,0.3 --profile paper --report -\n"
                               "  incise cut cube.mesh --plane 1,0,0,0.5 --no-merge --no-improve -o raw.vtu\n"
                               "  incise cut bunny.node --blade scenes/bunny_stroke.json --budget-us 2000 -o cut.vtu\n"
-                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --record cut.jsonl");
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --record cut.jsonl\n"
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --picture cut.png");
   cut->add_option("MESH", a.cut.mesh, "Mesh file; the format is found from its content")->required();
   cut->add_option("--blade", a.cut.blade, "Blade file: JSON of format incise-blade");
   cut->add_option("--plane", a.cut.plane, "nx,ny,nz,d: cut through everything along n.x = d, n of any length");
@@ -80,7 +80,7 @@ void add_cut(CLI::App& root, Arguments& a) {
   cut->add_option("--threads", a.cut.threads, "Worker threads, 1 to 256; the result does not depend on it")
       ->check(CLI::Range(1, 256));
   cut->add_option("--record", a.cut.record, "Record every step as JSON lines, for incise replay");
-  cut->add_option("--picture", a.unbuilt_picture, "Draw the result (not built yet)");
+  cut->add_option("--picture", a.cut.picture, "Draw the result to this PNG; needs OpenGL, and no display");
   add_budget(
       *cut, a.cut.budget_us,
       "Microseconds for maintenance per stroke, 1 to 3600000000; what is left over may be spent later, what is not "
@@ -148,16 +148,7 @@ void add_convert(CLI::App& root, Arguments& a) {
   convert->add_option("OUT", a.convert.out, "File to write; the extension names the format")->required();
 }
 
-/// The first thing that was asked for but is not built, or nothing.
-std::string find_unbuilt(const CLI::App& root) {
-  return root.get_subcommand("cut")->count("--picture") > 0 ? "--picture" : "";
-}
-
 int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
-  if (const std::string unbuilt = find_unbuilt(root); !unbuilt.empty()) {
-    terminal.error(unbuilt + " is not built yet in version " INCISE_VERSION);
-    return kUsage;
-  }
   if (root.got_subcommand("info")) return run_info(a.info, terminal);
   if (root.got_subcommand("check")) return run_check(a.check, terminal);
   if (root.got_subcommand("improve")) return run_improve(a.improve, terminal);

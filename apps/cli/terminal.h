@@ -17,6 +17,7 @@ enum ExitCode : int {
   kUsage = 2,
   kBadInput = 3,
   kCheckFailed = 4,
+  kNoDisplay = 5,
   kInterrupted = 130,
 };
 

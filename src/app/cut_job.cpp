@@ -91,6 +91,7 @@ Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh)
   if (!engine.ok()) return engine.error();
   if (const Status status = cut_all(*engine, job, report); !status.ok()) return status.error();
   detail::finish(engine->engine(), loaded, wants_mesh, result);
+  if (job.look) job.look(engine->engine());
   return result;
 }
 

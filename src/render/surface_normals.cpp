@@ -4,18 +4,24 @@
 namespace incise::inline v0 {
 namespace render {
 
-void average_normals(std::span<const std::array<std::uint32_t, 3>> triangles,
-                     std::span<const Eigen::Vector3f> positions, std::vector<Eigen::Vector3f>& normals) {
-  normals.assign(positions.size(), Eigen::Vector3f::Zero());
-  const Eigen::Vector3f* at = positions.data();
-  Eigen::Vector3f* sum = normals.data();
+const std::vector<Eigen::Vector3f>& SurfaceNormals::average(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                            std::span<const Eigen::Vector3f> positions) {
+  const std::size_t count = positions.size();
+  points_.resize(count);
+  normals_.resize(count);
+  sums_.assign(count, Four{});
+  for (std::size_t i = 0; i < count; ++i) points_[i] = Four{positions[i].x(), positions[i].y(), positions[i].z(), 0};
+  const Four* at = points_.data();
+  Four* sum = sums_.data();
   // A shader brings them to unit length, at no cost here. Free slots add zero.
   for (const auto& [a, b, c] : triangles) {
-    const Eigen::Vector3f area = (at[b] - at[a]).cross(at[c] - at[a]);
+    const Four area = cross(at[b] - at[a], at[c] - at[a]);
     sum[a] += area;
     sum[b] += area;
     sum[c] += area;
   }
+  for (std::size_t i = 0; i < count; ++i) normals_[i] = {sum[i][0], sum[i][1], sum[i][2]};
+  return normals_;
 }
 
 }  // namespace render

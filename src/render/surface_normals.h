@@ -11,10 +11,25 @@
 namespace incise::inline v0 {
 namespace render {
 
-/// Sums at each point twice the areas of its triangles along their normals; of no set length, zero where there is no
-/// triangle. Corners of triangles must be below `positions.size()`. Cost: about 4 ns per triangle.
-void average_normals(std::span<const std::array<std::uint32_t, 3>> triangles,
-                     std::span<const Eigen::Vector3f> positions, std::vector<Eigen::Vector3f>& normals);
+/// Averages the normals of triangles at their points, and keeps its memory from one time to the next.
+class SurfaceNormals {
+ public:
+  /// Per point twice the areas of its triangles along their normals, summed; of no set length, zero where there is no
+  /// triangle. Corners of triangles must be below `positions.size()`. Valid until the next call.
+  /// Cost: about 4 ns per triangle.
+  const std::vector<Eigen::Vector3f>& average(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                              std::span<const Eigen::Vector3f> positions);
+
+ private:
+  // Four floats that the compilers keep in one register; the fourth is ballast.
+  using Four = float __attribute__((vector_size(16)));
+
+  static Four turned(Four v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
+  static Four cross(Four a, Four b) { return turned(a * turned(b) - turned(a) * b); }
+
+  std::vector<Four> points_, sums_;
+  std::vector<Eigen::Vector3f> normals_;
+};
 
 }  // namespace render
 }  // namespace incise::inline v0

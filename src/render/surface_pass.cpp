@@ -10,7 +10,6 @@
 #include "incise/app/color_map.h"
 #include "ink_style.h"
 #include "stop_watch.h"
-#include "surface_normals.h"
 #include "surface_shaders.h"
 
 namespace incise::inline v0 {
@@ -115,9 +114,9 @@ Status SurfacePass::upload(const app::SurfaceFrame& frame, DrawStatistics& stati
   topology_ = frame.topology;
   statistics.upload_ms += watch.lap();
   if (bytes > 0) {
-    average_normals(topology.triangles, frame.positions, sums_);
+    const std::vector<Eigen::Vector3f>& normals = averages_.average(topology.triangles, frame.positions);
     statistics.normals_ms += watch.lap();
-    bytes += normals_.update(sums_.data(), sums_.size(), sizeof(Eigen::Vector3f));
+    bytes += normals_.update(normals.data(), normals.size(), sizeof(Eigen::Vector3f));
     statistics.upload_ms += watch.lap();
   }
   bytes += look_bytes;

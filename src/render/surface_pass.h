@@ -8,6 +8,7 @@
 #include "incise/core/result.h"
 #include "incise/render/renderer.h"
 #include "mirrored_buffer.h"
+#include "surface_normals.h"
 #include "view_matrices.h"
 
 namespace incise::inline v0 {
@@ -40,7 +41,7 @@ class SurfacePass {
   GlObject all_, some_, wire_;  // programs; `some_` leaves triangles out
   GlObject array_, palette_, looks_texture_;
   MirroredBuffer positions_, normals_, triangles_, looks_;
-  std::vector<Eigen::Vector3f> sums_;                     // scratch: of normals at points
+  SurfaceNormals averages_;
   std::shared_ptr<const app::SurfaceTopology> topology_;  // as uploaded
   int most_looks_ = 0;
 };

@@ -55,8 +55,10 @@ TEST_F(CliErrors, usage) {
   EXPECT_EQ(run({"convert", cube_}).code, 2);
 }
 
-TEST_F(CliErrors, what_is_not_built_says_so) {
-  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--picture=p.png"}, 2, "not built yet");
+TEST_F(CliErrors, pictures_have_names_of_their_own) {
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--picture=p.jpg"}, 2, "pictures are .png");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--report=p.png", "--picture=p.png"}, 2, "name of its own");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--picture=no/folder/p.png"}, 1, "folder does not exist");
 }
 
 TEST_F(CliErrors, improve_has_no_flags_of_cutting) {

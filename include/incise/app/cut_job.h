@@ -29,6 +29,8 @@ struct CutJob {
   std::uint64_t budget_us = 0;
   ReportOptions options;         ///< repeated in the report; what `engine` and `budget_us` say is taken from them
   std::filesystem::path record;  ///< where the session is recorded, see `RecordedEngine`; empty: nowhere
+  /// Called once with the mesh at the end, after its maintenance. May be empty.
+  std::function<void(const Engine& engine)> look;
   /// Called before each stroke and after the last: strokes done, strokes in all. May be empty.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };

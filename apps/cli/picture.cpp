@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture.h"
+
+#include "incise/app/cut_picture.h"
+#include "incise/render/headless_context.h"
+#include "incise/render/image.h"
+#include "incise/render/render_picture.h"
+
+namespace incise_cli {
+
+using namespace incise;
+
+Status check_drawing() {
+  const Result<render::HeadlessContext> context = render::HeadlessContext::create();
+  return context.ok() ? Status() : Status(context.error());
+}
+
+Status draw_cut(const Engine& engine, const std::filesystem::path& file) {
+  const app::Viewport viewport;
+  const app::Picture picture = app::picture_of_cut(engine.mesh(), engine.journal(), viewport);
+  const Result<render::Image> image = render::render_picture(picture, viewport);
+  return image.ok() ? write_png(*image, file) : Status(image.error());
+}
+
+}  // namespace incise_cli

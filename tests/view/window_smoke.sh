@@ -1,0 +1,142 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Drives the window as a person would, under Xvfb: load, cut, undo, redo, grasp, record, replay, quit. What the window
+# did is read off its recording and its pictures. usage: window_smoke.sh BIN-FOLDER WORK-FOLDER
+set -euo pipefail
+bin=$(cd -- "$1" && pwd)
+rm -rf -- "$2"
+mkdir -p -- "$2"
+cd -- "$2"
+
+fail() {
+  printf 'window_smoke: %s\n' "$*" >&2
+  [ ! -s said.txt ] || sed 's/^/the window said: /' said.txt >&2
+  exit 1
+}
+skip() {
+  printf 'window_smoke: skipped: %s\n' "$*"
+  exit 77
+}
+command -v Xvfb >/dev/null || skip "there is no Xvfb (package xvfb)"
+command -v xdotool >/dev/null || skip "there is no xdotool"
+
+window=
+server=
+end() {
+  [ -z "$window" ] || kill "$window" 2>/dev/null || true
+  [ -z "$server" ] || kill "$server" 2>/dev/null || true
+}
+trap end EXIT
+
+start_server() { # its number comes from Xvfb, which takes the first that is free
+  Xvfb -displayfd 3 -screen 0 1280x800x24 +extension GLX -nolisten tcp 3>display.txt >/dev/null 2>&1 &
+  server=$!
+  wait_for "Xvfb" test -s display.txt
+  DISPLAY=:$(cat display.txt)
+  export DISPLAY
+}
+wait_for() { # wait_for WHAT COMMAND...: until the command succeeds; a minute at most
+  local what=$1 i
+  shift
+  for ((i = 0; i < 600; ++i)); do
+    if "$@" >/dev/null 2>&1; then return 0; fi
+    [ -z "$window" ] || kill -0 "$window" 2>/dev/null || fail "it ended while waiting for $what"
+    sleep 0.1
+  done
+  fail "waited in vain for $what"
+}
+
+open_window() { # open_window ARGUMENT...
+  "$bin/incise-view" "$@" >told.txt 2>said.txt &
+  window=$!
+  wait_for "the window" xdotool search --onlyvisible --pid "$window"
+  # Its first picture tells that it takes keys.
+  wait_for "a first picture" take_picture first
+}
+take_picture() { # take_picture NAME: by the key for it, as NAME.png
+  local before after
+  before=$(find . -maxdepth 1 -name 'incise-[0-9]*.png' | wc -l)
+  xdotool key s
+  for _ in 1 2 3 4 5 6 7 8 9 10; do
+    sleep 0.2
+    after=$(find . -maxdepth 1 -name 'incise-[0-9]*.png' -size +0 | wc -l)
+    [ "$after" -gt "$before" ] && break
+  done
+  [ "$after" -gt "$before" ] || return 1
+  mv -- "$(find . -maxdepth 1 -name 'incise-[0-9]*.png' | sort | tail -n 1)" "$1.png"
+}
+drag() { # drag X0 Y0 X1 Y1: with the left button, in 25 moves
+  local i
+  xdotool mousemove "$1" "$2" mousedown 1
+  for ((i = 1; i <= 25; ++i)); do
+    xdotool mousemove $(($1 + ($3 - $1) * i / 25)) $(($2 + ($4 - $2) * i / 25))
+    sleep 0.03
+  done
+  xdotool mouseup 1
+}
+quit_window() {
+  local status=0
+  xdotool key ctrl+q
+  wait "$window" || status=$?
+  window=
+  [ "$status" = 0 ] || fail "it ended with $status"
+  [ ! -s said.txt ] || fail "it complained"
+}
+has() { grep -q -- "$1" session.jsonl; }
+lifted() { has '"blade"' && ! tail -n 1 session.jsonl | grep -q '"blade"'; }
+picked() { "$bin/incise_picture_check" "$@" || fail "pictures $*"; }
+
+start_server
+
+# A cube that is loaded, cut, mended, cut again, pulled at; all of it recorded.
+open_window --record session.jsonl
+take_picture uncut || fail "no picture of the cube"
+picked uncut.png
+drag 560 340 760 400
+wait_for "the end of a stroke" lifted
+take_picture cut || fail "no picture of the cut"
+picked uncut.png cut.png
+xdotool key ctrl+z
+wait_for "undo" has '"undo"'
+xdotool key ctrl+shift+z
+wait_for "redo" has '"redo"'
+xdotool key 4
+drag 460 420 400 330
+wait_for "a grasp" has '"hooks"'
+for key in w c c c x Page_Down q t o b p p p h h 6 5 3 2 1 f plus minus Left space period space; do xdotool key $key; done
+sleep 0.5
+take_picture shown || fail "no picture after all keys"
+quit_window
+"$bin/incise" replay --verify session.jsonl >replayed.txt || fail "the recording does not replay: $(cat replayed.txt)"
+
+# The recording, played to the end of its first step, then gone on with by hand and recorded again.
+open_window --paused session.jsonl
+take_picture before || fail "no picture of the replay"
+xdotool key n
+sleep 1
+wait_for "a picture of the next step" take_picture step
+picked before.png step.png
+xdotool key g
+sleep 0.5
+xdotool key v
+wait_for "a second recording" test -s incise-recording-0001.jsonl
+xdotool key 2
+drag 620 520 760 560
+sleep 0.5
+xdotool key v
+sleep 0.5
+quit_window
+"$bin/incise" replay --verify incise-recording-0001.jsonl >replayed.txt ||
+  fail "the second recording does not replay: $(cat replayed.txt)"
+
+# What cannot be opened, and where there is no display.
+status=0
+"$bin/incise-view" told.txt >out.txt 2>&1 || status=$?
+[ "$status" = 3 ] && grep -q told.txt out.txt || fail "a file that is no mesh: exit $status, $(cat out.txt)"
+status=0
+env -u DISPLAY -u WAYLAND_DISPLAY "$bin/incise-view" >out.txt 2>&1 || status=$?
+[ "$status" = 5 ] && grep -q -- --headless out.txt || fail "without a display: exit $status, $(cat out.txt)"
+env -u DISPLAY "$bin/incise-view" --headless --replay session.jsonl --frame 40 --screenshot headless.png --size 640x360 ||
+  fail "headless, without a display"
+picked headless.png
+echo "window_smoke: all steps passed"
