@@ -70,8 +70,8 @@ void Photographer::mark(const app::Session& session) {
   picture_.marks = {};
   session.draw(picture_.marks);
   app::mark_trajectory(trajectory_, picture_.marks);
-  if (arguments_.shows_incision) app::mark_incision(picture_.surface, picture_.marks);
   if (arguments_.shows_cut_vertices) app::mark_cut_vertices(session.mesh(), picture_.surface, picture_.marks);
+  if (arguments_.shows_incision) app::mark_incision(picture_.surface, picture_.marks);
 }
 
 Status Photographer::take(const app::Session& session, const std::filesystem::path& file) {

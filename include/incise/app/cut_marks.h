@@ -15,9 +15,10 @@ namespace app {
 /// Figure 3. Cost: O(points of the strokes).
 void mark_trajectory(const std::vector<Stroke>& strokes, Marks& marks);
 
-/// Adds the walls of all cuts as triangles of `Ink::kIncision`, the incision faces of that figure, and their edges.
-/// Cost: O(triangles of the frame).
-void mark_incision(const SurfaceFrame& frame, Marks& marks);
+/// Turns the walls of all cuts into triangles of `Ink::kIncision`, the incision faces of that figure, with their edges:
+/// the frame gets a topology of its own that shows them no more. Where both lips lie at one place, one is marked.
+/// Cost: O(n log n) of the frame's triangles.
+void mark_incision(SurfaceFrame& frame, Marks& marks);
 
 /// Adds a ball of `Ink::kVertex` wherever there are vertices that a cut divided: those on walls, but for its front.
 /// Where lips touch there is one ball for both.
