@@ -50,7 +50,7 @@ TEST(CutMarks, IncisionTakesEveryWallOnceAndNoSkin) {
   mark_incision(frame, marks);
   std::size_t walls = 0;
   engine.mesh().for_each_tet([&](TetId t) {
-    for (const Link link : engine.mesh().links(t)) walls += link.is_boundary() && link.tag() > 0 ? 1 : 0;
+    for (const Link link : engine.mesh().links(t)) walls += link.is_boundary() && link.tag() > 0 ? 1U : 0U;
   });
   EXPECT_GT(walls, 0U);
   EXPECT_EQ(marks.triangles.size(), walls / 2);  // the lips lie on each other
