@@ -100,6 +100,9 @@ std::optional<ExitCode> refuse_outputs(const std::string& mesh, const std::vecto
 void note_idle_flags(const CutArguments& a, const Terminal& terminal) {
   const bool is_paper = a.profile == "paper";
   if (is_paper && a.has_snap) terminal.note("--snap has no effect with --profile paper, which never snaps");
+  if (a.no_smooth_boundary && (!is_paper || a.no_improve)) {
+    terminal.note("--no-smooth-boundary has no effect but on how --profile paper improves");
+  }
   if (a.budget_us == 0) return;
   if (a.no_merge && a.no_improve) {
     terminal.note("--budget-us has no effect with --no-merge and --no-improve, which leave nothing to bound");
@@ -125,6 +128,7 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
   job.engine.cut.snap = a.snap;
   job.engine.maintain.merge = !a.no_merge;
   job.engine.maintain.improve = !a.no_improve;
+  job.engine.maintain.smooth_boundary = !a.no_smooth_boundary;
   job.engine.threads = a.threads;
   job.engine.log = terminal.log_sink();
   job.budget_us = a.budget_us;

@@ -19,7 +19,7 @@ struct CutArguments {
   std::string profile = "incise";
   double snap = 0.2;
   bool has_snap = false;
-  bool no_merge = false, no_improve = false;
+  bool no_merge = false, no_improve = false, no_smooth_boundary = false;
   std::uint64_t budget_us = 0;  // 0: none
   std::uint64_t seed = 0;
   unsigned threads = 1;

@@ -73,6 +73,8 @@ void add_cut(CLI::App& root, Arguments& a) {
                   "Snapping distance as a fraction of the mean incident edge, 0 to 0.4 (default 0.2)");
   cut->add_flag("--no-merge", a.cut.no_merge, "Do not merge short edges after a stroke");
   cut->add_flag("--no-improve", a.cut.no_improve, "Do not improve the mesh around a cut after a stroke");
+  cut->add_flag("--no-smooth-boundary", a.cut.no_smooth_boundary,
+                "Of --profile paper: leave its Boundary Laplacian out (the paper's Figure 10)");
   cut->add_option("--report", a.cut.report, "Write figures as JSON; - for stdout");
   cut->add_option("--seed", a.cut.seed, "Seed, repeated in the report");
   cut->add_option("--threads", a.cut.threads, "Worker threads, 1 to 256; the result does not depend on it")

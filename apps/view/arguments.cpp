@@ -109,6 +109,11 @@ void add_camera(CLI::App& root, Arguments& a) {
           "x,y,z: the direction from the body to the eye")
       ->delimiter(',')
       ->expected(3);
+  root.add_option_function<std::vector<double>>(
+          "--target", [&a](const std::vector<double>& n) { a.target = vector_of(n); },
+          "x,y,z: the point in the middle of the picture")
+      ->delimiter(',')
+      ->expected(3);
   root.add_option("--zoom", a.zoom, "Above 1: nearer than what shows the whole body")->check(CLI::Range(0.01, 100.0));
   root.add_option_function<std::vector<double>>(
           "--clip",
@@ -147,12 +152,28 @@ void add_headless(CLI::App& root, Arguments& a) {
       ->check(CLI::Range(std::uint64_t{1}, app::kMaxSceneFrames));
 }
 
+/// As in the paper's figures.
+void add_figure(CLI::App& root, Arguments& a) {
+  root.add_option("--spread", a.spread, "Headless: move pieces apart by this share of the body's size, 0 to 10")
+      ->check(CLI::Range(0.0, 10.0));
+  root.add_option("--trajectory", a.trajectory, "Headless: show what the blade of this blade file sweeps");
+  root.add_flag("--incision", a.shows_incision, "Headless: show the walls of cuts as incision faces");
+  root.add_flag("--cut-vertices", a.shows_cut_vertices, "Headless: show balls at the vertices that were divided");
+}
+
+bool asks_for_figure(const Arguments& a) {
+  return a.spread > 0 || !a.trajectory.empty() || a.shows_incision || a.shows_cut_vertices;
+}
+
 std::string usage_problem(const Arguments& a) {
   if (a.is_headless && a.screenshot.empty() && a.sequence.empty()) {
     return "--headless makes pictures: say where with --screenshot OUT.png or --sequence FOLDER";
   }
   if (!a.is_headless && !(a.screenshot.empty() && a.sequence.empty())) {
     return "--screenshot and --sequence need --headless; in the window, S saves a picture";
+  }
+  if (!a.is_headless && asks_for_figure(a)) {
+    return "--spread, --trajectory, --incision and --cut-vertices need --headless";
   }
   if (a.from && !(a.from->norm() > 0)) return "--from must not be zero";
   if (a.clip && !(a.clip->normal.norm() > 0)) return "the normal of --clip must not be zero";
@@ -176,6 +197,7 @@ std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
   add_view(root, arguments);
   add_camera(root, arguments);
   add_headless(root, arguments);
+  add_figure(root, arguments);
   root.footer(std::string(kExamples) + "\nKeys:\n" + app::list_of_keys() +
               "\nExit: 0 done, 1 failure, 2 usage, 3 bad input, 5 no display or no OpenGL 3.3\n");
   try {

@@ -24,7 +24,7 @@ struct Arguments {
   std::optional<unsigned> samples;
   incise::app::ViewOptions view;
   bool has_view = false;  ///< asked for on the command line
-  std::optional<incise::Vec3> from;
+  std::optional<incise::Vec3> from, target;
   double zoom = 1;
   std::optional<incise::app::HalfSpace> clip;
 
@@ -35,6 +35,10 @@ struct Arguments {
   std::string screenshot;
   std::string sequence;
   std::uint64_t every = 1;
+  double spread = 0;                ///< of pieces, a share of the body's size
+  std::string trajectory;           ///< a blade file whose sweep is shown
+  bool shows_incision = false;      ///< walls as incision faces
+  bool shows_cut_vertices = false;  ///< balls where vertices were divided
 
   [[nodiscard]] incise::app::SessionOptions session_options() const;
 };

@@ -8,6 +8,8 @@
 
 #include "exit_code.h"
 #include "incise/app/blade_file.h"
+#include "incise/app/cut_marks.h"
+#include "incise/app/spread_pieces.h"
 #include "incise/render/headless_context.h"
 #include "incise/render/image.h"
 #include "incise/render/offscreen_target.h"
@@ -23,9 +25,10 @@ constexpr unsigned kSamples = 4;
 /// Draws a session at one moment after another.
 class Photographer {
  public:
-  Photographer(const Arguments& arguments, const app::Session& session, render::Renderer renderer,
-               render::OffscreenTarget target)
+  Photographer(const Arguments& arguments, const app::Session& session, std::vector<Stroke> trajectory,
+               render::Renderer renderer, render::OffscreenTarget target)
       : arguments_(arguments),
+        trajectory_(std::move(trajectory)),
         surface_(session.mesh(), session.engine().journal()),
         renderer_(std::move(renderer)),
         target_(std::move(target)) {
@@ -36,8 +39,10 @@ class Photographer {
 
  private:
   void aim(const app::Session& session);
+  void mark(const app::Session& session);
 
   const Arguments& arguments_;
+  std::vector<Stroke> trajectory_;  // that is shown
   app::SurfaceView surface_;
   render::Renderer renderer_;
   render::OffscreenTarget target_;
@@ -53,21 +58,30 @@ void Photographer::aim(const app::Session& session) {
   picture_.options = app::view_options_of(session.scene());
   if (arguments_.has_view) picture_.options = arguments_.view;
   picture_.camera = app::camera_of(session.scene(), body, arguments_.size);
-  if (!arguments_.from) {
-    app::zoom(picture_.camera, 1 / arguments_.zoom, body);
-    return;
+  if (arguments_.from) {
+    app::look_along(picture_.camera, -*arguments_.from);
+    app::frame_all(picture_.camera, arguments_.size, body);
   }
-  app::look_along(picture_.camera, -*arguments_.from);
-  app::frame_points(picture_.camera, arguments_.size, picture_.surface.positions);
+  if (arguments_.target) picture_.camera.target = *arguments_.target;
   app::zoom(picture_.camera, 1 / arguments_.zoom, body);
+}
+
+void Photographer::mark(const app::Session& session) {
+  picture_.marks = {};
+  session.draw(picture_.marks);
+  app::mark_trajectory(trajectory_, picture_.marks);
+  if (arguments_.shows_cut_vertices) app::mark_cut_vertices(session.mesh(), picture_.surface, picture_.marks);
+  if (arguments_.shows_incision) app::mark_incision(picture_.surface, picture_.marks);
 }
 
 Status Photographer::take(const app::Session& session, const std::filesystem::path& file) {
   surface_.follow(session.mesh(), session.engine().journal());
   surface_.fill(session.mesh(), picture_.surface);
+  if (arguments_.spread > 0) {
+    app::spread_pieces(session.mesh(), find_components(session.mesh()), arguments_.spread, picture_.surface);
+  }
   aim(session);
-  picture_.marks = {};
-  session.draw(picture_.marks);
+  mark(session);
   if (Status status = renderer_.draw(picture_, arguments_.size, target_.framebuffer()); !status.ok()) return status;
   const Result<render::Image> image = target_.read();
   return image.ok() ? write_png(*image, file) : Status(image.error());
@@ -101,6 +115,11 @@ Status hand_over(const Arguments& a, app::Session& session) {
   return {};
 }
 
+/// What `--trajectory` names.
+Result<std::vector<Stroke>> trajectory_of(const Arguments& a) {
+  return a.trajectory.empty() ? std::vector<Stroke>() : app::read_blade(a.trajectory);
+}
+
 }  // namespace
 
 int run_headless(const Arguments& arguments) {
@@ -109,6 +128,8 @@ int run_headless(const Arguments& arguments) {
   if (const Status status = hand_over(arguments, *session); !status.ok()) {
     return fail(kBadInput, status.error().message);
   }
+  Result<std::vector<Stroke>> trajectory = trajectory_of(arguments);
+  if (!trajectory.ok()) return fail(kBadInput, trajectory.error().message);
   const Result<render::HeadlessContext> context = render::HeadlessContext::create();
   if (!context.ok()) return fail(kNoDisplay, context.error().message);
   Result<render::Renderer> renderer = render::Renderer::create(arguments.samples.value_or(kSamples));
@@ -117,7 +138,8 @@ int run_headless(const Arguments& arguments) {
   if (!target.ok()) return fail(exit_of(target.error()), target.error().message);
   std::error_code code;
   if (!arguments.sequence.empty()) std::filesystem::create_directories(arguments.sequence, code);
-  Photographer photographer(arguments, *session, std::move(renderer).value(), std::move(target).value());
+  Photographer photographer(arguments, *session, std::move(trajectory).value(), std::move(renderer).value(),
+                            std::move(target).value());
   const Status status = run(arguments, *session, photographer);
   return status.ok() ? kDone : fail(exit_of(status.error()), status.error().message);
 }

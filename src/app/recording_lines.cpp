@@ -109,11 +109,16 @@ class HeaderReader : public LineReader {
   }
   bool read_options(const JsonValue& options, RecordingHeader& header) {
     const std::string path = "options";
-    if (!read_.is_object(options, path, {"profile", "snap", "merge", "improve", "work_units", "seed"})) return false;
+    if (!read_.is_object(options, path,
+                         {"profile", "snap", "merge", "improve", "smooth_boundary", "work_units", "seed"})) {
+      return false;
+    }
     const JsonValue* snap = read_profile(options, header) ? read_.member(options, path, "snap") : nullptr;
     return snap != nullptr && read_.number(*snap, "snap", header.cut.snap) &&
            read_flag(options, path, "merge", header.maintain.merge) &&
            read_flag(options, path, "improve", header.maintain.improve) &&
+           (options.find("smooth_boundary") == nullptr ||
+            read_flag(options, path, "smooth_boundary", header.maintain.smooth_boundary)) &&
            read_limit(options, path, "work_units", header.maintain.work_units) &&
            read_whole(options, path, "seed", header.seed);
   }
@@ -227,6 +232,7 @@ std::string to_line(const RecordingHeader& header) {
                      {"improve", header.maintain.improve},
                      {"work_units", encode_limit(header.maintain.work_units)},
                      {"seed", header.seed}};
+  if (!header.maintain.smooth_boundary) root["options"]["smooth_boundary"] = false;
   return line_of(root);
 }
 

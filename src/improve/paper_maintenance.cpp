@@ -40,7 +40,9 @@ MaintainStatistics maintain(TetMesh& mesh, Journal& journal, const std::vector<V
   if (options.improve) {
     const StageZone zone(times, Stage::kImprove);
     const std::vector<VertexId> near = find_corners_of(mesh, find_tets_at(mesh, divided));
-    done += as_step(mesh, journal, [&](Transaction& t) { return smooth_boundary(t, divided); });
+    if (options.smooth_boundary) {
+      done += as_step(mesh, journal, [&](Transaction& t) { return smooth_boundary(t, divided); });
+    }
     done += as_step(mesh, journal, [&](Transaction& t) { return smooth_inside(t, near); });
     const std::vector<TetId> tets = find_tets_at(mesh, divided);
     done += as_step(mesh, journal, [&](Transaction& t) { return swap_faces(t, tets); });

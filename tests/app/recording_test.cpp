@@ -142,7 +142,17 @@ TEST(Recording, header_reads_back) {
   EXPECT_FALSE(back->maintain.merge);
   EXPECT_TRUE(back->maintain.improve);
   EXPECT_EQ(back->maintain.work_units, 77U);
+  EXPECT_TRUE(back->maintain.smooth_boundary);
   EXPECT_EQ(back->seed, header.seed);
+}
+
+TEST(Recording, header_says_where_the_boundary_is_not_smoothed) {
+  app::RecordingHeader header;
+  EXPECT_EQ(to_line(header).find("smooth_boundary"), std::string::npos);
+  header.maintain.smooth_boundary = false;
+  const Result<app::RecordingHeader> back = app::parse_header(to_line(header), "r.jsonl");
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_FALSE(back->maintain.smooth_boundary);
 }
 
 std::string header_error(const std::string& line) {

@@ -2,8 +2,10 @@
 // The paper's maintenance as the engine runs it: order, switches, undo, determinism, and what it must keep.
 #include "incise/improve/paper_maintenance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "cut/random_strokes.h"
@@ -100,6 +102,23 @@ TEST(PaperMaintenance, switches_stages_and_counts_and_times_them) {
   EXPECT_GT(all.maintain.work_units, merged.maintain.work_units);
   EXPECT_EQ(all.maintain.inserted_vertices, 0U);
   EXPECT_EQ(all.maintain.waiting_tets, 0U);
+}
+
+TEST(PaperMaintenance, leaves_walls_where_they_were_cut_without_its_boundary_laplacian) {
+  const auto walls_moved = [](bool smooths) {
+    MaintainOptions options = kImproveOnly;
+    options.smooth_boundary = smooths;
+    Engine engine = paper_engine(kuhn_cube(5), options);
+    cut_and_maintain(engine, plane(engine, Vec3(0.3, 0.5, 0.9), 0.8));
+    std::set<VertexId> moved;
+    for (std::size_t i = 0; i < engine.journal().size(); ++i) {
+      for (const MovedVertex& vertex : engine.journal().step(i).moved) moved.insert(vertex.id);
+    }
+    return std::count_if(moved.begin(), moved.end(),
+                         [&](VertexId v) { return (engine.mesh().shape_of(v) & shape::kWall) != 0; });
+  };
+  EXPECT_GT(walls_moved(true), 0);
+  EXPECT_EQ(walls_moved(false), 0);
 }
 
 TEST(PaperMaintenance, writes_a_step_for_each_stage_that_changed_something) {

@@ -21,6 +21,8 @@ struct MaintainOptions {
   /// Work units per stroke; what is left undone waits for the next one. One unit is one evaluation of one tet's
   /// quality, about 20 ns. The paper's maintenance ignores it.
   std::uint64_t work_units = kUnlimitedWork;
+  /// Of the paper's improving alone: its Boundary Laplacian (section 3.4). False to see what it does (Figure 10).
+  bool smooth_boundary = true;
 };
 
 /// What maintenance did.
