@@ -34,6 +34,7 @@ app::Scene cube_scene() {
   scene.options.materials.fallback.young = 10e3;
   scene.options.engine.maintain.work_units = 100'000;
   scene.attachments.push_back({app::HalfSpace{Vec3::UnitZ(), 0.001}});
+  scene.tools.push_back({"table", {}, {PlaneTool{Vec3::UnitZ(), 0}}});
   scene.settle.frames = 120;
   scene.frames = app::kMaxSceneFrames;
   return scene;

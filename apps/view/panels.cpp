@@ -25,6 +25,7 @@ constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
 constexpr float kMargin = 0.6F;                           // all in heights of text
 constexpr float kToolsWidth = 13.5F, kFiguresWidth = 19;  // of the panels
 constexpr float kHistogramHeight = 4.2F, kForceHeight = 3.2F, kLegendHeight = 0.8F;
+constexpr float kTimeHalfWidth = 15.5F, kTimeHeight = 11;
 constexpr int kLogLines = 5;
 
 float em() {
@@ -355,9 +356,16 @@ void draw_title(const app::SessionView& view, const app::ViewerState& state) {
   ImGui::End();
 }
 
+/// The lower left corner; above the panel of time where the picture is too narrow for both.
+ImVec2 lower_left(float width) {
+  const ImVec2 screen = ImGui::GetMainViewport()->Size;
+  const bool is_narrow = 2 * (width + kTimeHalfWidth * em()) > screen.x;
+  return {0, is_narrow ? 1 - kTimeHeight * em() / screen.y : 1};
+}
+
 void draw_probe(const app::SessionView& view) {
   if (!view.probe) return;
-  if (begin_panel("probe", {0, 1}, 26 * em(), 10 * em())) {
+  if (begin_panel("probe", lower_left(26 * em()), 26 * em(), 10 * em())) {
     for (const std::string& line : to_lines(*view.probe)) text(line);
   }
   ImGui::End();
@@ -368,7 +376,7 @@ void draw_exercise(Viewer& viewer, const PanelContext& context) {
   const app::SessionView& view = viewer.view();
   if (!view.scene || !view.scene->exercise) return;
   const app::Exercise& exercise = *view.scene->exercise;
-  if (begin_panel("exercise", {0, 1}, 25 * em(), 0.6F * ImGui::GetMainViewport()->Size.y)) {
+  if (begin_panel("exercise", lower_left(25 * em()), 25 * em(), 0.6F * ImGui::GetMainViewport()->Size.y)) {
     ImGui::PushTextWrapPos(0);
     faint("Exercise: " + exercise.name);
     if (view.score) {

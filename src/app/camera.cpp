@@ -2,6 +2,7 @@
 #include "incise/app/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -117,15 +118,31 @@ void zoom(Camera& camera, double factor, const Box& scene) {
 
 void frame_all(Camera& camera, const Viewport& viewport, const Box& scene) {
   if (scene.is_empty()) return;
-  camera.target = 0.5 * (scene.lo + scene.hi);
+  std::array<Eigen::Vector3f, 8> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    corners[i] = Vec3((i & 1U) != 0 ? scene.hi.x() : scene.lo.x(), (i & 2U) != 0 ? scene.hi.y() : scene.lo.y(),
+                      (i & 4U) != 0 ? scene.hi.z() : scene.lo.z())
+                     .cast<float>();
+  }
+  frame_points(camera, viewport, corners);
+}
+
+void frame_points(Camera& camera, const Viewport& viewport, std::span<const Eigen::Vector3f> points) {
+  if (points.empty()) return;
+  const Vec3 right = camera.right(), upward = camera.upward(), backward = camera.backward();
+  Box seen;  // in the camera's axes
+  for (const Eigen::Vector3f& point : points) {
+    const Vec3 p = point.cast<double>();
+    seen.extend(Vec3(p.dot(right), p.dot(upward), p.dot(backward)));
+  }
+  const Vec3 middle = 0.5 * (seen.lo + seen.hi);
+  camera.target = middle.x() * right + middle.y() * upward + middle.z() * backward;
   const double vertical = std::tan(0.5 * camera.field_of_view);
-  const Vec3 half = 0.5 * (scene.hi - scene.lo), right = camera.right(), upward = camera.upward();
-  double distance = 1e-300;
-  for (int corner = 0; corner < 8; ++corner) {  // each corner is within the picture from this far away
-    const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-    const Vec3 to = half.cwiseProduct(sign);
+  double distance = kNearest * std::max(size_of(seen), 1e-300);
+  for (const Eigen::Vector3f& point : points) {  // each is within the picture from this far away
+    const Vec3 to = point.cast<double>() - camera.target;
     const double reach = std::max(std::abs(to.dot(upward)), std::abs(to.dot(right)) / viewport.aspect()) / vertical;
-    distance = std::max(distance, kMargin * reach + to.dot(camera.backward()));
+    distance = std::max(distance, kMargin * reach + to.dot(backward));
   }
   camera.distance = distance;
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kSpread = 0.25;
 constexpr double kSeeThrough = 0.4;
+constexpr double kLeastGrowth = 1.02;
 constexpr double kAcross = 0.8, kAlong = 0.45, kAbove = 0.5;  // where the eye is, against the walls
 
 /// Across the walls, on average, whichever way; zero where there are none. Both lips of a wall count alike.
@@ -27,7 +28,15 @@ Vec3 across_walls(const SurfaceFrame& frame) {
   return sum;
 }
 
-Camera aim(const Vec3& across, const Box& body, const Viewport& viewport) {
+/// Moves pieces apart. Returns whether that lets anything be seen: a core within its ring stays where it is.
+bool spread(const TetMesh& mesh, SurfaceFrame& frame) {
+  const Box before = bounds_of(frame);
+  spread_pieces(mesh, find_components(mesh), kSpread, frame);
+  const Box after = bounds_of(frame);
+  return (after.hi - after.lo).norm() > kLeastGrowth * (before.hi - before.lo).norm();
+}
+
+Camera aim(const Vec3& across, const SurfaceFrame& frame, const Viewport& viewport) {
   Camera camera;
   if (across.norm() > 0) {
     const Vec3 normal = across.normalized();
@@ -37,22 +46,21 @@ Camera aim(const Vec3& across, const Box& body, const Viewport& viewport) {
     const Vec3 side = normal.dot(camera.backward()) < 0 ? Vec3(-normal) : normal;
     look_along(camera, -(kAcross * side + kAlong * along + kAbove * camera.up));
   }
-  frame_all(camera, viewport, body);
+  frame_points(camera, viewport, frame.positions);
   return camera;
 }
 
 }  // namespace
 
 Picture picture_of_cut(const TetMesh& mesh, const Journal& journal, const Viewport& viewport) {
-  const Components pieces = find_components(mesh);
   Picture picture;
   SurfaceView(mesh, journal).fill(mesh, picture.surface);
   const Vec3 across = across_walls(picture.surface);
-  spread_pieces(mesh, pieces, kSpread, picture.surface);
+  const bool has_spread = spread(mesh, picture.surface);
   picture.options.theme = Theme::kLight;
   picture.options.shows_newest = false;
-  if (pieces.count() < 2 && across.norm() > 0) picture.options.skin_opacity = kSeeThrough;
-  picture.camera = aim(across, bounds_of(picture.surface), viewport);
+  if (!has_spread && across.norm() > 0) picture.options.skin_opacity = kSeeThrough;
+  picture.camera = aim(across, picture.surface, viewport);
   return picture;
 }
 

@@ -7,6 +7,14 @@
 
 namespace incise::inline v0 {
 namespace app {
+namespace {
+
+std::string place_of(const ProbeInfo& probe) {
+  if (probe.is_inside) return "inside";
+  return probe.stroke > 0 ? fmt::format("wall of stroke {}", probe.stroke) : "skin";
+}
+
+}  // namespace
 
 std::optional<ProbeInfo> probe(const TetMesh& mesh, Side side) {
   const TetId tet = side.tet();
@@ -15,7 +23,8 @@ std::optional<ProbeInfo> probe(const TetMesh& mesh, Side side) {
   info.tet = tet;
   info.vertices = mesh.vertices(tet);
   info.region = mesh.region(tet);
-  if (mesh.link(side).is_boundary()) info.stroke = mesh.link(side).tag();
+  info.is_inside = !mesh.link(side).is_boundary();
+  if (!info.is_inside) info.stroke = mesh.link(side).tag();
   const auto& [a, b, c, d] = info.vertices;
   info.lr = longest_edge_over_inradius(mesh.rest(a), mesh.rest(b), mesh.rest(c), mesh.rest(d));
   const DihedralExtremes angles = dihedral_extremes_deg(mesh.rest(a), mesh.rest(b), mesh.rest(c), mesh.rest(d));
@@ -32,8 +41,7 @@ std::vector<std::string> to_lines(const ProbeInfo& probe) {
   const TetVertices& v = probe.vertices;
   return {
       fmt::format("Tet {}, vertices {} {} {} {}", probe.tet.value, v[0].value, v[1].value, v[2].value, v[3].value),
-      probe.stroke > 0 ? fmt::format("Region {}, wall of stroke {}", probe.region, probe.stroke)
-                       : fmt::format("Region {}, skin", probe.region),
+      fmt::format("Region {}, {}", probe.region, place_of(probe)),
       fmt::format("L/r {:.4g}, dihedral angles {:.1f} to {:.1f} deg", probe.lr, probe.dihedral_min_deg,
                   probe.dihedral_max_deg),
       fmt::format("Volume {:.4g} at rest, now {:.3g} times that", probe.volume, probe.stretch),

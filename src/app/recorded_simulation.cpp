@@ -89,16 +89,27 @@ Result<bool> RecordedSimulation::redo() {
 }
 
 Status RecordedSimulation::start_recording(const std::filesystem::path& path) {
-  if (!past_) return Error{ErrorCode::kBadArgument, "this session keeps no calls that could be recorded", {}};
   stop_recording();
+  Result<SimulationWriter> writer = write_past(path);
+  if (!writer.ok()) return writer.error();
+  writer_ = std::move(writer).value();
+  return {};
+}
+
+Status RecordedSimulation::save_recording(const std::filesystem::path& path) const {
+  const Result<SimulationWriter> written = write_past(path);
+  return written.ok() ? Status() : Status(written.error());
+}
+
+Result<SimulationWriter> RecordedSimulation::write_past(const std::filesystem::path& path) const {
+  if (!past_) return Error{ErrorCode::kBadArgument, "this session keeps no calls that could be recorded", {}};
   SimulationWriter writer(path, header_of(past_->scene, past_->mesh_hash, path));
   for (std::size_t i = 0; i < past_->calls.size(); ++i) {
     SimulationCall call = past_->calls[i];
     if (i + 1 == past_->calls.size()) call.hash = simulation_.hash();
-    if (Status status = writer.write(call); !status.ok()) return status;
+    if (Status status = writer.write(call); !status.ok()) return status.error();
   }
-  writer_ = std::move(writer);
-  return {};
+  return writer;
 }
 
 }  // namespace app

@@ -96,6 +96,7 @@ void Session::State::choose_blade(const HandState& hands, FrameInput& input) {
   const bool changes_hands =
       source != blade_source && source != BladeSource::kNone && blade_source != BladeSource::kNone;
   if (changes_hands) {
+    if (source == BladeSource::kFollowed) --followed_frame;  // it begins a frame later
     input.blade.reset();
     source = BladeSource::kNone;
   }
@@ -106,7 +107,10 @@ Status Session::State::run(const FrameInput& input) {
   Result<FrameReport> report = simulation->frame(input);
   last_input = input;
   if (!report.ok()) {
-    if (report.error().code == ErrorCode::kIo) simulation->stop_recording();
+    if (report.error().code == ErrorCode::kIo) {  // the frame was done all the same
+      simulation->stop_recording();
+      end_frame();
+    }
     note(Operation::Kind::kNotice, report.error().message);
     return report.error();
   }
@@ -116,17 +120,21 @@ Status Session::State::run(const FrameInput& input) {
   return {};
 }
 
-void Session::State::add(const FrameReport& report) {
+void Session::State::end_frame() {
   ++figures.frames;
   figures.seconds = static_cast<double>(figures.frames) * scene.options.frame_seconds;
-  figures.times += report.times;
   figures.frame_ms = simulation->last_ms();
   figures.busy_ms += figures.frame_ms;
+  count();
+}
+
+void Session::State::add(const FrameReport& report) {
+  end_frame();
+  figures.times += report.times;
   figures.cut += report.cut;
   figures.maintain += report.maintain;
   figures.blade = report.blade;
   add_force(report.blade.force.norm());
-  count();
   follow_stroke(report);
 }
 
@@ -191,6 +199,7 @@ Result<bool> Session::undo() {
   if (s.is_replay) return false;
   s.followed.reset();
   Result<bool> done = s.simulation->undo();
+  if (!done.ok()) s.simulation->stop_recording();
   s.count();
   s.stroke_under_way = 0;
   if (done.ok() && *done) s.note(Operation::Kind::kUndo, "Stroke taken back");
@@ -201,6 +210,7 @@ Result<bool> Session::redo() {
   State& s = *state_;
   if (s.is_replay) return false;
   Result<bool> done = s.simulation->redo();
+  if (!done.ok()) s.simulation->stop_recording();
   s.count();
   if (done.ok() && *done) s.note(Operation::Kind::kRedo, "Stroke made again");
   return done;
@@ -211,16 +221,26 @@ Status Session::reset() {
   const bool was_recording = is_recording();
   if (Status status = s.start(); !status.ok()) return status;
   s.note(Operation::Kind::kReset, "Back to the start");
-  return was_recording ? start_recording(s.next_recording_name()) : Status();
+  return was_recording ? s.record(s.next_recording_name()) : Status();
 }
 
 Status Session::start_recording(const std::filesystem::path& path) {
-  State& s = *state_;
-  if (!s.simulation) return Error{ErrorCode::kBadArgument, "a recording of `incise cut` is there already: copy it", {}};
-  if (Status status = s.simulation->start_recording(path); !status.ok()) return status;
-  s.recording = path;
-  s.note(Operation::Kind::kRecording, "Recording to " + path.string());
+  if (Status status = state_->record(path); !status.ok()) return status;
+  state_->first_recording = path;
   return {};
+}
+
+Status Session::State::record(const std::filesystem::path& path) {
+  if (!simulation) return Error{ErrorCode::kBadArgument, "a recording of `incise cut` is there already: copy it", {}};
+  if (Status status = simulation->start_recording(path); !status.ok()) return status;
+  recording = path;
+  note(Operation::Kind::kRecording, "Recording to " + path.string());
+  return {};
+}
+
+Status Session::save_recording(const std::filesystem::path& path) const {
+  if (state_->simulation) return state_->simulation->save_recording(path);
+  return Error{ErrorCode::kBadArgument, "a recording of `incise cut` is there already: copy it", {}};
 }
 
 void Session::stop_recording() {

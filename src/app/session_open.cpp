@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "app/recorded_mesh.h"
@@ -69,6 +70,7 @@ Scene scene_of_mesh(const fs::path& mesh, const Box& body, const Vec3& up) {
   scene.options.engine.maintain.work_units = kUnits;
   const double low = std::min(body.lo.dot(up), body.hi.dot(up)), height = std::abs(size.dot(up));
   scene.attachments.push_back({HalfSpace{up, low + kHeldShare * height}});
+  scene.tools.push_back({"table", {}, {PlaneTool{up, low}}});
   scene.settle.frames = 120;
   scene.frames = kMaxSceneFrames;
   return scene;
@@ -82,7 +84,9 @@ Result<Session> Session::open(const fs::path& path, const SessionOptions& option
   if (*kind == FileKind::kScene) {
     const Result<Scene> scene = read_scene(path);
     if (!scene.ok()) return scene.error();
-    return open(*scene, options);
+    Result<Session> session = open(*scene, options);
+    if (session.ok() && scene->name.empty()) session->state_->title = path.filename().string();
+    return session;
   }
   Result<LoadedMesh> loaded = load_mesh(path);
   if (!loaded.ok()) return loaded.error();
@@ -126,7 +130,8 @@ Result<Session> Session::open_engine_recording(const fs::path& path, const Sessi
   state->options = options;
   state->engine_options.cut = reader->header().cut;
   state->engine_options.maintain = reader->header().maintain;
-  state->title = state->recording_name = path.string();
+  state->title = path.filename().string();
+  state->recording_name = path.string();
   state->is_replay = state->is_engine_replay = true;
   take(std::move(loaded).value(), state->file_vertex, state->initial);
   return begin(std::move(state));
@@ -142,11 +147,18 @@ Result<Session> Session::begin(std::unique_ptr<State> state) {
 }
 
 Status Session::State::start() {
-  const std::uint64_t tets = initial.tet_count();
-  simulation.reset();
-  engine.reset();
+  // Whatever may fail comes first, so that a session that cannot start anew stays as it is.
+  if (is_engine_replay) {
+    Result<Engine> made = make_engine();
+    if (!made.ok()) return made.error();
+    engine.emplace(std::move(made).value());
+  } else {
+    Result<RecordedSimulation> made = make_simulation();
+    if (!made.ok()) return made.error();
+    simulation.emplace(std::move(made).value());
+  }
   figures = {};
-  figures.tets_at_start = tets;
+  figures.tets_at_start = initial.tet_count();
   last_input = {};
   followed.reset();
   blade_source = BladeSource::kNone;
@@ -154,40 +166,38 @@ Status Session::State::start() {
   next_call = 0;
   attempt_began.reset();
   scorer.reset();
+  if (scene.exercise) scorer.emplace(scene, initial);
   plays_script = options.plays_script;
-  const Status status = is_engine_replay ? start_engine() : start_simulation();
-  if (status.ok()) count();
-  return status;
+  count();
+  return {};
 }
 
-Status Session::State::start_simulation() {
+Result<RecordedSimulation> Session::State::make_simulation() const {
   SceneRun run;
   run.threads = options.threads;
   run.log = options.log;
   run.keeps_calls = true;
   Result<RecordedSimulation> made = RecordedSimulation::create(scene, initial, run);
-  if (!made.ok()) return made.error();
-  simulation.emplace(std::move(made).value());
-  if (scene.exercise) scorer.emplace(scene, initial);
-  if (is_replay || scene.settle.frames == 0) return {};
-  const Result<unsigned> settled = simulation->settle(scene.settle);
-  return settled.ok() ? Status() : Status(settled.error());
+  if (!made.ok() || is_replay || scene.settle.frames == 0) return made;
+  const Result<unsigned> settled = made->settle(scene.settle);
+  if (!settled.ok()) return settled.error();
+  return made;
 }
 
-Status Session::State::start_engine() {
+Result<Engine> Session::State::make_engine() const {
   EngineOptions chosen = engine_options;
   chosen.log = options.log;
   chosen.threads = options.threads;
-  Result<Engine> made = Engine::create(initial, std::move(chosen));
-  if (!made.ok()) return made.error();
-  engine.emplace(std::move(made).value());
-  return {};
+  return Engine::create(initial, std::move(chosen));
 }
 
-fs::path Session::State::next_recording_name() {
-  fs::path name = recording;
-  name.replace_filename(
-      fmt::format("{}-{}{}", recording.stem().string(), ++recordings, recording.extension().string()));
+fs::path Session::State::next_recording_name() const {
+  const std::string stem = first_recording.stem().string(), extension = first_recording.extension().string();
+  fs::path name = first_recording;
+  std::error_code code;
+  for (unsigned i = 2; i == 2 || name == recording || fs::exists(name, code); ++i) {
+    name.replace_filename(fmt::format("{}-{}{}", stem, i, extension));
+  }
   return name;
 }
 

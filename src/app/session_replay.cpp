@@ -98,6 +98,7 @@ Status Session::seek(std::uint64_t call, const ShouldStop& should_stop) {
   State& s = *state_;
   if (!s.is_replay) return {};
   if (call < s.next_call) {
+    stop_recording();  // it would go back as well
     if (Status status = s.start(); !status.ok()) return status;
   }
   while (s.next_call < std::min<std::uint64_t>(call, s.call_count())) {
@@ -119,6 +120,8 @@ bool Session::take_over() {
   State& s = *state_;
   if (s.is_engine_replay) return false;
   if (s.is_replay) s.note(Operation::Kind::kReplay, "The recording ends here: go on by hand");
+  // The recording's blade is lifted before the hand's is set down.
+  if (s.is_replay && s.last_input.blade) s.blade_source = State::BladeSource::kScript;
   s.is_replay = false;
   s.plays_script = false;
   return true;

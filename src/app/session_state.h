@@ -42,9 +42,8 @@ struct Session::State {
   OperationLog log;
   std::uint32_t stroke_under_way = 0;
   CutStatistics stroke_cut;
-  double stroke_peak = 0;  // N
-  std::filesystem::path recording;
-  unsigned recordings = 1;
+  double stroke_peak = 0;                            // N
+  std::filesystem::path recording, first_recording;  // those after a reset are named by the first
 
   [[nodiscard]] const Engine& engine_now() const { return simulation ? simulation->simulation().engine() : *engine; }
   [[nodiscard]] const TetMesh& mesh() const { return engine_now().mesh(); }
@@ -57,14 +56,16 @@ struct Session::State {
   Status play_call();
   void note(Operation::Kind kind, std::string text);
   void count();
-  [[nodiscard]] std::filesystem::path next_recording_name();
+  [[nodiscard]] std::filesystem::path next_recording_name() const;
+  Status record(const std::filesystem::path& path);
 
  private:
-  Status start_simulation();
-  Status start_engine();
+  Result<RecordedSimulation> make_simulation() const;
+  Result<Engine> make_engine() const;
   void choose_blade(const HandState& hands, FrameInput& input);
   void add(const FrameReport& report);
   void add_force(double force);
+  void end_frame();
   void follow_stroke(const FrameReport& report);
   Status play(const SimulationCall& call);
   Status play(const RecordedCall& call);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/app/session_thread.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -24,6 +25,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr double kRateWindow = 0.5;                          // s between two readings of the rates
 constexpr auto kLookAgain = std::chrono::milliseconds(100);  // while it is paused, for the validity light
 constexpr auto kProgress = std::chrono::milliseconds(50);    // between two views of a recording that is wound on
+constexpr double kLongestFrame = 3600;                       // s by the clock
 constexpr double kMostBehind = 0.1;  // s: a simulation that is later than this does not try to catch up
 
 void add_edges(const std::array<Eigen::Vector3f, 4>& corners, Ink ink, Marks& marks) {
@@ -34,6 +36,15 @@ std::array<Eigen::Vector3f, 4> corners_of(const TetMesh& mesh, TetId tet) {
   std::array<Eigen::Vector3f, 4> corners;
   for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.current(mesh.vertices(tet)[i]).cast<float>();
   return corners;
+}
+
+/// Of the body as it stands, without vertices that no tet uses.
+Box bounds_of(const TetMesh& mesh) {
+  Box box;
+  mesh.for_each_vertex([&](VertexId v) {
+    if (mesh.tet_of(v).is_valid()) box.extend(mesh.current(v));
+  });
+  return box;
 }
 
 }  // namespace
@@ -75,14 +86,16 @@ struct SessionThread::State {
 
   void post(Command command);
   void run();
-  void run_commands();
+  bool run_commands();
   void look_at_session();
+  void begin_session();
   void open(const std::filesystem::path& path);
   void frame();
   void pace();
   void wait();
   void publish();
   void check_validity();
+  bool has_new_light();
   void find_worst();
   void score(const std::filesystem::path& json, const std::filesystem::path& attempt);
   void draw_marks();
@@ -110,24 +123,25 @@ void SessionThread::State::run() {
   publish();
   next_frame = Clock::now();
   while (!quits) {
-    run_commands();
+    const bool has_news = run_commands();
     if (is_running()) {
       frame();
       publish();
       pace();
     } else {
-      publish();
+      if (has_news || has_new_light()) publish();
       wait();
     }
   }
 }
 
-void SessionThread::State::run_commands() {
-  while (true) {
+/// Returns whether there were any.
+bool SessionThread::State::run_commands() {
+  for (bool is_first = true;; is_first = false) {
     Command command;
     {
       const std::lock_guard lock(mutex);
-      if (commands.empty()) return;
+      if (commands.empty() || steps_left > 0) return !is_first;  // a step comes before what was asked for after it
       command = std::move(commands.front());
       commands.pop_front();
       --waiting;
@@ -159,16 +173,21 @@ void SessionThread::State::look_at_session() {
   rate_seconds = 0;
 }
 
-void SessionThread::State::open(const std::filesystem::path& path) {
-  busy("Opening " + path.filename().string());
-  Result<Session> opened = Session::open(path, options.session);
-  if (!opened.ok()) return tell(opened.error().message);
-  session = std::move(opened).value();
+/// The hands let go: what they held is another body, or elsewhere.
+void SessionThread::State::begin_session() {
   {
     const std::lock_guard lock(mutex);
     hands.clear();
   }
   look_at_session();
+}
+
+void SessionThread::State::open(const std::filesystem::path& path) {
+  busy("Opening " + path.filename().string());
+  Result<Session> opened = Session::open(path, options.session);
+  if (!opened.ok()) return tell(opened.error().message);
+  session = std::move(opened).value();
+  begin_session();
   tell("Opened " + path.filename().string());
 }
 
@@ -188,13 +207,15 @@ void SessionThread::State::frame() {
 void SessionThread::State::pace() {
   measure_rates();
   if (options.speed <= 0) return;
-  const auto length =
-      std::chrono::duration_cast<Clock::duration>(Seconds(session.scene().options.frame_seconds / options.speed));
-  next_frame += length;
+  const double length = std::min(session.scene().options.frame_seconds / options.speed, kLongestFrame);
+  next_frame += std::chrono::duration_cast<Clock::duration>(Seconds(length));
   const Clock::time_point now = Clock::now();
   if (now > next_frame + std::chrono::duration_cast<Clock::duration>(Seconds(kMostBehind))) next_frame = now;
-  std::unique_lock lock(mutex);
-  wakes.wait_until(lock, next_frame, [&] { return quits.load(); });
+  while (!quits && is_running() && Clock::now() < next_frame) {
+    if (run_commands()) publish();
+    std::unique_lock lock(mutex);
+    wakes.wait_until(lock, next_frame, [&] { return quits || !commands.empty(); });
+  }
 }
 
 /// Waits until there is something to do.
@@ -225,7 +246,7 @@ void SessionThread::State::publish() {
   if (quality->follow(engine.mesh(), engine.journal())) find_worst();
   view.quality = quality->now();
   check_validity();
-  view.body = bounds_of(view.surface);
+  view.body = surface_options.clip ? bounds_of(engine.mesh()) : bounds_of(view.surface);
   view.figures = session.figures();
   view.place = session.place();
   view.is_replay = session.is_replay();
@@ -247,6 +268,13 @@ void SessionThread::State::check_validity() {
   view.validity = validity->light();
 }
 
+/// While nothing else happens.
+bool SessionThread::State::has_new_light() {
+  const ValidityLight before = view.validity;
+  check_validity();
+  return view.validity.state != before.state || view.validity.text != before.text;
+}
+
 void SessionThread::State::find_worst() {
   worst.clear();
   if (options.worst_shown > 0) worst = quality->worst(options.worst_shown);
@@ -257,9 +285,8 @@ void SessionThread::State::score(const std::filesystem::path& json, const std::f
   if (!view.score) return tell("This scene is no exercise");
   options.is_paused = true;
   if (const Status status = write_text_file(json, to_json(*view.score)); !status.ok()) return tell(status);
-  if (!session.is_replay() && !session.is_recording()) {
-    if (const Status status = session.start_recording(attempt); !status.ok()) return tell(status);
-    session.stop_recording();
+  if (!session.is_replay()) {
+    if (const Status status = session.save_recording(attempt); !status.ok()) return tell(status);
   }
   tell("Score in " + json.string());
 }
@@ -339,7 +366,7 @@ void SessionThread::reset() {
   state_->post([s = state_.get()] {
     s->busy("Going back to the start");
     s->tell(s->session.reset());
-    s->look_at_session();
+    s->begin_session();
   });
 }
 void SessionThread::undo() {
@@ -368,6 +395,7 @@ void SessionThread::seek(std::uint64_t call) {
 }
 void SessionThread::seek_next_step() {
   state_->post([s = state_.get()] {
+    if (!s->session.is_replay()) return;
     s->options.is_paused = true;
     s->tell(s->session.seek_next_step(s->until_next_command()));
   });
@@ -413,7 +441,10 @@ void SessionThread::show_ideal(bool is_shown) {
   state_->post([s = state_.get(), is_shown] { s->shows_ideal = is_shown; });
 }
 void SessionThread::set_speed(double speed) {
-  state_->post([s = state_.get(), speed] { s->options.speed = speed; });
+  state_->post([s = state_.get(), speed] {
+    s->options.speed = speed;
+    s->next_frame = Clock::now();
+  });
 }
 
 }  // namespace app

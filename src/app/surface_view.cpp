@@ -91,6 +91,7 @@ struct SurfaceView::State {
   void mark_newest(const TetMesh& mesh);
   void find_front(const TetMesh& mesh);
   void find_contour();
+  void drop_clipped(std::vector<std::array<std::uint32_t, 2>>& edges) const;
 };
 
 void SurfaceView::State::rebuild(const TetMesh& mesh) {
@@ -269,7 +270,7 @@ void SurfaceView::State::publish(const TetMesh& mesh) {
   published = std::make_shared<const SurfaceTopology>(work);
 }
 
-/// Where a wall has no other wall beside it: an edge of walls that is there in one direction only.
+/// Where a wall has no other wall beside it: an edge of walls that is there once.
 void SurfaceView::State::find_contour() {
   auto& edges = work.contour_edges;
   edges.clear();
@@ -282,6 +283,23 @@ void SurfaceView::State::find_contour() {
     }
   }
   keep_single(edges);
+  drop_clipped(edges);
+}
+
+/// Where a clip plane ends a wall there is no rim.
+void SurfaceView::State::drop_clipped(std::vector<std::array<std::uint32_t, 2>>& edges) const {
+  std::vector<std::array<std::uint32_t, 2>> clipped;
+  const auto wall_point = [&](std::uint32_t point) { return point_of[kWallPoint][work.vertices[point].value]; };
+  for (std::size_t slot = 0; slot < work.triangles.size(); ++slot) {
+    if ((work.looks[slot].flags & TriangleLook::kInside) == 0) continue;
+    const auto& corners = work.triangles[slot];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = wall_point(corners[i]), to = wall_point(corners[(i + 1) % 3]);
+      clipped.push_back({std::min(from, to), std::max(from, to)});
+    }
+  }
+  std::sort(clipped.begin(), clipped.end());
+  std::erase_if(edges, [&](const auto& edge) { return std::binary_search(clipped.begin(), clipped.end(), edge); });
 }
 
 SurfaceView::SurfaceView(const TetMesh& mesh, const Journal& journal) : state_(std::make_unique<State>()) {

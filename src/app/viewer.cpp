@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <system_error>
 #include <utility>
@@ -57,11 +58,12 @@ struct Viewer::State {
   Hud hud;
   ToolMachine tools{ToolSettings{1, 0, 1, 1, 1, 1}};
   std::uint64_t session_seen = 0, notices_seen = 0;
-  std::string scene_seen;
+  std::optional<std::pair<std::string, std::uint64_t>> scene_seen;  // its title and its tets at the start
   bool is_changed = true;
   double now = 0, notice_until = 0;
   bool wants_screenshot = false;
-  std::uint64_t sequence_serial = 0, sequence_number = 0;
+  std::array<std::uint64_t, 3> sequence_frame{};  // that was saved last: session, frame, call
+  std::uint64_t sequence_number = 0;
   fs::path sequence_folder;
   fs::path attempt;  // the recording of what was scored last
   Vec3 clip_normal = Vec3::UnitX();
@@ -75,7 +77,9 @@ struct Viewer::State {
   void hand_over();
   void change_settings(double depth_factor, double tilt);
   void clip(bool is_on);
+  void clip_as(const HalfSpace& hidden);
   void show_surface();
+  void score();
   void show_ideal();
   void toggle_recording();
   void toggle_sequence();
@@ -98,7 +102,8 @@ void Viewer::handle(const PointerEvent& event, const Viewport& viewport) {
   State& s = *state_;
   PointerEvent seen = event;
   const bool is_press = event.kind == PointerEvent::Kind::kPress && event.button == PointerEvent::Button::kLeft;
-  const bool only_looks = s.tools.tool() == ToolKind::kOrbit || s.tools.tool() == ToolKind::kProbe;
+  const bool is_looking = s.tools.tool() == ToolKind::kOrbit || s.tools.tool() == ToolKind::kProbe;
+  const bool only_looks = event.alt || (is_looking && !event.shift);  // with Shift every tool grasps
   if (is_press && s.session.view().is_replay && !only_looks) {
     seen.alt = true;  // turns the view instead
     seen.shift = false;
@@ -224,8 +229,7 @@ bool Viewer::State::act_on_files(Action action) {
       toggle_sequence();
       return true;
     case Action::kScore:
-      attempt = free_name(options.folder, "incise-attempt", ".jsonl");
-      session.score(free_name(options.folder, "incise-score", ".json"), attempt);
+      score();
       return true;
     case Action::kIdeal:
       show_ideal();
@@ -236,6 +240,13 @@ bool Viewer::State::act_on_files(Action action) {
     default:
       return false;
   }
+}
+
+/// Of a recording that is played there is no other recording.
+void Viewer::State::score() {
+  const fs::path recording = free_name(options.folder, "incise-attempt", ".jsonl");
+  attempt = session.view().is_replay ? fs::path() : recording;
+  session.score(free_name(options.folder, "incise-score", ".json"), recording);
 }
 
 /// Beside the attempt that was scored, where there is one; else beside the blade from now on.
@@ -262,6 +273,7 @@ void Viewer::State::toggle_sequence() {
   if (!shown.saves_sequence) return say("Saved pictures in " + sequence_folder.string());
   sequence_folder = free_name(options.folder, "incise-pictures", "");
   sequence_number = 0;
+  sequence_frame = {};
   say("Saving pictures in " + sequence_folder.string());
 }
 
@@ -337,6 +349,16 @@ void Viewer::State::clip(bool is_on) {
     shown.clip_depth = 0.5;
   }
   show_surface();
+}
+
+/// The clip plane of a scene.
+void Viewer::State::clip_as(const HalfSpace& hidden) {
+  const Box& body = session.view().body;
+  const double middle = hidden.normal.dot(0.5 * (body.lo + body.hi));
+  const double reach = hidden.normal.cwiseAbs().dot(0.5 * (body.hi - body.lo));
+  shown.is_clipped = reach > 0;
+  clip_normal = hidden.normal;
+  if (shown.is_clipped) shown.clip_depth = 0.5 + 0.5 * (hidden.offset - middle) / reach;
 }
 
 void Viewer::State::show_surface() {
@@ -417,13 +439,16 @@ void Viewer::State::begin_session(const Viewport& viewport) {
   const SessionView& view = session.view();
   const Scene& scene = *view.scene;
   tools.reset(settings_for(view.body, stiffest(scene), scene.options.body.length_unit));
-  if (scene_seen != view.title) {  // the same scene from its start keeps the person's view
+  const std::pair scene_now(view.title, view.figures.tets_at_start);
+  if (scene_seen != scene_now) {  // the same scene from its start keeps the person's view
     picture.camera = camera_of(scene, view.body, free_part(viewport));
     if (!options.keeps_view) shown.options = view_options_of(scene);
     shown.options.shows_occlusion = options.shades_hollows;
+    shown.is_clipped = false;
+    if (scene.view && scene.view->clip && !options.keeps_view) clip_as(*scene.view->clip);
   }
-  scene_seen = view.title;
-  shown.is_clipped = false;
+  scene_seen = scene_now;
+  show_surface();
   session.set_hands(tools.hands());
 }
 
@@ -463,8 +488,10 @@ ToolMachine& Viewer::tools() {
 std::optional<fs::path> Viewer::take_screenshot() {
   State& s = *state_;
   if (std::exchange(s.wants_screenshot, false)) return free_name(s.options.folder, "incise", ".png");
-  if (!s.shown.saves_sequence || s.sequence_serial == s.session.view().serial) return std::nullopt;
-  s.sequence_serial = s.session.view().serial;
+  const SessionView& view = s.session.view();
+  const std::array<std::uint64_t, 3> frame = {view.session, view.figures.frames, view.place.call};
+  if (!s.shown.saves_sequence || s.sequence_frame == frame) return std::nullopt;
+  s.sequence_frame = frame;
   return s.sequence_folder / fmt::format("{:06}.png", ++s.sequence_number);
 }
 

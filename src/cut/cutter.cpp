@@ -99,7 +99,7 @@ class Cutter::Pipeline {
       motion_.begin(row, spacing_);
       return;
     }
-    material_.begin(mesh, stroke_cut_.surface(), row, spacing_);
+    material_.begin(mesh, stroke_cut_.surface(), row, spacing_, stroke_cut_.complex());
     motion_.begin(material_.anchors(), spacing_);
   }
   Result<CutStatistics> step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, const Vec3& direction,

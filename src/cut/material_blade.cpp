@@ -135,7 +135,8 @@ std::vector<Vec3> MaterialBlade::refined(std::span<const Vec3> row) const {
   return points;
 }
 
-void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row, double spacing) {
+void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row, double spacing,
+                          ClosedComplex& complex) {
   spacing_ = spacing;
   course_ = Vec3::Zero();
   set_parts(row);
@@ -152,6 +153,8 @@ void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std:
     nearest = point.hint;
     anchors_[i] = point.candidate;
     point.has_entered = point.tet.is_valid();
+    // A blade that is put in place inside tissue has its tip there: without it the blade would never be ahead.
+    if (point.has_entered) point.master = complex.adopt(mesh, point.tet);
   }
 }
 

@@ -19,8 +19,10 @@ namespace incise::inline v0 {
 /// Source: docs/internals.md (blades in a moving body).
 class MaterialBlade {
  public:
-  /// Starts at a row, `n ≥ 2` points as the body stands. `spacing`: a typical edge. Cost: O(points · near surface).
-  void begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row, double spacing);
+  /// Starts at a row, `n ≥ 2` points as the body stands; those in tissue have their tip there. `spacing`: a typical
+  /// edge. Cost: O(points · near surface).
+  void begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row, double spacing,
+             ClosedComplex& complex);
   /// The front: a rest point for each point of the blade.
   [[nodiscard]] std::span<const Vec3> anchors() const { return anchors_; }
 

@@ -133,8 +133,11 @@ Vec3 unit_normal_of(const TetMesh& mesh, const Master& master, unsigned side) {
   return length > 0 ? Vec3(normal / length) : Vec3(Vec3::Zero());
 }
 
+/// Stands for the tag of a side between two materials.
+constexpr std::uint32_t kBorder = kInvalidIndex;
+
 /// Calls `visit(normal, tag)` for the surfaces and material borders that a vertex lies on, side by side; the tag is
-/// that of a boundary side, 0 for a border.
+/// that of a boundary side, or `kBorder`.
 template <class Visit>
 void for_each_surface(const TetMesh& mesh, const ClosedComplex& complex, VertexId vertex,
                       std::span<const std::uint32_t> star, Visit&& visit) {
@@ -148,7 +151,7 @@ void for_each_surface(const TetMesh& mesh, const ClosedComplex& complex, VertexI
         if (link.is_boundary()) visit(unit_normal_of(mesh, master, s), link.tag());
       } else if (mesh.has_regions() &&
                  mesh.region(complex.children(complex[behind])[0]) != mesh.region(complex.children(master)[0])) {
-        visit(unit_normal_of(mesh, master, s), 0U);
+        visit(unit_normal_of(mesh, master, s), kBorder);
       }
     }
   }
@@ -313,8 +316,9 @@ class CloseVertices {
     const double spacing = mean_edge_length(mesh_, complex_, v, star, neighbours_);
     const OnVertex on{v, spacing, std::sqrt(hit.distance2), hit.point, hit.normal};
     const bool is_coincident = on.distance <= kCoincident * spacing;
-    if (!is_coincident &&
-        (on.distance > share * spacing || on.distance > snap * reach_of(on, star) * spacing || is_at_front(star))) {
+    if (is_coincident
+            ? waits_for_front(on, star)
+            : on.distance > share * spacing || on.distance > snap * reach_of(on, star) * spacing || is_at_front(star)) {
       return;
     }
     close_.push_back({on, noted.master, is_coincident});
@@ -332,14 +336,22 @@ class CloseVertices {
     if (has_landed(land_on_sheet(mesh_.rest(on.vertex), on, sheet_, constraint), on)) {
       return 1.0;
     }
-    return lies_along_wall(on, star) ? kWallReach : kBentReach;
+    return lies_along(on, star, 1) ? kWallReach : kBentReach;
   }
-  [[nodiscard]] bool lies_along_wall(const OnVertex& on, std::span<const std::uint32_t> star) const {
+  /// Whether a surface at a vertex lies along the sheet: one with a tag of at least `least_tag`, so 1 leaves out skin.
+  [[nodiscard]] bool lies_along(const OnVertex& on, std::span<const std::uint32_t> star,
+                                std::uint32_t least_tag) const {
     bool lies_along = false;
     for_each_surface(mesh_, complex_, on.vertex, star, [&](const Vec3& normal, std::uint32_t tag) {
-      lies_along |= tag != 0 && std::abs(normal.dot(on.normal)) > kAlong;
+      lies_along |= tag != kBorder && tag >= least_tag && std::abs(normal.dot(on.normal)) > kAlong;
     });
     return lies_along;
+  }
+  /// A vertex that coincides with the sheet absorbs what the sheet does around it, which is all of a cut that ends
+  /// inside the faces beside it: it is split beside until the blade has passed. Not where the sheet lies on a surface:
+  /// there is nothing to cut.
+  [[nodiscard]] bool waits_for_front(const OnVertex& on, std::span<const std::uint32_t> star) const {
+    return snap_ > 0 && is_at_front(star) && !lies_along(on, star, 0);
   }
 
   const TetMesh& mesh_;

@@ -32,7 +32,8 @@ struct SnapScratch {
 /// the sheet), is chosen where its distance to the sheet is at most `snap` times its mean edge length (half of that
 /// where it cannot be moved onto the sheet), nearest first, unless (i) a tet would get four such vertices, (ii) its
 /// flagged or unflagged neighbours are not connected in its link (two sheets pass near it, or a bubble), or its star
-/// was not face-connected at load. Vertices within `kCoincident` are chosen regardless of (ii), and at once.
+/// was not face-connected at load. Vertices within `kCoincident` are chosen regardless of (ii); at once where skin or a
+/// wall lies along the sheet, and where `snap` is 0.
 /// Marks them in the complex. Source: snapping before splitting as in Labelle & Shewchuk 2007 and level-set
 /// discretisation in Mmg; not in the paper, whose edge merging (§2.5) repairs afterwards what this avoids. Cost: one
 /// star per vertex close to the sheet.

@@ -35,7 +35,7 @@ constexpr std::array<InkRow, kStyles> kRows = {{
     {0xFF7A1F, 0xD55E00, LinePattern::kDashDot, BallGlyph::kDonut, FillPattern::kCrossed},        // worst
     {0xA9B4C0, 0x7A858F, LinePattern::kHollow, BallGlyph::kDisc, FillPattern::kPlain},            // tool
     {0xFFF3D6, 0xFFF3D6, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // front
-    {0x5A1210, 0x5A1210, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // contour
+    {0x6E1512, 0x6E1512, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // contour
 }};
 
 float lightness(const Rgb& c) {

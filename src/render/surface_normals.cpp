@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface_normals.h"
 
+#include <cmath>
+
 namespace incise::inline v0 {
 namespace render {
 
@@ -15,12 +17,14 @@ const std::vector<Eigen::Vector3f>& SurfaceNormals::average(std::span<const std:
   Four* sum = sums_.data();
   // A shader brings them to unit length, at no cost here. Free slots add zero.
   for (const auto& [a, b, c] : triangles) {
-    const Four area = cross(at[b] - at[a], at[c] - at[a]);
+    Four area = cross(at[b] - at[a], at[c] - at[a]);
+    area[3] = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
     sum[a] += area;
     sum[b] += area;
     sum[c] += area;
   }
-  for (std::size_t i = 0; i < count; ++i) normals_[i] = {sum[i][0], sum[i][1], sum[i][2]};
+  for (std::size_t i = 0; i < count; ++i)
+    normals_[i] = is_crease(sum[i]) ? Eigen::Vector3f::Zero().eval() : normal_of(sum[i]);
   return normals_;
 }
 

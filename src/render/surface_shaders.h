@@ -58,10 +58,7 @@ vec3 base_color(uvec4 look) {
 vec3 facing_normal(bool is_flat, vec3 to_eye) {
   vec3 flat_normal = normalize(cross(dFdx(view_position), dFdy(view_position)));  // of either side
   bool has_none = is_flat || dot(view_normal, view_normal) < 0.05;
-  flat_normal *= dot(flat_normal, to_eye) < 0.0 ? -1.0 : 1.0;
   vec3 n = has_none ? flat_normal : normalize(view_normal) * (gl_FrontFacing ? 1.0 : -1.0);
-  // Where the averaged normal leans far from the triangle's own there is an edge, and it shall look like one.
-  n = mix(flat_normal, n, smoothstep(0.72, 0.95, dot(n, flat_normal)));
   // Normals averaged on coarse meshes lean away from the eye at outlines; no light would then fit.
   return normalize(n + max(0.0, 0.05 - dot(n, to_eye)) * to_eye);
 }

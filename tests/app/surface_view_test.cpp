@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -253,6 +254,83 @@ bool is_closed(const SurfaceTopology& topology) {
     }
   }
   return std::all_of(balance.begin(), balance.end(), [](const auto& entry) { return entry.second == 0; });
+}
+
+/// How many edges of a set each point has.
+std::map<std::uint32_t, int> degrees(const std::vector<std::array<std::uint32_t, 2>>& edges) {
+  std::map<std::uint32_t, int> degrees;
+  for (const auto& [a, b] : edges) {
+    ++degrees[a];
+    ++degrees[b];
+  }
+  return degrees;
+}
+
+/// Of the graph of edges.
+std::size_t pieces_of(const std::vector<std::array<std::uint32_t, 2>>& edges) {
+  std::map<std::uint32_t, std::uint32_t> parent;
+  const auto root = [&](std::uint32_t point) {
+    while (parent.emplace(point, point).first->second != point) point = parent[point];
+    return point;
+  };
+  for (const auto& [a, b] : edges) parent[root(a)] = root(b);
+  return static_cast<std::size_t>(
+      std::count_if(parent.begin(), parent.end(), [](const auto& entry) { return entry.first == entry.second; }));
+}
+
+TEST(SurfaceView, WithoutCutsThereIsNoContour) {
+  View v;
+  EXPECT_TRUE(v.topology().contour_edges.empty());
+}
+
+TEST(SurfaceView, APartialCutsContourIsOneLoopOnTheSkin) {
+  View v;
+  ASSERT_TRUE(v.engine().begin_stroke(View::pose(1.1)).ok());
+  ASSERT_TRUE(v.engine().step(View::pose(0.45)).ok());
+  ASSERT_TRUE(v.engine().end_stroke().ok());
+  v.follow();
+  ASSERT_FALSE(v.topology().contour_edges.empty());
+  EXPECT_EQ(pieces_of(v.topology().contour_edges), 1U);
+  for (const auto& [point, degree] : degrees(v.topology().contour_edges)) EXPECT_EQ(degree, 2);
+  for (const auto& edge : v.topology().contour_edges) {
+    for (const std::uint32_t point : edge) {
+      const Vec3 at = v.mesh().rest(v.topology().vertices[point]);
+      EXPECT_NEAR(at.x(), 0.47, 1e-9);
+      EXPECT_LT(std::min({at.y(), 1 - at.y(), 1 - at.z()}), 1e-9);
+    }
+  }
+}
+
+TEST(SurfaceView, ACompleteCutsContourIsTwoClosedLoops) {
+  View v;
+  v.cut_plane(Vec3(1, 0.1, 0), 0.5);
+  v.follow();
+  EXPECT_EQ(pieces_of(v.topology().contour_edges), 2U);
+  for (const auto& [point, degree] : degrees(v.topology().contour_edges)) EXPECT_EQ(degree, 2);
+}
+
+TEST(SurfaceView, TheContourGoesWithUndo) {
+  View v;
+  v.cut_plane(Vec3(1, 0.1, 0), 0.5);
+  v.follow();
+  v.engine().undo();
+  v.follow();
+  EXPECT_TRUE(v.topology().contour_edges.empty());
+}
+
+TEST(SurfaceView, AClipPlaneMakesNoContour) {
+  View v;
+  v.cut_plane(Vec3(1, 0.1, 0), 0.5);
+  v.follow();
+  std::map<std::pair<VertexId, VertexId>, int> whole;
+  const auto key = [&](const std::array<std::uint32_t, 2>& edge) -> std::pair<VertexId, VertexId> {
+    return std::minmax(v.topology().vertices[edge[0]], v.topology().vertices[edge[1]]);
+  };
+  for (const auto& edge : v.topology().contour_edges) ++whole[key(edge)];
+  v.view().set_options({HalfSpace{Vec3::UnitZ(), 0.5}});
+  v.follow();
+  EXPECT_LT(v.topology().contour_edges.size(), whole.size());
+  for (const auto& edge : v.topology().contour_edges) EXPECT_EQ(whole.count(key(edge)), 1U);
 }
 
 TEST(SurfaceView, AClipPlaneShowsAClosedSurface) {

@@ -57,7 +57,7 @@ TEST_F(CliErrors, usage) {
 
 TEST_F(CliErrors, pictures_have_names_of_their_own) {
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--picture=p.jpg"}, 2, "pictures are .png");
-  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--report=p.png", "--picture=p.png"}, 2, "name of its own");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--record=p.png", "--picture=p.png"}, 2, "name of its own");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--picture=no/folder/p.png"}, 1, "folder does not exist");
 }
 

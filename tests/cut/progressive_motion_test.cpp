@@ -459,6 +459,62 @@ TEST_P(Motion, of_body_and_blade_together_cuts_nothing) {
   EXPECT_EQ(stepped.piece_count(), 1U);
 }
 
+/// A blade inside the body and one that hangs into it from above, each moved from within it along x.
+std::vector<Stroke> strokes_begun_inside() {
+  const Stroke buried =
+      quad_stroke(Vec3(0.25, 0.3, 0.47), Vec3(0.25, 0.7, 0.5), Vec3(0.75, 0.28, 0.53), Vec3(0.75, 0.72, 0.52), 24);
+  const Stroke hanging =
+      quad_stroke(Vec3(0.2, 0.45, 1.1), Vec3(0.2, 0.45, 0.6), Vec3(0.8, 0.47, 1.1), Vec3(0.8, 0.47, 0.6), 24);
+  return {buried, hanging};
+}
+
+TEST_P(Motion, begun_inside_a_body_that_has_moved_cuts_from_there) {
+  for (const Stroke& stroke : strokes_begun_inside()) {
+    SteppedEngine at_rest(jittered_cube(5, 91), options());
+    at_rest.run(stroke);
+    for (const double by : {1e-9, 0.3}) {
+      SCOPED_TRACE(by);
+      SteppedEngine moved(jittered_cube(5, 91), options());
+      moved.deform([&](VertexId v) -> Vec3 { return moved.mesh().rest(v) + by * Vec3(1, -2, 0.5); });
+      Stroke along = stroke;
+      for (auto& edge : along.edges) {
+        for (Vec3& p : edge) p += by * Vec3(1, -2, 0.5);
+      }
+      moved.run(along);
+      EXPECT_GE(wall_area(moved.mesh()), 0.9 * wall_area(at_rest.mesh()));
+      EXPECT_LE(wall_area(moved.mesh()), 1.1 * wall_area(at_rest.mesh()));
+      EXPECT_EQ(moved.piece_count(), 1U);
+    }
+  }
+}
+
+TEST_P(Motion, begun_inside_a_body_that_waves_cuts_from_there) {
+  for (const Stroke& stroke : strokes_begun_inside()) {
+    SteppedEngine stepped(jittered_cube(5, 92), options());
+    const auto waves = [&](std::size_t i) {
+      const double t = (1.0 + static_cast<double>(i)) / 25;
+      stepped.deform([&](VertexId v) -> Vec3 {
+        return stepped.mesh().rest(v) + wave(stepped.mesh().rest(v), t, 0.1 * stepped.h());
+      });
+    };
+    stepped.run(stroke, waves);
+    EXPECT_GE(wall_area(stepped.mesh()), 0.15);
+    EXPECT_EQ(stepped.piece_count(), 1U);
+  }
+}
+
+TEST_P(Motion, begun_inside_against_its_direction_cuts_nothing_before_it_turns) {
+  SteppedEngine stepped(jittered_cube(5, 93), options());
+  stepped.deform([&](VertexId v) -> Vec3 { return stepped.mesh().rest(v) + Vec3(1e-9, 0, 0); });
+  const auto pose = [](double x) { return BladePose{{Vec3(x, 0.45, 1.1), Vec3(x, 0.45, 0.6)}, Vec3::UnitX()}; };
+  stepped.begin(pose(0.5));
+  for (double x = 0.47; x > 0.3; x -= 0.03) stepped.step(pose(x));
+  EXPECT_EQ(wall_area(stepped.mesh()), 0.0);
+  for (double x = 0.3; x < 0.8; x += 0.03) stepped.step(pose(x));
+  stepped.end();
+  EXPECT_NEAR(wall_area(stepped.mesh()), 0.3 * 0.4, 0.03);
+}
+
 // --- bodies that are not whole
 // ------------------------------------------------------------------------------------------------------------
 

@@ -154,6 +154,48 @@ TEST_P(Progressive, blades_that_start_inside_cut_from_there) {
   expect_exact_front(stepped, stroke, tag, 4);
 }
 
+/// A blade that hangs `depth` deep into the cube and is moved along the direction `along`, from `from` on.
+Stroke dragged(const Vec3& from, const Vec3& along, double depth) {
+  const Vec3 top = from + Vec3(0, 0, 1.0625), tip = from + Vec3(0, 0, 1.0 - depth);
+  return quad_stroke(top + 0.2 * along, tip + 0.2 * along, top + 0.8 * along, tip + 0.8 * along, 30);
+}
+
+/// How much of the swept area a stroke opens in the cube of 6³ cells, whose tets have sides in the stroke's plane.
+double opened_share(const Stroke& stroke, const Vec3& along, double depth) {
+  SteppedEngine stepped(kuhn_cube(6), {0.2, false});
+  stepped.run(stroke);
+  EXPECT_EQ(stepped.piece_count(), 1U);
+  return wall_area(stepped.mesh()) / (0.6 * along.norm() * depth);
+}
+
+TEST(PlanesOfFaces, are_opened_by_a_blade_dragged_along_them_however_shallow) {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY();
+  for (const double depth : {0.05, 0.125, 0.2, 1.0 / 3.0, 0.45}) {
+    for (const double off : {0.0, 1e-9}) {
+      SCOPED_TRACE(testing::Message() << "depth " << depth << ", " << off << " off the plane");
+      EXPECT_GE(opened_share(dragged((0.5 + off) * y, x, depth), x, depth), 0.75);
+      EXPECT_GE(opened_share(dragged((0.5 + off) * x, y, depth), y, depth), 0.75);
+      EXPECT_GE(opened_share(dragged(off * x, x + y, depth), x + y, depth), 0.75);
+    }
+  }
+}
+
+TEST(PlanesOfFaces, on_the_skin_are_left_alone) {
+  SteppedEngine stepped(kuhn_cube(6), {0.2, false});
+  stepped.run(dragged(Vec3(0, 1, 0), Vec3::UnitX(), 0.125));
+  EXPECT_EQ(wall_area(stepped.mesh()), 0.0);
+  EXPECT_EQ(stepped.mesh().hash(), stepped.input().hash());
+}
+
+TEST(PlanesOfFaces, cut_before_are_left_alone) {
+  SteppedEngine stepped(kuhn_cube(6), {0.2, false});
+  stepped.run(subdivided(
+      quad_stroke(Vec3(-0.2, 0.5, 1.2), Vec3(-0.2, 0.5, -0.2), Vec3(1.2, 0.5, 1.2), Vec3(1.2, 0.5, -0.2)), 20));
+  const std::uint64_t hash = stepped.mesh().hash();
+  stepped.run(dragged(0.5 * Vec3::UnitY(), Vec3::UnitX(), 0.125));
+  EXPECT_EQ(stepped.mesh().hash(), hash);
+}
+
 TEST_P(Progressive, every_step_cuts_up_to_the_blade) {
   SteppedEngine stepped(body(), options());
   const Stroke stroke = fitted(downwards(0.77, 0.77, 30));

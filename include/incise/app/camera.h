@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "incise/geom/box.h"
 #include "incise/geom/vec.h"
@@ -60,6 +61,8 @@ void pan(Camera& camera, const Viewport& viewport, const Vec2& pixels);
 void zoom(Camera& camera, double factor, const Box& scene);
 /// Looks at the whole of a box from where it looks now. Keeps the camera where the box is empty.
 void frame_all(Camera& camera, const Viewport& viewport, const Box& scene);
+/// Looks at all of some points as `frame_all` does, but no further away than these need.
+void frame_points(Camera& camera, const Viewport& viewport, std::span<const Eigen::Vector3f> points);
 /// Looks along a direction, of any length but zero.
 void look_along(Camera& camera, const Vec3& direction);
 

@@ -17,7 +17,8 @@ struct ProbeInfo {
   TetId tet;
   TetVertices vertices{};
   std::int32_t region = 0;
-  std::uint32_t stroke = 0;                           ///< that made the side; 0: skin
+  std::uint32_t stroke = 0;                           ///< that made the side; 0: skin, or no boundary
+  bool is_inside = false;                             ///< the side is between two tets, seen because of a clip plane
   double lr = 0;                                      ///< at rest
   double dihedral_min_deg = 0, dihedral_max_deg = 0;  ///< at rest
   double volume = 0;                                  ///< at rest, length unit³

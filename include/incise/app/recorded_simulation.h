@@ -44,6 +44,8 @@ class RecordedSimulation {
   /// Cost: O(calls so far).
   Status start_recording(const std::filesystem::path& path);
   void stop_recording() { writer_.reset(); }
+  /// Writes a recording of the session so far, beside one that is under way. Errors and cost: as `start_recording`.
+  [[nodiscard]] Status save_recording(const std::filesystem::path& path) const;
   [[nodiscard]] bool is_recording() const { return writer_.has_value(); }
 
   /// Milliseconds that the simulation took for the last call, recording not counted.
@@ -59,6 +61,7 @@ class RecordedSimulation {
 
   RecordedSimulation(Simulation simulation, std::optional<SimulationWriter> writer, std::optional<Past> past);
 
+  [[nodiscard]] Result<SimulationWriter> write_past(const std::filesystem::path& path) const;
   template <class Call>
   auto timed(const Call& call);
   template <class Outcome>

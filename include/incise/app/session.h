@@ -21,8 +21,8 @@
 namespace incise::inline v0 {
 namespace app {
 
-/// The scene of a mesh without one: soft tissue (20 kPa, 1000 kg/m³) whose longest side is 10 cm, standing on its
-/// lowest tenth under gravity along −`up`.
+/// The scene of a mesh without one: soft tissue (20 kPa, 1000 kg/m³) whose longest side is 10 cm, held by its
+/// lowest tenth on a table under gravity along −`up`.
 ///
 /// @param body  the mesh's bounds, in its own unit. @param up  unit.
 [[nodiscard]] Scene scene_of_mesh(const std::filesystem::path& mesh, const Box& body, const Vec3& up);
@@ -87,7 +87,8 @@ class Session {
   [[nodiscard]] bool is_following() const;
   Result<bool> undo();
   Result<bool> redo();
-  /// Back to the start, a recording of the session included: it begins again under the same name with a number.
+  /// Back to the start, a recording of the session included: it begins again under the same name with a number,
+  /// the first that no file has.
   Status reset();
 
   [[nodiscard]] bool is_replay() const;
@@ -104,6 +105,8 @@ class Session {
   Status start_recording(const std::filesystem::path& path);
   void stop_recording();
   [[nodiscard]] bool is_recording() const;
+  /// Writes a recording of the session so far, beside one that is under way. Errors: as `start_recording`.
+  [[nodiscard]] Status save_recording(const std::filesystem::path& path) const;
   /// Writes the mesh as it is at rest, with regions, pieces and strokes. Errors: as `io::write_mesh`.
   Status export_mesh(const std::filesystem::path& path) const;
 

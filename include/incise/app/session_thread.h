@@ -22,14 +22,14 @@ struct SessionView {
   std::uint64_t session = 0;  ///< grows with every file that is opened: the camera and the tools begin anew
   std::uint64_t serial = 0;   ///< grows with everything that happens
   SurfaceFrame surface;
-  Box body;     ///< around the surface
+  Box body;     ///< around the body, what a clip plane hides included
   Marks marks;  ///< of the session, of what is probed, and of the worst tets where they are asked for
   std::shared_ptr<const Scene> scene;
   std::string title;
   SessionFigures figures;
   QualityFigures quality, quality_before;
   ValidityLight validity;
-  std::shared_ptr<const std::vector<Operation>> log;  ///< never null
+  std::shared_ptr<const std::vector<Operation>> log = std::make_shared<const std::vector<Operation>>();  ///< never null
   std::optional<ProbeInfo> probe;
   std::optional<ExerciseScore> score;  ///< once it was asked for, until the body starts anew
   ReplayPlace place;
