@@ -172,7 +172,9 @@ void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, Cu
   statistics.created_tets += mesh.tet_count() - tets;
   statistics.new_vertices += mesh.vertex_count() - vertices;
   statistics.copied_vertices += done.copied_vertices;
-  statistics.incision_faces += (done.opened_sides - done.closed_sides) / 2;
+  // A step may close more sides than it opens; the sum over a stroke counts what is open at its end.
+  const auto opened = static_cast<std::int64_t>(done.opened_sides) - static_cast<std::int64_t>(done.closed_sides);
+  statistics.incision_faces += static_cast<std::uint64_t>(opened / 2);
   statistics.crumbs_kept += done.crumbs_kept;
   statistics.latent_faces += done.latent_faces;
   if (!step.is_empty()) journal.append(std::move(step));

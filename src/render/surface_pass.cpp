@@ -107,13 +107,15 @@ Status SurfacePass::upload(const app::SurfaceFrame& frame, DrawStatistics& stati
   glBindVertexArray(array_.id());
   std::size_t bytes = positions_.update(frame.positions.data(), frame.positions.size(), sizeof(Eigen::Vector3f));
   std::size_t look_bytes = 0;
-  if (frame.topology != topology_) {
+  const bool is_new = frame.topology != topology_;
+  if (is_new) {
     bytes += triangles_.update(topology.triangles.data(), topology.triangles.size(), sizeof topology.triangles[0]);
     look_bytes = looks_.update(topology.looks.data(), topology.looks.size(), sizeof(app::TriangleLook));
   }
   topology_ = frame.topology;
   statistics.upload_ms += watch.lap();
   if (bytes > 0) {
+    if (is_new) averages_.find_creases(topology.triangles, frame.positions);
     const std::vector<Eigen::Vector3f>& normals = averages_.average(topology.triangles, frame.positions);
     statistics.normals_ms += watch.lap();
     bytes += normals_.update(normals.data(), normals.size(), sizeof(Eigen::Vector3f));
