@@ -32,7 +32,8 @@ class Photographer {
         surface_(session.mesh(), session.engine().journal()),
         renderer_(std::move(renderer)),
         target_(std::move(target)) {
-    surface_.set_options({arguments.clip});
+    const std::optional<app::SceneView>& view = session.scene().view;
+    surface_.set_options({arguments.clip || !view ? arguments.clip : view->clip});
   }
 
   Status take(const app::Session& session, const std::filesystem::path& file);
