@@ -6,6 +6,7 @@
 #include <map>
 
 #include "exit_code.h"
+#include "incise/app/blade_file.h"
 #include "incise/app/key_bindings.h"
 #include "incise/app/scene_simulation.h"
 #include "incise/mesh/bounds.h"
@@ -213,6 +214,11 @@ Result<app::Session> open_session(const Arguments& arguments) {
   const app::SessionOptions options = arguments.session_options();
   return arguments.file.empty() ? app::Session::open(cube_scene(), options)
                                 : app::Session::open(arguments.file, options);
+}
+
+Result<std::vector<Stroke>> device_strokes(const Arguments& arguments) {
+  if (arguments.device == "mouse" || arguments.device == "none") return std::vector<Stroke>();
+  return app::read_blade(arguments.device);
 }
 
 }  // namespace incise_view

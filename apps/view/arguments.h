@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "incise/app/picture.h"
 #include "incise/app/session.h"
@@ -48,5 +49,8 @@ std::optional<int> parse(int argc, char** argv, Arguments& arguments);
 
 /// The session that the arguments name. Errors: as `Session::open`.
 incise::Result<incise::app::Session> open_session(const Arguments& arguments);
+
+/// What the hand of `--device` does by itself; nothing for a mouse. Errors: as `read_blade`.
+incise::Result<std::vector<incise::Stroke>> device_strokes(const Arguments& arguments);
 
 }  // namespace incise_view

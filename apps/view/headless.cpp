@@ -107,15 +107,6 @@ Status run(const Arguments& a, app::Session& session, Photographer& photographer
   return a.screenshot.empty() ? Status() : photographer.take(session, a.screenshot);
 }
 
-/// The hand of `--device`.
-Status hand_over(const Arguments& a, app::Session& session) {
-  if (a.device == "mouse" || a.device == "none") return {};
-  const Result<std::vector<Stroke>> strokes = app::read_blade(a.device);
-  if (!strokes.ok()) return strokes.error();
-  for (const Stroke& stroke : *strokes) session.follow(stroke);
-  return {};
-}
-
 /// What `--trajectory` names.
 Result<std::vector<Stroke>> trajectory_of(const Arguments& a) {
   return a.trajectory.empty() ? std::vector<Stroke>() : app::read_blade(a.trajectory);
@@ -126,9 +117,9 @@ Result<std::vector<Stroke>> trajectory_of(const Arguments& a) {
 int run_headless(const Arguments& arguments) {
   Result<app::Session> session = open_session(arguments);
   if (!session.ok()) return fail(kBadInput, session.error().message);
-  if (const Status status = hand_over(arguments, *session); !status.ok()) {
-    return fail(kBadInput, status.error().message);
-  }
+  const Result<std::vector<Stroke>> strokes = device_strokes(arguments);
+  if (!strokes.ok()) return fail(kBadInput, strokes.error().message);
+  for (const Stroke& stroke : *strokes) session->follow(stroke);
   Result<std::vector<Stroke>> trajectory = trajectory_of(arguments);
   if (!trajectory.ok()) return fail(kBadInput, trajectory.error().message);
   const Result<render::HeadlessContext> context = render::HeadlessContext::create();

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "exit_code.h"
-#include "incise/app/blade_file.h"
 #include "incise/app/session_thread.h"
 #include "incise/app/viewer.h"
 #include "incise/render/headless_context.h"
@@ -159,15 +158,6 @@ void Application::save_picture() {
   if (!std::as_const(viewer_).state().saves_sequence) viewer_.notify("Saved " + file->string());
 }
 
-/// Lets the blade of `--device` do its strokes.
-Status hand_over(const Arguments& arguments, app::SessionThread& session) {
-  if (arguments.device == "mouse" || arguments.device == "none") return {};
-  const Result<std::vector<Stroke>> strokes = app::read_blade(arguments.device);
-  if (!strokes.ok()) return strokes.error();
-  for (const Stroke& stroke : *strokes) session.follow(stroke);
-  return {};
-}
-
 /// Software renderers smooth edges at a price that is better spent on pictures.
 unsigned samples_of(const Arguments& arguments, const Window& window) {
   return arguments.samples.value_or(render::is_software_renderer(window.renderer_name()) ? 0 : kSamples);
@@ -178,6 +168,8 @@ unsigned samples_of(const Arguments& arguments, const Window& window) {
 int run_window(const Arguments& arguments) {
   Result<app::Session> opened = open_session(arguments);
   if (!opened.ok()) return fail(kBadInput, opened.error().message);
+  const Result<std::vector<Stroke>> strokes = device_strokes(arguments);
+  if (!strokes.ok()) return fail(kBadInput, strokes.error().message);
   Result<Window> window = Window::open("Incise", arguments.size, 0);
   if (!window.ok()) return fail(kNoDisplay, window.error().message);
   Result<render::Renderer> renderer = render::Renderer::create(samples_of(arguments, *window));
@@ -188,9 +180,7 @@ int run_window(const Arguments& arguments) {
   options.is_paused = arguments.is_paused;
   options.speed = arguments.speed;
   app::SessionThread session(std::move(opened).value(), options);
-  if (const Status status = hand_over(arguments, session); !status.ok()) {
-    return fail(kBadInput, status.error().message);
-  }
+  for (const Stroke& stroke : *strokes) session.follow(stroke);
   Application application(arguments, *window, std::move(renderer).value(), session);
   return application.run();
 }
