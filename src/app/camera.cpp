@@ -38,6 +38,27 @@ double focal_length(const Camera& camera, const Viewport& viewport) {
   return 0.5 * viewport.height / std::tan(0.5 * camera.field_of_view);
 }
 
+/// Looks at points from where they all are within the picture, and no further away.
+template <class Point>
+void frame(Camera& camera, const Viewport& viewport, const Point* points, std::size_t count) {
+  const Vec3 right = camera.right(), upward = camera.upward(), backward = camera.backward();
+  Box seen;  // in the camera's axes
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 p = points[i].template cast<double>();
+    seen.extend(Vec3(p.dot(right), p.dot(upward), p.dot(backward)));
+  }
+  const Vec3 middle = 0.5 * (seen.lo + seen.hi);
+  camera.target = middle.x() * right + middle.y() * upward + middle.z() * backward;
+  const double vertical = std::tan(0.5 * camera.field_of_view);
+  double distance = kNearest * size_of(seen);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 to = points[i].template cast<double>() - camera.target;
+    const double reach = std::max(std::abs(to.dot(upward)), std::abs(to.dot(right)) / viewport.aspect()) / vertical;
+    distance = std::max(distance, kMargin * reach + to.dot(backward));
+  }
+  camera.distance = distance;
+}
+
 }  // namespace
 
 Vec3 Camera::backward() const {
@@ -118,33 +139,16 @@ void zoom(Camera& camera, double factor, const Box& scene) {
 
 void frame_all(Camera& camera, const Viewport& viewport, const Box& scene) {
   if (scene.is_empty()) return;
-  std::array<Eigen::Vector3f, 8> corners;
+  std::array<Vec3, 8> corners;
   for (unsigned i = 0; i < 8; ++i) {
     corners[i] = Vec3((i & 1U) != 0 ? scene.hi.x() : scene.lo.x(), (i & 2U) != 0 ? scene.hi.y() : scene.lo.y(),
-                      (i & 4U) != 0 ? scene.hi.z() : scene.lo.z())
-                     .cast<float>();
+                      (i & 4U) != 0 ? scene.hi.z() : scene.lo.z());
   }
-  frame_points(camera, viewport, corners);
+  frame(camera, viewport, corners.data(), corners.size());
 }
 
 void frame_points(Camera& camera, const Viewport& viewport, std::span<const Eigen::Vector3f> points) {
-  if (points.empty()) return;
-  const Vec3 right = camera.right(), upward = camera.upward(), backward = camera.backward();
-  Box seen;  // in the camera's axes
-  for (const Eigen::Vector3f& point : points) {
-    const Vec3 p = point.cast<double>();
-    seen.extend(Vec3(p.dot(right), p.dot(upward), p.dot(backward)));
-  }
-  const Vec3 middle = 0.5 * (seen.lo + seen.hi);
-  camera.target = middle.x() * right + middle.y() * upward + middle.z() * backward;
-  const double vertical = std::tan(0.5 * camera.field_of_view);
-  double distance = kNearest * std::max(size_of(seen), 1e-300);
-  for (const Eigen::Vector3f& point : points) {  // each is within the picture from this far away
-    const Vec3 to = point.cast<double>() - camera.target;
-    const double reach = std::max(std::abs(to.dot(upward)), std::abs(to.dot(right)) / viewport.aspect()) / vertical;
-    distance = std::max(distance, kMargin * reach + to.dot(backward));
-  }
-  camera.distance = distance;
+  if (!points.empty()) frame(camera, viewport, points.data(), points.size());
 }
 
 void look_along(Camera& camera, const Vec3& direction) {

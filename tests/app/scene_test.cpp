@@ -121,7 +121,7 @@ TEST(SceneView, frames_the_body_from_where_the_scene_says) {
   Json json = least_scene();
   const app::Camera plain = camera_of(parsed(json), body, viewport);
   EXPECT_EQ(plain.up, Vec3(0, 0, 1));
-  EXPECT_EQ(plain.target, Vec3(2, 1, 0.5));
+  EXPECT_TRUE(plain.target.isApprox(Vec3(2, 1, 0.5), 1e-12));
   json["view"] = {{"from", {3, 0, 4}}, {"zoom", 2}};
   const app::Camera seen = camera_of(parsed(json), body, viewport);
   EXPECT_TRUE(seen.backward().isApprox(Vec3(0.6, 0, 0.8), 1e-12));

@@ -29,11 +29,12 @@ TetMesh cube_with_regions() {
   return build(std::move(soup));
 }
 
-/// A cube cut along x = 0.5, on faces of the mesh, up to the height 0.5.
+/// A cube cut along x = 0.5, on faces of the mesh, up to the height 0.5: without snapping, what lies in the sheet is
+/// taken as far as the faces go.
 TetMesh cube_with_slit() {
   return cut_mesh(kuhn_cube(4),
                   quad_stroke(Vec3(0.5, -0.1, -0.1), Vec3(0.5, 1.1, -0.1), Vec3(0.5, -0.1, 0.55), Vec3(0.5, 1.1, 0.55)),
-                  0.2);
+                  0);
 }
 
 // --- what a vertex is part of
