@@ -57,8 +57,8 @@ void expect_golden(const app::Picture& picture, const std::string& name,
 }
 
 const incise_test::WoundedCube& cube() {
-  static const incise_test::WoundedCube wounded;
-  return wounded;
+  static const incise_test::WoundedCube kWounded;
+  return kWounded;
 }
 
 /// One mark of each kind in several inks, in and around the cube.
