@@ -85,6 +85,7 @@ quit_window() {
 has() { grep -q -- "$1" session.jsonl; }
 lifted() { has '"blade"' && ! tail -n 1 session.jsonl | grep -q '"blade"'; }
 picked() { "$bin/incise_picture_check" "$@" || fail "pictures $*"; }
+changed() { take_picture "$2" && "$bin/incise_picture_check" "$1.png" "$2.png"; } # changed BEFORE AFTER
 
 start_server
 
@@ -94,8 +95,7 @@ take_picture uncut || fail "no picture of the cube"
 picked uncut.png
 drag 560 340 760 400
 wait_for "the end of a stroke" lifted
-take_picture cut || fail "no picture of the cut"
-picked uncut.png cut.png
+wait_for "a picture of the cut" changed uncut cut
 xdotool key ctrl+z
 wait_for "undo" has '"undo"'
 xdotool key ctrl+shift+z
@@ -113,9 +113,7 @@ quit_window
 open_window --paused session.jsonl
 take_picture before || fail "no picture of the replay"
 xdotool key n
-sleep 1
-wait_for "a picture of the next step" take_picture step
-picked before.png step.png
+wait_for "a picture of the next step" changed before step
 xdotool key g
 sleep 0.5
 xdotool key v
