@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <random>
@@ -36,7 +37,8 @@ bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 }
 
 Result<io::MeshFile> round_trip(const io::MeshData& data, const std::string& extension) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("incise_round_trip" + extension);
+  const std::string process = std::to_string(::getpid());  // tests run beside each other
+  const fs::path folder = fs::path(testing::TempDir()) / ("incise_round_trip" + extension + "." + process);
   fs::remove_all(folder);
   fs::create_directories(folder);
   const fs::path path = folder / ("mesh" + extension);
@@ -45,7 +47,9 @@ Result<io::MeshFile> round_trip(const io::MeshData& data, const std::string& ext
   const bool pair = extension.find(".node") == 0 || extension.find(".ele") == 0;
   const auto files = std::distance(fs::directory_iterator(folder), fs::directory_iterator());
   EXPECT_EQ(files, pair ? 2 : 1) << "temporary files were left behind";
-  return io::read_mesh(path);
+  auto back = io::read_mesh(path);
+  fs::remove_all(folder);
+  return back;
 }
 
 class WriteMesh : public testing::TestWithParam<const char*> {};
