@@ -64,6 +64,7 @@ class Application {
   int frames_to_draw_ = kSettlingFrames;
   bool is_dragging_ = false;  // from the picture, wherever the pointer is meanwhile
   bool has_printed_ = false;  // the score
+  std::string complaint_;     // the last one about drawing
   std::string title_;
 };
 
@@ -132,6 +133,7 @@ void Application::draw() {
   const double begin = seconds_now();
   if (const Status status = renderer_.draw(viewer_.picture(), panels_.viewport, 0); !status.ok()) {
     viewer_.notify(status.error().message);
+    if (std::exchange(complaint_, status.error().message) != status.error().message) fail(kFailure, complaint_);
   }
   save_picture();
   interface_.draw();
