@@ -37,12 +37,12 @@ double seconds_now() {
 class Application {
  public:
   Application(const Arguments& arguments, Window& window, render::Renderer renderer, app::SessionThread& session)
-      : arguments_(arguments),
-        window_(window),
+      : window_(window),
         renderer_(std::move(renderer)),
         interface_(window),
         panels_{{}, window.renderer_name(), render::is_software_renderer(window.renderer_name())},
-        viewer_(session, {".", arguments.view, arguments.has_view, !panels_.is_software, kFreeShare}) {}
+        viewer_(session, {".", arguments.view, arguments.has_view, !panels_.is_software, arguments.device == "mouse",
+                          kFreeShare}) {}
 
   ExitCode run();
 
@@ -55,7 +55,6 @@ class Application {
   void print_score();
   void save_picture();
 
-  const Arguments& arguments_;
   Window& window_;
   render::Renderer renderer_;
   Interface interface_;
@@ -119,10 +118,6 @@ void Application::handle_events() {
 /// A drag that began in the picture stays the picture's; one that began on a panel stays the panel's.
 void Application::handle(const app::PointerEvent& event) {
   using Kind = app::PointerEvent::Kind;
-  if (arguments_.device != "mouse" && event.button == app::PointerEvent::Button::kLeft && !event.alt &&
-      event.kind != Kind::kWheel) {
-    return;
-  }
   if (!is_dragging_ && interface_.wants_pointer()) return;
   if (event.kind == Kind::kPress) is_dragging_ = true;
   if (event.kind == Kind::kRelease) is_dragging_ = false;

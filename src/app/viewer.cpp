@@ -104,11 +104,14 @@ void Viewer::handle(const PointerEvent& event, const Viewport& viewport) {
   const bool is_press = event.kind == PointerEvent::Kind::kPress && event.button == PointerEvent::Button::kLeft;
   const bool is_looking = s.tools.tool() == ToolKind::kOrbit || s.tools.tool() == ToolKind::kProbe;
   const bool only_looks = event.alt || (is_looking && !event.shift);  // with Shift every tool grasps
-  if (is_press && s.session.view().is_replay && !only_looks) {
+  const bool is_watched = !s.options.mouse_is_hand || s.session.view().is_replay;
+  if (is_press && is_watched && !only_looks) {
     seen.alt = true;  // turns the view instead
     seen.shift = false;
+  }
+  if (is_press && s.session.view().is_replay && !only_looks) {
     s.say("A recording is played: " + key_of(Action::kTakeOver) + " goes on by hand from here");
-  } else if (is_press && s.session.view().is_paused && !only_looks) {
+  } else if (is_press && s.session.view().is_paused && !is_watched && !only_looks) {
     s.say("Paused: " + key_of(Action::kPause) + " goes on");
   }
   s.tools.handle(seen, s.context(viewport), s.picture.camera);

@@ -428,6 +428,22 @@ TEST_F(ViewerTest, a_replay_refuses_the_scalpel_and_turns_the_view_instead) {
   EXPECT_NE(camera().eye(), eye);
 }
 
+TEST_F(ViewerTest, a_mouse_that_is_no_hand_turns_the_view_with_either_button) {
+  app::ViewerOptions options;
+  options.mouse_is_hand = false;
+  show(opened(still_scene()), options);
+  for (const bool shift : {false, true}) {
+    const Vec3 eye = camera().eye();
+    send(Kind::kPress, top(0.5), shift);
+    send(Kind::kMove, top(0.5) + Vec2(50, 20), shift);
+    EXPECT_FALSE(viewer_->tools().hands().blade.has_value());
+    EXPECT_TRUE(viewer_->tools().hands().hooks.empty());
+    EXPECT_NE(camera().eye(), eye);
+    send(Kind::kRelease, top(0.5));
+  }
+  EXPECT_EQ(state().notice, "");
+}
+
 TEST_F(ViewerTest, a_replay_refuses_to_grasp_whatever_the_tool) {
   show(app::Session::open(std::filesystem::path(write_simulation_recording(folder_))).value());
   act(Action::kOrbit);

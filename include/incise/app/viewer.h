@@ -25,6 +25,7 @@ struct ViewerOptions {
   ViewOptions view;
   bool keeps_view = false;     ///< `view` stands, whatever a scene says
   bool shades_hollows = true;  ///< at first; it costs a renderer without a graphics processor much
+  bool mouse_is_hand = true;   ///< false: no tool but the probe takes the mouse, whose left drags turn the view
   Vec2 free_share =
       Vec2::Ones();  ///< of the picture, around its middle, that panels leave free: bodies are framed there
 };
