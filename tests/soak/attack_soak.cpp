@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "soak/attack_soak.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -33,8 +36,9 @@ struct AttackSettings {
   double seconds = 0;       // 0: no such limit
   std::uint64_t cases = 0;  // 0: no such limit; ten of each kind where there is none at all
   std::optional<std::uint64_t> only;
-  Words meshes;  // empty: made ones and the corpus
-  Words kinds, options = {"default"};
+  Words meshes = {"made", "corpus"};
+  Words kinds;  // empty: all
+  Words options = {"default", "snap0", "raw", "paper"};
   fs::path keep;      // empty: nothing is kept
   double limit = 20;  // s, for one cut
 };
@@ -110,33 +114,48 @@ void add_made(std::vector<AttackedBody>& bodies, const char* name, const TetSoup
   bodies.emplace_back(name, fs::path(), TetMesh::build(soup).value());
 }
 
-/// The bodies to attack where none are named. Of real ones those without a defect: what a cut may make of others is
-/// hard to say.
-std::vector<AttackedBody> usual_bodies() {
-  std::vector<AttackedBody> bodies;
+void add_made_bodies(std::vector<AttackedBody>& bodies) {
   add_made(bodies, "kuhn_cube(3)", kuhn_cube(3));
   add_made(bodies, "kuhn_cube(5)", kuhn_cube(5));
+  add_made(bodies, "kuhn_cube(8)", kuhn_cube(8));
   add_made(bodies, "jittered_cube(4, 1)", jittered_cube(4, 1));
   add_made(bodies, "jittered_cube(6, 2)", jittered_cube(6, 2));
   add_made(bodies, "renumbered(jittered_cube(5, 3), 3)", renumbered(jittered_cube(5, 3), 3));
   add_made(bodies, "ball(6)", ball(6));
+}
+
+/// Those without a defect: what a cut may make of others is hard to say.
+void add_real_bodies(std::vector<AttackedBody>& bodies) {
   for (const fs::path& path : sound_models()) {
     AttackedBody body(path.filename().string(), path, app::load_mesh(path).value().mesh);
     if (is_spotless(body.before)) bodies.push_back(std::move(body));
   }
-  return bodies;
 }
 
-std::optional<std::vector<AttackedBody>> named_bodies(const Words& files) {
+bool add_body(std::vector<AttackedBody>& bodies, const std::string& file) {
+  Result<app::LoadedMesh> loaded = app::load_mesh(file);
+  const std::string fault = !loaded.ok()                    ? loaded.error().message
+                            : loaded->mesh.tet_count() == 0 ? file + ": has no tets"
+                                                            : "";
+  if (fault.empty()) bodies.emplace_back(file, file, std::move(loaded->mesh));
+  if (!fault.empty()) std::fprintf(stderr, "%s\n", fault.c_str());
+  return fault.empty();
+}
+
+/// By the names of files; `made` and `corpus` stand for many.
+std::optional<std::vector<AttackedBody>> bodies_of(const Words& names) {
   std::vector<AttackedBody> bodies;
-  for (const std::string& file : files) {
-    Result<app::LoadedMesh> loaded = app::load_mesh(file);
-    if (!loaded.ok() || loaded->mesh.tet_count() == 0) {
-      std::fprintf(stderr, "%s\n", loaded.ok() ? (file + ": no tets").c_str() : loaded.error().message.c_str());
+  for (const std::string& name : names) {
+    if (name == "made") {
+      add_made_bodies(bodies);
+    } else if (name == "corpus") {
+      add_real_bodies(bodies);
+    } else if (!add_body(bodies, name)) {
       return std::nullopt;
     }
-    bodies.emplace_back(file, file, std::move(loaded->mesh));
   }
+  if (bodies.empty()) std::fprintf(stderr, "there are no meshes: set INCISE_CORPUS to a folder with tets/ in it\n");
+  if (bodies.empty()) return std::nullopt;
   return bodies;
 }
 
@@ -151,11 +170,81 @@ const AttackOptions& options_of(std::uint64_t number) {
   return kAttackOptions[number / kAttackKinds.size() % kAttackOptions.size()];
 }
 
+/// All that a case is made of.
+struct AttackCase {
+  std::uint64_t number;
+  std::size_t kind;
+  const AttackOptions& options;
+  const AttackedBody& body;
+  std::string name;  ///< says where it comes from
+  Attack attack;
+};
+
+AttackCase make_case(std::uint64_t seed, std::uint64_t number, const std::vector<AttackedBody>& bodies) {
+  Random mixed(seed);
+  Random random(mixed.bits() ^ Random(number).bits());
+  const std::size_t kind = kind_of(number);
+  const AttackOptions& options = options_of(number);
+  const auto last = static_cast<std::int64_t>(bodies.size()) - 1;
+  const AttackedBody& body = bodies[static_cast<std::size_t>(random.integer(0, last))];
+  const std::string name = std::string(kAttackKinds[kind]) + " " + options.name + " " + body.name + " seed " +
+                           std::to_string(seed) + " case " + std::to_string(number);
+  return {number, kind, options, body, name, make_attack(kind, body, random)};
+}
+
+enum class Verdict : std::uint8_t { kHolds, kFallsShort, kInShapeAlone };
+
+/// Runs a case, and prints a line where it falls short.
+Verdict run_case(const AttackCase& a, double limit) {
+  watch(a.name);
+  const Shortfall found = run_attack(a.body, a.attack, a.options, limit);
+  if (found.faults.empty()) return Verdict::kHolds;
+  std::printf("%s: %s\n", a.name.c_str(), found.text().c_str());
+  return found.is_shape_alone ? Verdict::kInShapeAlone : Verdict::kFallsShort;
+}
+
+/// The same in a process of its own, so that a crash or a hang (see watch.h) ends that case alone.
+Verdict run_case_apart(const AttackCase& a, double limit) {
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child < 0) return run_case(a, limit);
+  if (child == 0) {
+    const Verdict verdict = run_case(a, limit);
+    std::fflush(nullptr);
+    _exit(static_cast<int>(verdict));
+  }
+  int status = 0;
+  if (waitpid(child, &status, 0) == child && WIFEXITED(status)) return static_cast<Verdict>(WEXITSTATUS(status));
+  std::printf("%s: the process was killed\n", a.name.c_str());
+  return Verdict::kFallsShort;
+}
+
+/// Writes what the command needs to do the same, and says how.
+void keep(const AttackCase& a, const fs::path& folder) {
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  std::string stem = a.name.substr(a.name.rfind(" seed "));
+  std::replace(stem.begin(), stem.end(), ' ', '-');
+  stem = kAttackKinds[a.kind] + stem;
+  MotionCase motion;
+  for (const Stroke& stroke : a.attack.strokes) motion.strokes.push_back({stroke.name, stroke.edges, false});
+  const fs::path blade = folder / (stem + ".json"), mesh = a.body.is_made() ? folder / (stem + ".mesh") : a.body.file;
+  io::MeshData data;
+  data.soup = a.body.soup;
+  const bool is_written = write_blade_file(motion, blade) && (!a.body.is_made() || io::write_mesh(mesh, data).ok());
+  std::printf(is_written ? "  incise cut %s --blade %s %s\n" : "  cannot write %s, %s\n", mesh.c_str(), blade.c_str(),
+              a.options.flags);
+}
+
+// --- the campaign
+// --------------------------------------------------------------------------------------------------------------------
+
 struct KindTally {
-  std::uint64_t cases = 0, falls_short = 0, in_shape_alone = 0;
+  std::uint64_t cases = 0, counted = 0, falls_short = 0, in_shape_alone = 0;
 
   void add(const KindTally& other) {
     cases += other.cases;
+    counted += other.counted;
     falls_short += other.falls_short;
     in_shape_alone += other.in_shape_alone;
   }
@@ -191,53 +280,23 @@ class AttackCampaign {
            has(settings_.options, options_of(number).name);
   }
 
+  /// One that is repeated alone stays in this process, for the debugger.
   void attack(std::uint64_t number) {
-    Random mixed(settings_.seed);
-    Random random(mixed.bits() ^ Random(number).bits());
-    const std::size_t kind = kind_of(number);
-    const AttackOptions& options = options_of(number);
-    const auto last = static_cast<std::int64_t>(bodies_.size()) - 1;
-    const AttackedBody& body = bodies_[static_cast<std::size_t>(random.integer(0, last))];
-    const std::string name = std::string(kAttackKinds[kind]) + " " + options.name + " " + body.name + " seed " +
-                             std::to_string(settings_.seed) + " case " + std::to_string(number);
-    watch(name);
-    const Attack attack = make_attack(kind, body, random);
-    const Shortfall found = run_attack(body, attack, options, settings_.limit);
-    count(kind, found);
-    if (found.faults.empty()) return;
-    std::printf("%s: %s\n", name.c_str(), found.text().c_str());
-    if (!settings_.keep.empty()) keep(number, body, attack);
-  }
-  void count(std::size_t kind, const Shortfall& found) {
+    const AttackCase a = make_case(settings_.seed, number, bodies_);
+    const Verdict verdict = settings_.only ? run_case(a, settings_.limit) : run_case_apart(a, settings_.limit);
     ++done_;
-    ++tally_[kind].cases;
-    if (found.faults.empty()) return;
-    ++(found.is_shape_alone ? tally_[kind].in_shape_alone : tally_[kind].falls_short);
-  }
-
-  /// Writes what the command needs to do the same.
-  void keep(std::uint64_t number, const AttackedBody& body, const Attack& attack) const {
-    std::error_code ignored;
-    fs::create_directories(settings_.keep, ignored);
-    const std::string stem = std::string(kAttackKinds[kind_of(number)]) + "-" + std::to_string(settings_.seed) + "-" +
-                             std::to_string(number);
-    const fs::path blade = settings_.keep / (stem + ".json");
-    MotionCase motion;
-    for (const Stroke& stroke : attack.strokes) motion.strokes.push_back({stroke.name, stroke.edges, false});
-    const fs::path mesh = body.file.empty() ? settings_.keep / (stem + ".mesh") : body.file;
-    const bool is_written = write_blade_file(motion, blade) && (!body.file.empty() || write_made(mesh, body));
-    std::printf(is_written ? "  incise cut %s --blade %s %s\n" : "  cannot write %s, %s\n", mesh.c_str(), blade.c_str(),
-                options_of(number).flags);
-  }
-  static bool write_made(const fs::path& file, const AttackedBody& body) {
-    io::MeshData data;
-    data.soup = body.soup;
-    return io::write_mesh(file, data).ok();
+    KindTally& tally = tally_[a.kind];
+    ++tally.cases;
+    if (a.options.counts_pieces && a.attack.pieces) ++tally.counted;
+    if (verdict == Verdict::kHolds) return;
+    ++(verdict == Verdict::kInShapeAlone ? tally.in_shape_alone : tally.falls_short);
+    if (!settings_.keep.empty()) keep(a, settings_.keep);
   }
 
   static void print(const char* name, const KindTally& tally) {
-    std::printf("%-14s %5llu cases %5llu fall short %5llu in shape alone\n", name,
-                static_cast<unsigned long long>(tally.cases), static_cast<unsigned long long>(tally.falls_short),
+    std::printf("%-14s %6llu cases %6llu pieces known %6llu fall short %6llu in shape alone\n", name,
+                static_cast<unsigned long long>(tally.cases), static_cast<unsigned long long>(tally.counted),
+                static_cast<unsigned long long>(tally.falls_short),
                 static_cast<unsigned long long>(tally.in_shape_alone));
   }
   [[nodiscard]] int print_table() const {
@@ -273,8 +332,7 @@ int attack_usage() {
 int soak_attacks(const std::vector<std::string>& arguments) {
   std::optional<AttackSettings> settings = read_settings(arguments);
   if (!settings) return attack_usage();
-  std::optional<std::vector<AttackedBody>> bodies =
-      settings->meshes.empty() ? usual_bodies() : named_bodies(settings->meshes);
+  std::optional<std::vector<AttackedBody>> bodies = bodies_of(settings->meshes);
   if (!bodies) return 2;
   return AttackCampaign(std::move(*settings), std::move(*bodies)).run();
 }

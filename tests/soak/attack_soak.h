@@ -8,7 +8,8 @@ namespace incise::test {
 
 /// What `attack` takes, for the program's usage.
 inline constexpr const char* kAttackUsage =
-    "attack [--meshes FILE...] [--kinds A,B] [--options A,B] [--cases N] [--case N] [--keep FOLDER] [--limit SECONDS]";
+    "attack [--meshes FILE|made|corpus...] [--kinds A,B] [--options A,B] [--cases N] [--case N] [--keep FOLDER] "
+    "[--limit SECONDS]";
 
 /// Attacks the cutter with strokes that nobody tuned on. Returns what the program should: 1 where any case falls short.
 ///

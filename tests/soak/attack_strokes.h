@@ -29,6 +29,8 @@ struct AttackedBody {
   double diagonal = 0;  ///< of its bounding box
   double edge = 0;      ///< how long edges are, in the mean
 
+  [[nodiscard]] bool is_made() const { return file.empty(); }
+
   AttackedBody(std::string name, std::filesystem::path file, TetMesh mesh);
 };
 

@@ -53,6 +53,20 @@ std::vector<double> reaches_above(const TetSoup& soup, const std::vector<TetFace
   return reach;
 }
 
+/// Points all over a body, a quarter of an edge apart along its edges.
+template <class Visit>
+void for_each_sample(const TetSoup& soup, const Visit& visit) {
+  for (const Tet& t : soup.tets) {
+    for (unsigned i = 0; i < 4; ++i) {
+      for (unsigned j = 0; j < i; ++j) {
+        for (unsigned k = 0; k <= 4; ++k) {
+          visit(soup.points[t[i]] + 0.25 * k * (soup.points[t[j]] - soup.points[t[i]]));
+        }
+      }
+    }
+  }
+}
+
 /// Whether a tet crosses a plane while all of it lies between two heights over another.
 bool is_joined(const TetSoup& soup, const std::vector<double>& across, const std::vector<double>& over, double low,
                double high) {
@@ -81,29 +95,29 @@ std::optional<std::size_t> pieces_of_plane(const TetSoup& soup, const SheetPlane
 
 std::optional<std::size_t> pieces_of_star(const TetSoup& soup, const std::vector<SheetPlane>& planes, double thin) {
   std::set<std::vector<bool>> cells;
-  for (const Vec3& p : soup.points) {
+  for_each_sample(soup, [&](const Vec3& p) {
     std::vector<bool> cell;
     for (const SheetPlane& plane : planes) {
       const double height = plane.height(p);
       if (std::abs(height) >= thin) cell.push_back(height > 0);
     }
     if (cell.size() == planes.size()) cells.insert(cell);
-  }
+  });
   if (cells.size() != 2 * planes.size()) return std::nullopt;
   return cells.size();
 }
 
 std::optional<std::size_t> pieces_of_tee(const TetSoup& soup, const SheetPlane& wall, const SheetPlane& divider,
                                          double from, double thin) {
-  const std::vector<double> over = heights_over(soup, wall), across = heights_over(soup, divider);
   bool has_left = false, has_right = false, has_below = false;
-  for (std::size_t v = 0; v < over.size(); ++v) {
-    const bool is_above = over[v] >= thin + std::max(from, 0.0);
-    has_left = has_left || (is_above && across[v] >= thin);
-    has_right = has_right || (is_above && across[v] <= -thin);
-    has_below = has_below || over[v] <= -thin;
-  }
+  for_each_sample(soup, [&](const Vec3& p) {
+    const bool is_above = wall.height(p) >= thin + std::max(from, 0.0);
+    has_left = has_left || (is_above && divider.height(p) >= thin);
+    has_right = has_right || (is_above && divider.height(p) <= -thin);
+    has_below = has_below || wall.height(p) <= -thin;
+  });
   if (!has_left || !has_right || !has_below) return std::nullopt;
+  const std::vector<double> over = heights_over(soup, wall), across = heights_over(soup, divider);
   const double margin = 0.2 * thin, endless = std::numeric_limits<double>::infinity();
   if (from <= 0 && is_joined(soup, across, over, -endless, from - margin)) return 3;
   if (from >= 2 * thin && is_joined(soup, across, over, margin, from - margin)) return 2;

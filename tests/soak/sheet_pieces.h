@@ -20,8 +20,8 @@ struct SheetPlane {
 /// Pieces on both sides of a plane; none where one reaches less than `thin` away from it.
 [[nodiscard]] std::optional<std::size_t> pieces_of_plane(const TetSoup& soup, const SheetPlane& plane, double thin);
 
-/// Pieces of a convex body between planes that all pass through one line: twice their number; none where one has no
-/// vertex that is `thin` away from all planes.
+/// Pieces of a convex body between planes that all pass through one line: twice their number; none where one reaches
+/// nowhere `thin` away from all planes.
 [[nodiscard]] std::optional<std::size_t> pieces_of_star(const TetSoup& soup, const std::vector<SheetPlane>& planes,
                                                         double thin);
 
