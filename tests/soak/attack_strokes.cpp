@@ -48,13 +48,12 @@ Vec3 inner_point(const TetSoup& soup, Random& random) {
 /// Directions at right angles, of length 1.
 struct Frame {
   Vec3 n, a, b;
-
-  explicit Frame(Random& random) : n(random_direction(random)) {
-    a = n.cross(random_direction(random)).normalized();
-    b = n.cross(a);
-  }
-  Frame(const Vec3& n_, const Vec3& a_, const Vec3& b_) : n(n_), a(a_), b(b_) {}
 };
+
+Frame random_frame(Random& random) {
+  const Vec3 n = random_direction(random), a = n.cross(random_direction(random)).normalized();
+  return {n, a, n.cross(a)};
+}
 
 /// A plane through a point inside the body: a straight edge along `a`, moved along `b`.
 class Sheet {
@@ -98,7 +97,7 @@ class Sheet {
 class Attacker {
  public:
   Attacker(const AttackedBody& body, Random& random)
-      : body_(body), random_(random), sheet_(body, Frame(random), random), d_(body.diagonal), h_(body.edge) {}
+      : body_(body), random_(random), sheet_(body, random_frame(random), random), d_(body.diagonal), h_(body.edge) {}
 
   Attack make(std::size_t kind) { return kMakers[kind](*this); }
 
@@ -207,7 +206,7 @@ class Attacker {
   // --- planes that meet
 
   /// A plane across the sheet, through another point; its edge goes along the sheet's normal.
-  Sheet across() { return {body_, Frame(sheet_.a, sheet_.n, sheet_.b), random_}; }
+  Sheet across() { return {body_, Frame{sheet_.a, sheet_.n, sheet_.b}, random_}; }
 
   /// Where the edge of a second sheet begins, above the first: anywhere, exactly on it, or just behind it.
   double tee_start(const Sheet& divider) {
@@ -355,10 +354,10 @@ class Attacker {
 
 }  // namespace
 
-AttackedBody::AttackedBody(std::string name_, std::filesystem::path file_, TetMesh mesh_)
-    : name(std::move(name_)),
-      file(std::move(file_)),
-      mesh(std::move(mesh_)),
+AttackedBody::AttackedBody(std::string called, std::filesystem::path from, TetMesh whole)
+    : name(std::move(called)),
+      file(std::move(from)),
+      mesh(std::move(whole)),
       soup(to_soup(mesh)),
       before(review(soup)),
       is_convex(test::is_convex(soup)),

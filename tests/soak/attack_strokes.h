@@ -31,7 +31,7 @@ struct AttackedBody {
 
   [[nodiscard]] bool is_made() const { return file.empty(); }
 
-  AttackedBody(std::string name, std::filesystem::path file, TetMesh mesh);
+  AttackedBody(std::string called, std::filesystem::path from, TetMesh whole);
 };
 
 /// The names of the ways, in the order in which cases take them.
