@@ -135,7 +135,7 @@ Snapshot take_snapshot(const Engine& engine, const TriangleTree& sweep) {
   out.all = measure_quality(mesh);
   out.touched = touched.quality(mesh);
   out.volumes = piece_volumes(mesh);
-  out.walls = sample_walls(mesh, engine.stroke_count(), sweep);
+  out.walls = sample_walls(mesh, engine.next_stroke() - 1, sweep);
   return out;
 }
 
@@ -235,7 +235,7 @@ void measure_input(const TetMesh& mesh, Measurement& out) {
 
 void measure_result(const TetMesh& input, const Engine& engine, const TriangleTree& sweep, Measurement& out) {
   out.after = take_snapshot(engine, sweep);
-  const WallUnit unit(engine.mesh(), engine.stroke_count());
+  const WallUnit unit(engine.mesh(), engine.next_stroke() - 1);
   out.cut.wall = wall_distance(out.cut.walls, unit);
   out.after.wall = wall_distance(out.after.walls, unit);
   out.wall_added = added_distance(out.cut.walls, out.after.walls, unit);

@@ -50,6 +50,8 @@ io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces, const s
     data.triangles.push_back(triangle_of(mesh, side, number));
     data.triangle_stroke.push_back(static_cast<std::int32_t>(stroke));
   });
+  if (data.triangles.empty()) return data;
+  mesh.for_each_vertex([&](VertexId v) { data.cut_front.push_back((mesh.shape_of(v) & shape::kFront) != 0 ? 1 : 0); });
   return data;
 }
 

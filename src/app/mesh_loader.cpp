@@ -49,6 +49,34 @@ void keep_triangles(io::MeshData& data, const std::vector<std::uint32_t>& number
   if (has_labels) data.triangle_stroke.resize(kept);
 }
 
+// What the file knows of earlier cuts. Strokes of 0 and below are skin.
+void take_cuts(const io::MeshData& data, TetSoup& soup) {
+  soup.origins = data.origin_vertex;
+  if (data.has_foreign_labels) return;
+  for (std::size_t i = 0; i < data.triangle_stroke.size(); ++i) {
+    if (data.triangle_stroke[i] <= 0) continue;
+    soup.walls.push_back({data.triangles[i], static_cast<std::uint32_t>(data.triangle_stroke[i])});
+  }
+  if (soup.walls.empty()) return;
+  for (const std::int32_t front : data.cut_front) soup.fronts.push_back(front != 0 ? 1 : 0);
+}
+
+std::size_t count_walls(const TetMesh& mesh) {
+  std::size_t count = 0;
+  mesh.for_each_tet([&](TetId tet) {
+    for (const Link link : mesh.links(tet)) count += link.is_boundary() && link.tag() > 0 ? 1U : 0U;
+  });
+  return count;
+}
+
+// Walls that the mesh has no side for.
+void note_lost_walls(const TetMesh& mesh, std::size_t in_file, std::vector<std::string>& notes) {
+  const std::size_t lost = in_file - std::min(in_file, in_file == 0 ? 0 : count_walls(mesh));
+  if (lost == 0) return;
+  notes.push_back(counted(lost, "triangle with a stroke is", "triangles with a stroke are") +
+                  " no boundary face of the tets, or there twice, and left out");
+}
+
 void note_changes(const Normalised& changes, std::vector<std::string>& notes) {
   if (changes.flipped > 0) {
     notes.push_back(counted(changes.flipped, "tet of negative volume was", "tets of negative volume were") +
@@ -75,6 +103,7 @@ std::vector<std::uint32_t> drop_mid_nodes(io::MeshFile& file) {
   }
   keep_points(data.soup.points, number);
   keep_points(data.origin_vertex, number);
+  keep_points(data.cut_front, number);
   for (auto& tet : data.soup.tets) {
     for (std::uint32_t& v : tet) v = number[v];
   }
@@ -113,7 +142,10 @@ Result<LoadedMesh> build_mesh(io::MeshFile file, const std::filesystem::path& pa
   loaded.file_vertex = drop_mid_nodes(file);
   loaded.source = describe(file, path);
   TetSoup soup = std::move(file.data.soup);
+  take_cuts(file.data, soup);
+  if (!soup.origins.empty()) loaded.file_vertex.clear();  // the mesh's own origins are what the file says
   file.data = {};
+  const std::size_t walls = soup.walls.size();
   note_changes(normalise(soup), loaded.source.notes);
   Result<TetMesh> mesh = TetMesh::build(std::move(soup));
   if (!mesh.ok()) {
@@ -122,6 +154,7 @@ Result<LoadedMesh> build_mesh(io::MeshFile file, const std::filesystem::path& pa
     return error;
   }
   loaded.mesh = std::move(mesh).value();
+  note_lost_walls(loaded.mesh, walls, loaded.source.notes);
   return loaded;
 }
 

@@ -24,6 +24,14 @@ void tell(const LogSink& log, const CutStatistics& cut) {
   }
 }
 
+std::uint32_t highest_tag(const TetMesh& mesh) {
+  std::uint32_t highest = 0;
+  mesh.for_each_tet([&](TetId tet) {
+    for (const Link link : mesh.links(tet)) highest = std::max(highest, link.is_boundary() ? link.tag() : 0U);
+  });
+  return highest;
+}
+
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -48,14 +56,15 @@ Engine::Engine(TetMesh mesh, EngineOptions options)
     : mesh_(std::move(mesh)),
       options_(std::move(options)),
       cutter_(options_.cut, options_.threads),
-      maintainer_(options_.maintain) {}
+      maintainer_(options_.maintain),
+      earlier_strokes_(highest_tag(mesh_)) {}
 
 Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   if (is_in_stroke_) {
     return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
   }
   StrokeReport report;
-  report.stroke = stroke_count() + 1;
+  report.stroke = next_stroke();
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first_step = journal_.position();
   Result<CutStatistics> cut = cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
@@ -111,7 +120,7 @@ Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
     return status.error();
   }
   open_ = {};
-  open_.report.stroke = stroke_count() + 1;
+  open_.report.stroke = next_stroke();
   open_.first_step = journal_.position();
   open_.poses = {pose};
   if (!is_paper()) {

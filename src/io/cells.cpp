@@ -73,7 +73,7 @@ bool CellSorter::add(const std::vector<CellInt>& types, const std::vector<CellIn
 }
 
 bool CellSorter::wants_cell_array(std::string_view name) {
-  return name == "piece" || name == "stroke" || region_rank(name) > 0;
+  return name == "piece" || name == "stroke" || name == kFaceLabel || region_rank(name) > 0;
 }
 
 void CellSorter::put(std::vector<std::int32_t>& labels, std::size_t i, double value) {
@@ -84,25 +84,35 @@ void CellSorter::put(std::vector<std::int32_t>& labels, std::size_t i, double va
   }
 }
 
+// Strokes take the place of foreign labels, not the other way round.
+void CellSorter::label_triangles(std::string_view name, const std::vector<double>& values) {
+  auto& data = job_.out.data;
+  const bool is_stroke = name == "stroke";
+  if (!is_stroke && has_strokes_) return;
+  if (is_stroke && data.has_foreign_labels) data.triangle_stroke.clear();
+  has_strokes_ = is_stroke;
+  data.has_foreign_labels = !is_stroke;
+  for (std::size_t c = 0; c < types_.size() && c < values.size(); ++c) {
+    if (types_[c] == kVtkTriangle) put(data.triangle_stroke, slot_[c], values[c]);
+  }
+}
+
 void CellSorter::label_cells(std::string_view name, const std::vector<double>& values) {
   auto& data = job_.out.data;
+  if (name == "stroke" || name == kFaceLabel) return label_triangles(name, values);
   const int rank = region_rank(name);
   if (rank > 0 && rank < region_rank_) return;
   if (rank > 0) region_rank_ = rank;
   for (std::size_t c = 0; c < types_.size() && c < values.size(); ++c) {
-    if (is_tet(types_[c]) && name != "stroke") {
-      put(rank > 0 ? data.soup.regions : data.piece, slot_[c], values[c]);
-    } else if (types_[c] == kVtkTriangle && name == "stroke") {
-      put(data.triangle_stroke, slot_[c], values[c]);
-    }
+    if (is_tet(types_[c])) put(rank > 0 ? data.soup.regions : data.piece, slot_[c], values[c]);
   }
 }
 
 void CellSorter::label_points(std::string_view name, const std::vector<double>& values) {
-  auto& origin = job_.out.data.origin_vertex;
   if (!wants_point_array(name)) return;
+  auto& labels = name == "cut_front" ? job_.out.data.cut_front : job_.out.data.origin_vertex;
   const std::size_t first = job_.soup().points.size() - values.size();
-  for (std::size_t i = 0; i < values.size(); ++i) put(origin, first + i, values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) put(labels, first + i, values[i]);
 }
 
 void CellSorter::finish_notes() {
@@ -114,6 +124,7 @@ void CellSorter::finish_notes() {
   pad(out.data.piece, out.data.soup.tets.size());
   pad(out.data.triangle_stroke, out.data.triangles.size());
   pad(out.data.origin_vertex, out.data.soup.points.size());
+  pad(out.data.cut_front, out.data.soup.points.size());
   if (skipped_ > 0)
     out.notes.push_back(std::to_string(skipped_) + " cells that are neither tets nor triangles were left out");
   if (fractions_ > 0) out.notes.push_back(std::to_string(fractions_) + " labels that are not integers became 0");

@@ -18,6 +18,9 @@ constexpr CellInt to_cell_int(std::int64_t n) {
   return n == static_cast<CellInt>(n) ? static_cast<CellInt>(n) : -1;
 }
 
+/// The name of other programs' labels of triangles, so that they are not taken for strokes when they come back.
+inline constexpr std::string_view kFaceLabel = "face_label";
+
 inline constexpr CellInt kVtkTriangle = 5;
 inline constexpr CellInt kVtkTet = 10;
 inline constexpr CellInt kVtkTet10 = 24;
@@ -33,7 +36,9 @@ class CellSorter {
 
   /// Whether an array of this name is of use.
   [[nodiscard]] static bool wants_cell_array(std::string_view name);
-  [[nodiscard]] static bool wants_point_array(std::string_view name) { return name == "origin_vertex"; }
+  [[nodiscard]] static bool wants_point_array(std::string_view name) {
+    return name == "origin_vertex" || name == "cut_front";
+  }
 
   /// Labels of the cells that the last `add` brought, one per cell.
   void label_cells(std::string_view name, const std::vector<double>& values);
@@ -46,11 +51,13 @@ class CellSorter {
   bool fail_index(CellInt vertex, std::size_t n);
   bool add_tet(const CellInt* nodes, std::size_t n_nodes, std::size_t first_vertex, std::size_t n_vertices);
   void put(std::vector<std::int32_t>& labels, std::size_t i, double value);
+  void label_triangles(std::string_view name, const std::vector<double>& values);
 
   Job& job_;
   std::vector<std::uint32_t> slot_;  // per cell of the last block: position among the tets or the triangles
   std::vector<CellInt> types_;
   int region_rank_ = 0;
+  bool has_strokes_ = false;
   std::uint64_t skipped_ = 0;
   std::uint64_t fractions_ = 0;
 };

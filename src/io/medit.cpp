@@ -31,6 +31,7 @@ class MeditReader {
     if (same_word(keyword, "Tetrahedra")) return tets(4);
     if (same_word(keyword, "TetrahedraP2")) return tets(10);
     if (same_word(keyword, "Triangles")) return triangles();
+    if (same_word(keyword, "Corners") && is_ours_.front) return corners();
     skip_numbers();
     return true;
   }
@@ -57,20 +58,52 @@ class MeditReader {
     return in_.end_line("row");
   }
 
+  // The names after the mark, which stands before the vertices, say what the labels of this file are.
+  void find_mark() {
+    const std::string_view head = in_.bytes().substr(0, in_.position());
+    const std::size_t at = head.find("\n" + std::string(kMeditMark));
+    if (at == std::string_view::npos) return;
+    Error ignored;
+    Cursor names(head.substr(at + 1 + kMeditMark.size()), job_.name, ignored);
+    for (std::string_view name = names.word_in_line(); !name.empty(); name = names.word_in_line()) {
+      is_ours_.stroke |= name == "stroke";
+      is_ours_.origin |= name == "origin_vertex";
+      is_ours_.front |= name == "cut_front";
+    }
+  }
+
   bool vertices() {
     std::int64_t n = 0;
     if (has_vertices_) return in_.fail("there are two Vertices sections");
+    find_mark();
     if (!in_.count(n, 3, "number of vertices")) return false;
     has_vertices_ = true;
     auto& points = job_.soup().points;
     points.resize(static_cast<std::size_t>(n));
-    std::int32_t ignored = 0;
+    auto& origins = job_.out.data.origin_vertex;
+    if (is_ours_.origin) origins.reserve(points.size());
+    if (is_ours_.front) job_.out.data.cut_front.assign(points.size(), 0);
+    std::int32_t number = 0;
     for (Vec3& p : points) {
       in_.skip_space();
       for (int k = 0; k < 3; ++k) {
         if (!in_.real_in_line(p[k], "coordinate")) return false;
       }
-      if (!label(ignored, "vertex label")) return false;
+      if (!label(number, "vertex label")) return false;
+      if (is_ours_.origin) origins.push_back(number > 0 ? number - 1 : -1);
+    }
+    return true;
+  }
+
+  bool corners() {
+    std::int64_t n = 0;
+    if (!has_vertices_) return in_.fail("the section Corners comes before the vertices");
+    if (!in_.count(n, 1, "number of corners")) return false;
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::uint32_t corner = 0;
+      in_.skip_space();
+      if (!vertex(corner)) return false;
+      job_.out.data.cut_front[corner] = 1;
     }
     return true;
   }
@@ -104,6 +137,7 @@ class MeditReader {
     std::int64_t n = 0;
     if (!in_.count(n, 3, "number of triangles")) return false;
     auto& data = job_.out.data;
+    data.has_foreign_labels = !is_ours_.stroke;
     data.triangles.reserve(static_cast<std::size_t>(n));
     for (std::int64_t i = 0; i < n; ++i) {
       in_.skip_space();
@@ -118,6 +152,9 @@ class MeditReader {
   Job& job_;
   Cursor in_;
   bool has_vertices_ = false;
+  struct {
+    bool stroke = false, origin = false, front = false;
+  } is_ours_;  // which labels Incise wrote
 };
 
 }  // namespace

@@ -241,6 +241,7 @@ class MshReader {
       triangle_ids_.add(id);
       data.triangles.push_back({row[0], row[1], row[2]});
       data.triangle_stroke.push_back(tag);
+      data.has_foreign_labels = true;  // until $ElementData says that they are strokes
     } else if (type > kTet && n > 0) {
       ++skipped_;
     }
@@ -481,6 +482,7 @@ class MshReader {
     const auto width = static_cast<std::size_t>(components);
     if (!in_.fits(n, 2 + 2 * width, 4 + 8 * width, "number of values")) return false;
     const bool wanted = width == 1 && is_label_name(name);
+    if (wanted && of_elements && name == "stroke") take_strokes();
     for (std::int64_t i = 0; i < n; ++i) {
       std::int64_t id = 0;
       double value = 0;
@@ -495,7 +497,14 @@ class MshReader {
   }
 
   static bool is_label_name(std::string_view name) {
-    return name == "region" || name == "piece" || name == "stroke" || name == "origin_vertex";
+    return name == "region" || name == "piece" || name == "stroke" || name == "origin_vertex" || name == "cut_front";
+  }
+
+  // Triangles that the data leave out are skin, whatever their physical tag.
+  void take_strokes() {
+    auto& data = job_.out.data;
+    if (data.has_foreign_labels) data.triangle_stroke.assign(data.triangles.size(), 0);
+    data.has_foreign_labels = false;
   }
 
   static void put(std::vector<std::int32_t>& labels, std::size_t n, std::uint32_t at, double value) {
@@ -509,7 +518,9 @@ class MshReader {
     auto& data = job_.out.data;
     const std::size_t n_tets = data.soup.tets.size();
     if (!of_elements) {
-      if (name == "origin_vertex") put(data.origin_vertex, data.soup.points.size(), node_ids_.find(id), value);
+      const bool is_front = name == "cut_front";
+      if (!is_front && name != "origin_vertex") return;
+      put(is_front ? data.cut_front : data.origin_vertex, data.soup.points.size(), node_ids_.find(id), value);
     } else if (name == "region") {
       put(data.soup.regions, n_tets, tet_ids_.find(id), value);
     } else if (name == "piece") {

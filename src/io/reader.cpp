@@ -82,6 +82,7 @@ bool finish(Job& job) {
   auto& data = job.out.data;
   clear_if_zero(data.soup.regions);
   clear_if_zero(data.triangle_stroke);
+  data.has_foreign_labels = data.has_foreign_labels && !data.triangle_stroke.empty();
   job.out.file_vertices = data.soup.points.size();
   job.out.file_tets = data.soup.tets.size();
   return true;

@@ -35,6 +35,9 @@ struct Job {
   }
 };
 
+/// A MEDIT file that Incise wrote has a comment that begins so, before its vertices; then the names of what it carries.
+inline constexpr std::string_view kMeditMark = "# incise:";
+
 // One reader per format; each returns false with `job.error` set.
 bool read_medit(Job& job);
 bool read_msh(Job& job);

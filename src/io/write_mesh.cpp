@@ -2,11 +2,13 @@
 // Writers of all mesh formats. Each makes the whole text; `store_files` then writes it beside its place and renames.
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <type_traits>
 
 #include "incise/io/base64.h"
 #include "incise/io/mesh_file.h"
+#include "io/cells.h"
 #include "io/files.h"
 #include "io/gzip.h"
 #include "io/text.h"
@@ -55,10 +57,40 @@ class Text {
   std::string out_;
 };
 
+bool has_strokes(const MeshData& data) {
+  return !data.triangle_stroke.empty() && !data.has_foreign_labels;
+}
+
+// Which labels are ours: without it a reader must take them for somebody else's.
+void medit_mark(Text& out, const MeshData& data) {
+  if (!has_strokes(data) && data.origin_vertex.empty() && data.cut_front.empty()) return;
+  out << kMeditMark;
+  if (has_strokes(data)) out << " stroke";
+  if (!data.origin_vertex.empty()) out << " origin_vertex";
+  if (!data.cut_front.empty()) out << " cut_front";
+  out << '\n';
+}
+
+void medit_corners(Text& out, const Labels& cut_front) {
+  const auto is_front = [](std::int32_t front) { return front != 0; };
+  const auto n = std::count_if(cut_front.begin(), cut_front.end(), is_front);
+  if (n > 0) out << "Corners\n" << n << '\n';
+  for (std::size_t i = 0; i < cut_front.size(); ++i) {
+    if (is_front(cut_front[i])) out << i + 1 << '\n';
+  }
+}
+
 std::string write_medit(const MeshData& data) {
   Text out;
-  out << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << data.soup.points.size() << '\n';
-  for (const Vec3& p : data.soup.points) out << p << " 0\n";
+  out << "MeshVersionFormatted 2\nDimension 3\n";
+  medit_mark(out, data);
+  out << "Vertices\n" << data.soup.points.size() << '\n';
+  for (std::size_t i = 0; i < data.soup.points.size(); ++i) {
+    const std::int32_t origin = data.origin_vertex.empty() ? -1 : data.origin_vertex[i];
+    const bool has_label = origin >= 0 && origin < std::numeric_limits<std::int32_t>::max();
+    out << data.soup.points[i] << ' ' << (has_label ? origin + 1 : 0) << '\n';
+  }
+  medit_corners(out, data.cut_front);
   if (!data.triangles.empty()) out << "Triangles\n" << data.triangles.size() << '\n';
   for (std::size_t i = 0; i < data.triangles.size(); ++i) {
     out.row(data.triangles[i], 1) << ' ' << label(data.triangle_stroke, i) << '\n';
@@ -78,6 +110,18 @@ Labels cell_array(const MeshData& data, const Labels& of_tets, const Labels& of_
   all.insert(all.end(), of_triangles.begin(), of_triangles.end());
   all.resize(data.soup.tets.size() + data.triangles.size(), 0);
   return all;
+}
+
+struct NamedLabels {
+  std::string_view name;
+  Labels values;
+};
+
+std::vector<NamedLabels> point_arrays(const MeshData& data) {
+  std::vector<NamedLabels> arrays;
+  if (!data.origin_vertex.empty()) arrays.push_back({"origin_vertex", data.origin_vertex});
+  if (!data.cut_front.empty()) arrays.push_back({"cut_front", data.cut_front});
+  return arrays;
 }
 
 // $ElementData or $NodeData with one value for every element or node: readers such as meshio want no fewer.
@@ -110,21 +154,19 @@ std::string write_msh(const MeshData& data) {
   };
   cell_data("region", soup.regions, {});
   cell_data("piece", data.piece, {});
-  cell_data("stroke", {}, data.triangle_stroke);
-  if (!data.origin_vertex.empty()) msh_data(out, "NodeData", "origin_vertex", data.origin_vertex);
+  if (has_strokes(data)) cell_data("stroke", {}, data.triangle_stroke);
+  for (const NamedLabels& array : point_arrays(data)) msh_data(out, "NodeData", array.name, array.values);
   return out.take();
 }
-
-struct NamedLabels {
-  std::string_view name;
-  Labels values;
-};
 
 std::vector<NamedLabels> cell_arrays(const MeshData& data) {
   std::vector<NamedLabels> arrays;
   arrays.push_back({"region", cell_array(data, data.soup.regions, {})});
   if (!data.piece.empty()) arrays.push_back({"piece", cell_array(data, data.piece, {})});
-  if (!data.triangle_stroke.empty()) arrays.push_back({"stroke", cell_array(data, {}, data.triangle_stroke)});
+  if (!data.triangle_stroke.empty()) {
+    const std::string_view name = data.has_foreign_labels ? kFaceLabel : "stroke";
+    arrays.push_back({name, cell_array(data, {}, data.triangle_stroke)});
+  }
   return arrays;
 }
 
@@ -147,10 +189,9 @@ std::string write_vtk(const MeshData& data) {
   for (std::size_t i = 0; i < n_cells; ++i) out << (i < soup.tets.size() ? "10\n" : "5\n");
   out << "CELL_DATA " << n_cells << '\n';
   for (const NamedLabels& array : cell_arrays(data)) vtk_scalars(out, array.name, array.values);
-  if (!data.origin_vertex.empty()) {
-    out << "POINT_DATA " << soup.points.size() << '\n';
-    vtk_scalars(out, "origin_vertex", data.origin_vertex);
-  }
+  const std::vector<NamedLabels> arrays = point_arrays(data);
+  if (!arrays.empty()) out << "POINT_DATA " << soup.points.size() << '\n';
+  for (const NamedLabels& array : arrays) vtk_scalars(out, array.name, array.values);
   return out.take();
 }
 
@@ -187,7 +228,7 @@ class VtuWriter {
     out_ += "</Cells>\n<CellData>\n";
     for (const NamedLabels& labels : cell_arrays(data_)) array("Int32", labels.name, 1, labels.values);
     out_ += "</CellData>\n<PointData>\n";
-    if (!data_.origin_vertex.empty()) array("Int32", "origin_vertex", 1, data_.origin_vertex);
+    for (const NamedLabels& labels : point_arrays(data_)) array("Int32", labels.name, 1, labels.values);
     out_ += "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     return std::move(out_);
   }
@@ -358,7 +399,8 @@ const char* find_fault(const MeshData& data) {
     return "a vertex is not finite";
   }
   if (!has_length(soup.regions, soup.tets.size()) || !has_length(data.piece, soup.tets.size()) ||
-      !has_length(data.triangle_stroke, data.triangles.size()) || !has_length(data.origin_vertex, n)) {
+      !has_length(data.triangle_stroke, data.triangles.size()) || !has_length(data.origin_vertex, n) ||
+      !has_length(data.cut_front, n)) {
     return "an array of labels has the wrong length";
   }
   return nullptr;

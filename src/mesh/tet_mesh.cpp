@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "incise/core/hash.h"
@@ -18,6 +19,9 @@ namespace {
 /// Vertex slots of one face in ascending order.
 struct FaceKey {
   std::uint32_t low, middle, high;
+  bool operator<(const FaceKey& other) const {
+    return std::tie(low, middle, high) < std::tie(other.low, other.middle, other.high);
+  }
 };
 
 FaceKey key_of(const std::array<VertexId, 3>& face) {
@@ -35,6 +39,58 @@ std::uint64_t edge_key(VertexId a, VertexId b) {
 
 Error bad_tet(std::size_t tet, const std::string& what) {
   return {ErrorCode::kBadArgument, "tet " + std::to_string(tet) + " " + what, {tet}};
+}
+
+Error bad_wall(std::size_t wall, const std::string& what) {
+  return {ErrorCode::kBadArgument, "wall " + std::to_string(wall) + " " + what, {wall}};
+}
+
+/// Whether what a soup says of earlier cuts fits its points.
+Status check_cuts(const TetSoup& soup) {
+  const std::size_t n = soup.points.size();
+  if ((!soup.origins.empty() && soup.origins.size() != n) || (!soup.fronts.empty() && soup.fronts.size() != n)) {
+    return Error{ErrorCode::kBadArgument, "the number of origins or fronts differs from the number of points", {}};
+  }
+  for (std::size_t i = 0; i < soup.walls.size(); ++i) {
+    const SoupWall& wall = soup.walls[i];
+    const std::uint32_t last = *std::max_element(wall.points.begin(), wall.points.end());
+    if (last >= n) return bad_wall(i, "refers to point " + std::to_string(last) + ", which does not exist");
+    if (wall.stroke == 0 || wall.stroke > TetMesh::kMaxStroke) {
+      return bad_wall(i, "is of stroke " + std::to_string(wall.stroke) + "; strokes are numbered 1 to 2^30");
+    }
+  }
+  return {};
+}
+
+constexpr double kFolded = 0.9;  // cosine between two walls that lie on one another
+
+/// One face that walls claim, and the boundary sides that are there.
+struct ClaimedFace {
+  FaceKey key;
+  std::uint32_t stroke;  // 0: walls of several strokes claim it
+  std::uint32_t sides = 0;
+  Side side = {};
+  bool operator<(const ClaimedFace& other) const { return key < other.key; }
+};
+
+std::vector<ClaimedFace> claimed_faces(const std::vector<SoupWall>& walls) {
+  std::vector<ClaimedFace> faces;
+  faces.reserve(walls.size());
+  for (const SoupWall& wall : walls) {
+    const auto& [a, b, c] = wall.points;
+    faces.push_back({key_of({VertexId(a), VertexId(b), VertexId(c)}), wall.stroke});
+  }
+  std::sort(faces.begin(), faces.end());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (kept == 0 || faces[kept - 1] < faces[i]) {
+      faces[kept++] = faces[i];
+    } else if (faces[kept - 1].stroke != faces[i].stroke) {
+      faces[kept - 1].stroke = 0;
+    }
+  }
+  faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(kept), faces.end());
+  return faces;
 }
 
 }  // namespace
@@ -56,6 +112,9 @@ double TetMesh::rest_volume6(TetId tet) const {
 
 Result<TetMesh> TetMesh::build(TetSoup soup) {
   TetMesh mesh;
+  if (Status status = check_cuts(soup); !status) {
+    return status.error();
+  }
   if (Status status = mesh.take_points(soup); !status) {
     return status.error();
   }
@@ -63,10 +122,13 @@ Result<TetMesh> TetMesh::build(TetSoup soup) {
   if (Status status = mesh.take_tets(soup); !status) {
     return status.error();
   }
-  soup = {};
+  decltype(soup.tets)().swap(soup.tets);
+  decltype(soup.regions)().swap(soup.regions);
   mesh.link_faces();
+  mesh.tag_walls(soup.walls);
   mesh.find_loose_edges();
   mesh.mark_shapes();
+  mesh.mark_fronts(soup);
   mesh.find_folds();
   return mesh;
 }
@@ -82,7 +144,12 @@ Status TetMesh::take_points(const TetSoup& soup) {
       return Error{ErrorCode::kBadArgument, "point " + std::to_string(i) + " is not finite", {i}};
     }
     rest_.push_back(p);
-    vertex_origin_.push_back(VertexId(static_cast<std::uint32_t>(i)));
+    if (soup.origins.empty()) {
+      vertex_origin_.push_back(VertexId(static_cast<std::uint32_t>(i)));
+    } else {
+      vertex_origin_.push_back(soup.origins[i] < 0 ? VertexId()
+                                                   : VertexId(static_cast<std::uint32_t>(soup.origins[i])));
+    }
   }
   current_ = rest_;
   vertex_tet_.resize(count);
@@ -184,6 +251,26 @@ void TetMesh::link_faces() {
   }
 }
 
+void TetMesh::tag_walls(const std::vector<SoupWall>& walls) {
+  if (walls.empty()) {
+    return;
+  }
+  std::vector<ClaimedFace> faces = claimed_faces(walls);
+  for_each_tet([&](TetId id) {
+    for (unsigned s = 0; s < 4; ++s) {
+      if (!tet_links_[id][s].is_boundary()) continue;
+      const ClaimedFace wanted{key_of(vertices(Side(id, s))), 0};
+      const auto face = std::lower_bound(faces.begin(), faces.end(), wanted);
+      if (face == faces.end() || wanted < *face) continue;
+      ++face->sides;
+      face->side = Side(id, s);
+    }
+  });
+  for (const ClaimedFace& face : faces) {
+    if (face.sides == 1) tet_links_[face.side.tet()][face.side.side()] = Link::boundary(face.stroke);
+  }
+}
+
 bool TetMesh::is_flat_at_load(TetId tet) const {
   if (!std::binary_search(flat_at_load_.begin(), flat_at_load_.end(), tet)) {
     return false;
@@ -198,13 +285,14 @@ bool TetMesh::is_overshared_at_load(VertexId a, VertexId b) const {
 
 void TetMesh::mark_shapes() {
   std::vector<std::uint32_t> incident(vertex_slots(), 0);
-  std::vector<bool> is_skin(vertex_slots(), false);
+  std::vector<std::uint8_t> surfaces(vertex_slots(), 0);
   for_each_tet([&](TetId id) {
     for (unsigned s = 0; s < 4; ++s) {
       ++incident[tet_vertices_[id][s].value];
-      if (tet_links_[id][s].is_boundary()) {
+      const Link link = tet_links_[id][s];
+      if (link.is_boundary()) {
         for (const VertexId v : vertices(Side(id, s))) {
-          is_skin[v.value] = true;
+          surfaces[v.value] |= link.tag() == 0 ? shape::kSkin : shape::kWall;
         }
       }
     }
@@ -213,15 +301,65 @@ void TetMesh::mark_shapes() {
   for (std::uint32_t slot = 0; slot < vertex_slots(); ++slot) {
     const VertexId v(slot);
     // A vertex inside has one closed star, unless the input's parts overlap.
-    if (!is_skin[slot] && !touched_itself_at_load_) {
+    if (surfaces[slot] == 0 && !touched_itself_at_load_) {
       continue;
     }
-    vertex_shape_[v] = is_skin[slot] ? shape::kSkin : 0;
+    vertex_shape_[v] = surfaces[slot];
     if (walker.star(*this, v).size() != incident[slot]) {
       vertex_shape_[v] |= shape::kPinched;
       touched_itself_at_load_ = true;
     }
   }
+}
+
+/// Whether the lips of a cut meet at the edge of a wall between its corners `corner` and `corner` + 1: the next
+/// boundary face around the edge is a wall that lies on this one, and the body is all around the edge instead of a thin
+/// wedge between the two.
+bool TetMesh::is_front_edge(Side wall, unsigned corner) const {
+  const auto face = vertices(wall);
+  const VertexId a = face[corner], b = face[(corner + 1) % 3], c = face[(corner + 2) % 3];
+  const Vec3 along = rest_[b] - rest_[a];
+  // Into the wall, square to the edge; of any length.
+  const Vec3 inwards = along.dot(along) * (rest_[c] - rest_[a]) - along.dot(rest_[c] - rest_[a]) * along;
+  bool is_all_around = false;
+  Side at = wall;
+  while (true) {  // the side of the same tet that shares the edge, then the neighbour behind it
+    const TetId tet = at.tet();
+    unsigned out = 0;
+    while (out == at.side() || tet_vertices_[tet][out] == a || tet_vertices_[tet][out] == b) ++out;
+    const Vec3 behind = rest_[tet_vertices_[tet][at.side()]] - rest_[a];
+    is_all_around |= behind.dot(inwards) < 0;
+    at = Side(tet, out);
+    if (link(at).is_boundary()) break;
+    at = link(at).side();
+  }
+  if (link(at).tag() == 0 || !is_all_around) {
+    return false;
+  }
+  const auto other = vertices(at);
+  const Vec3 n = along.cross(rest_[c] - rest_[a]);
+  const Vec3 m = (rest_[other[1]] - rest_[other[0]]).cross(rest_[other[2]] - rest_[other[0]]);
+  return n.dot(m) < -kFolded * (n.norm() * m.norm());
+}
+
+void TetMesh::mark_fronts(const TetSoup& soup) {
+  for (std::uint32_t slot = 0; slot < soup.fronts.size(); ++slot) {
+    if (soup.fronts[slot] != 0) vertex_shape_[VertexId(slot)] |= shape::kFront;
+  }
+  if (soup.walls.empty() || !soup.fronts.empty()) {
+    return;
+  }
+  for_each_tet([&](TetId id) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Side side(id, s);
+      if (!link(side).is_boundary() || link(side).tag() == 0) continue;
+      for (unsigned k = 0; k < 3; ++k) {
+        if (!is_front_edge(side, k)) continue;
+        vertex_shape_[vertices(side)[k]] |= shape::kFront;
+        vertex_shape_[vertices(side)[(k + 1) % 3]] |= shape::kFront;
+      }
+    }
+  });
 }
 
 /// Two tets on one side of the face between them overlap: they see its vertices turn the same way.

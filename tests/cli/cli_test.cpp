@@ -2,6 +2,8 @@
 // What the command does when all is well.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -240,6 +242,59 @@ TEST(Cli, converts_to_every_format_and_keeps_numbers_and_labels) {
     EXPECT_EQ(first->data.piece, second->data.piece) << name;
     EXPECT_EQ(first->data.triangle_stroke, second->data.triangle_stroke) << name;
     EXPECT_EQ(first->data.origin_vertex, second->data.origin_vertex) << name;
+  }
+}
+
+/// How many triangles of each stroke a file has.
+std::map<std::int32_t, std::size_t> walls_in(const std::string& path) {
+  std::map<std::int32_t, std::size_t> walls;
+  const auto file = incise::io::read_mesh(path);
+  EXPECT_TRUE(file.ok());
+  for (const std::int32_t stroke : file->data.triangle_stroke) ++walls[stroke];
+  return walls;
+}
+
+TEST(Cli, a_second_run_goes_on_from_the_wound_of_the_first) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  const std::string log = folder / "second.jsonl";
+  for (const std::string end : {".mesh", ".msh", ".vtk", ".vtu", ".msh.gz"}) {
+    const std::string once = folder / ("once" + end), twice = folder / ("twice" + end);
+    ASSERT_EQ(run({"cut", cube, "--plane", "1,0.1,0.2,0.6", "-o", once, "-q"}).code, 0) << end;
+    const Outcome second = run({"cut", once, "--plane", "0.1,1,0.2,0.7", "-o", twice, "-q", "--record", log});
+    ASSERT_EQ(second.code, 0) << end << second.err;
+    const auto before = walls_in(once), after = walls_in(twice);
+    ASSERT_EQ(before.size(), 1U) << end;
+    ASSERT_EQ(after.size(), 2U) << end;
+    EXPECT_GT(after.at(1), 0U);
+    EXPECT_GT(after.at(2), 100U);
+    EXPECT_EQ(json::parse(run({"check", twice, "--json"}).out)["components"], 4) << end;
+    EXPECT_EQ(run({"replay", log, "--verify", "-q", "-o", folder / ("replayed" + end)}).code, 0) << end;
+    EXPECT_EQ(read(folder / ("replayed" + end)), read(twice)) << end;
+    const auto origins = incise::io::read_mesh(twice)->data.origin_vertex;
+    EXPECT_EQ(*std::max_element(origins.begin(), origins.end()), 215) << end;  // of the cube's 216 vertices
+  }
+}
+
+TEST(Cli, converted_cut_meshes_keep_their_wounds_and_foreign_labels_make_none) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(2));
+  ASSERT_EQ(run({"cut", cube, "--plane", "1,1,1,1.3", "-o", folder / "cut.vtu", "-q"}).code, 0);
+  std::string from = folder / "cut.vtu";
+  for (const std::string name : {"a.mesh", "a.msh", "a.vtk", "a.vtu"}) {
+    ASSERT_EQ(run({"convert", from, folder / name}).code, 0) << name;
+    EXPECT_EQ(walls_in(folder / name), walls_in(from)) << name;
+    from = folder / name;
+  }
+  std::string foreign = cube_mesh(2);
+  foreign.insert(foreign.find("Tetrahedra"), "Triangles\n1\n1 2 4 6\n");
+  from = folder.write("foreign.mesh", foreign);
+  for (const std::string name : {"b.vtu", "b.msh", "b.vtk", "b.mesh"}) {
+    ASSERT_EQ(run({"convert", from, folder / name}).code, 0) << name;
+    from = folder / name;
+    EXPECT_TRUE(incise::io::read_mesh(from)->data.has_foreign_labels) << name;
+    ASSERT_EQ(run({"cut", from, "--plane", "1,0,0,0.3", "-o", folder / "cut.msh", "-q"}).code, 0);
+    EXPECT_EQ(walls_in(folder / "cut.msh").count(6), 0U) << name;
   }
 }
 

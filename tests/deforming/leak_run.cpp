@@ -155,7 +155,7 @@ class FrontError {
 class Run {
  public:
   explicit Run(const LeakSettings& settings)
-      : settings_(settings), engine_(make_engine()), motion_(make_motion()), stroke_(engine_.stroke_count() + 1) {
+      : settings_(settings), engine_(make_engine()), motion_(make_motion()), stroke_(engine_.next_stroke()) {
     result_.expected = motion_.expected_pieces();
     volume_ = validate(engine_.mesh(), ValidateLevel::kGeometry).volume;
     if (settings.mover == Mover::kSolver) {

@@ -339,5 +339,51 @@ TEST(ReadMesh, damaged_or_endless_gzip_is_refused) {
   EXPECT_NE(refused.error().message.find("100 bytes"), std::string::npos);
 }
 
+const std::string kMeditHead = "MeshVersionFormatted 2\nDimension 3\n";
+const std::string kMeditRest =
+    "Vertices\n4\n0 0 0 3\n1 0 0 0\n0 1 0 1\n0 0 1 9\nCorners\n2\n2\n3\nTriangles\n1\n1 2 3 5\nTetrahedra\n1\n1 2 3 4 "
+    "0\nEnd\n";
+
+TEST(ReadMedit, takes_labels_for_strokes_origins_and_fronts_where_incise_says_so) {
+  const auto ours = io::read_mesh_bytes(kMeditHead + "# incise: stroke origin_vertex cut_front\r\n" + kMeditRest);
+  ASSERT_TRUE(ours.ok()) << ours.error().message;
+  EXPECT_FALSE(ours->data.has_foreign_labels);
+  EXPECT_EQ(ours->data.triangle_stroke, std::vector<std::int32_t>{5});
+  EXPECT_EQ(ours->data.origin_vertex, (std::vector<std::int32_t>{2, -1, 0, 8}));
+  EXPECT_EQ(ours->data.cut_front, (std::vector<std::int32_t>{0, 1, 1, 0}));
+  for (const std::string mark : {"", "# written by somebody\n", "# incise was here: stroke\n"}) {
+    const auto foreign = io::read_mesh_bytes(kMeditHead + mark + kMeditRest);
+    ASSERT_TRUE(foreign.ok()) << foreign.error().message;
+    EXPECT_TRUE(foreign->data.has_foreign_labels) << mark;
+    EXPECT_EQ(foreign->data.triangle_stroke, std::vector<std::int32_t>{5});
+    EXPECT_TRUE(foreign->data.origin_vertex.empty() && foreign->data.cut_front.empty()) << mark;
+  }
+  const auto late = io::read_mesh_bytes(kMeditHead + kMeditRest + "# incise: stroke\n");
+  EXPECT_TRUE(late.ok() && late->data.has_foreign_labels);
+}
+
+TEST(ReadMedit, names_the_line_of_a_corner_that_does_not_exist) {
+  std::string bytes = kMeditHead + "# incise: cut_front\n" + kMeditRest;
+  bytes.replace(bytes.find("Corners\n2\n2"), 11, "Corners\n2\n7");
+  const auto file = io::read_mesh_bytes(bytes, "a.mesh");
+  ASSERT_FALSE(file.ok());
+  EXPECT_EQ(file.error().message.substr(0, 10), "a.mesh:12:");
+}
+
+TEST(ReadMsh, takes_triangles_for_walls_only_where_element_data_name_strokes) {
+  const std::string elements =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n3\n"
+      "1 4 2 0 1 1 2 3 4\n2 2 2 7 1 1 2 3\n3 2 2 8 1 1 2 4\n$EndElements\n";
+  const auto foreign = io::read_mesh_bytes(elements);
+  ASSERT_TRUE(foreign.ok());
+  EXPECT_TRUE(foreign->data.has_foreign_labels);
+  EXPECT_EQ(foreign->data.triangle_stroke, (std::vector<std::int32_t>{7, 8}));
+  const auto ours =
+      io::read_mesh_bytes(elements + "$ElementData\n1\n\"stroke\"\n1\n0\n3\n0\n1\n1\n3 2\n$EndElementData\n");
+  ASSERT_TRUE(ours.ok()) << ours.error().message;
+  EXPECT_FALSE(ours->data.has_foreign_labels);
+  EXPECT_EQ(ours->data.triangle_stroke, (std::vector<std::int32_t>{0, 2}));
+}
+
 }  // namespace
 }  // namespace incise

@@ -28,7 +28,8 @@ io::MeshData full_mesh() {
   data.piece = {1, 2};
   data.triangles = {{1, 2, 3}, {1, 3, 2}, {0, 1, 2}};
   data.triangle_stroke = {1, 2, 0};
-  data.origin_vertex = {0, 1, 2, 3, 1};
+  data.origin_vertex = {0, 1, 2, -1, 1};
+  data.cut_front = {0, 0, 1, 0, 1};
   return data;
 }
 
@@ -74,8 +75,12 @@ TEST_P(WriteMesh, reads_back_bit_for_bit) {
   if (kind != ".mesh") {
     EXPECT_EQ(back->data.piece, data.piece);
   }
-  if (kind != ".mesh" && kind != ".veg" && kind != ".inp") {
+  if (kind != ".veg" && kind != ".inp") {
     EXPECT_EQ(back->data.origin_vertex, data.origin_vertex);
+  }
+  if (faces) {
+    EXPECT_EQ(back->data.cut_front, data.cut_front);
+    EXPECT_FALSE(back->data.has_foreign_labels);
   }
 }
 
@@ -90,6 +95,23 @@ TEST_P(WriteMesh, leaves_out_what_is_not_given) {
   EXPECT_TRUE(back->data.triangles.empty());
   EXPECT_TRUE(back->data.piece.empty());
   EXPECT_TRUE(back->data.origin_vertex.empty());
+  EXPECT_TRUE(back->data.cut_front.empty());
+  EXPECT_FALSE(back->data.has_foreign_labels);
+}
+
+TEST_P(WriteMesh, foreign_labels_of_triangles_never_become_strokes) {
+  const std::string extension = GetParam();
+  const std::string kind = extension.substr(0, extension.find('.', 1));
+  if (kind != ".mesh" && kind != ".msh" && kind != ".vtk" && kind != ".vtu") return;
+  io::MeshData data = full_mesh();
+  data.has_foreign_labels = true;
+  for (int i = 0; i < 2; ++i) {
+    const auto back = round_trip(data, extension);
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    EXPECT_TRUE(back->data.has_foreign_labels);
+    EXPECT_EQ(back->data.triangle_stroke, full_mesh().triangle_stroke);
+    data = back->data;
+  }
 }
 
 TEST_P(WriteMesh, the_same_mesh_gives_the_same_bytes) {

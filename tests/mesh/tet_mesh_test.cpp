@@ -123,6 +123,71 @@ TEST(TetMesh, refuses_soups_that_break_its_promises) {
   EXPECT_EQ(TetMesh::build(soup).error().code, ErrorCode::kBadArgument);
 }
 
+TEST(TetMesh, tags_the_sides_that_walls_name_and_marks_their_vertices) {
+  TetSoup soup = one_tet();
+  soup.walls = {{{2, 0, 1}, 3}, {{0, 1, 2}, 3}};  // the same face twice is one wall
+  const TetMesh mesh = build(soup);
+  EXPECT_EQ(mesh.link(Side(TetId(0), 3)), Link::boundary(3));
+  for (unsigned s = 0; s < 3; ++s) EXPECT_EQ(mesh.link(Side(TetId(0), s)), Link::boundary(0));
+  for (std::uint32_t v = 0; v < 3; ++v) EXPECT_EQ(mesh.shape_of(VertexId(v)), shape::kSkin | shape::kWall);
+  EXPECT_EQ(mesh.shape_of(VertexId(3)), shape::kSkin);
+  expect_valid(mesh, 1 / 6.0);
+}
+
+TEST(TetMesh, passes_walls_over_that_are_no_boundary_or_two) {
+  TetSoup soup = one_tet();
+  soup.points.emplace_back(1, 1, 1.5);
+  soup.points.emplace_back(0.2, 0.2, -1);
+  soup.points.emplace_back(0.1, 0.1, 2);
+  soup.tets.push_back({1, 2, 3, 4});
+  soup.walls = {{{1, 2, 3}, 1}, {{0, 1, 4}, 1}, {{0, 1, 3}, 1}, {{0, 1, 3}, 2}};
+  const TetMesh plain = build([&] {
+    auto s = soup;
+    return s.walls.clear(), s;
+  }());
+  EXPECT_EQ(build(soup).hash(), plain.hash());
+  soup.tets.push_back({0, 2, 1, 5});  // three tets on one face
+  soup.tets.push_back({0, 1, 2, 6});
+  soup.walls = {{{0, 1, 2}, 1}};
+  EXPECT_EQ(build(soup).link(Side(TetId(0), 3)), Link::boundary(0));
+}
+
+TEST(TetMesh, takes_origins_and_fronts_from_its_input) {
+  TetSoup soup = one_tet();
+  soup.origins = {7, -1, 0, 1000};
+  soup.walls = {{{0, 1, 2}, 1}};
+  soup.fronts = {0, 0, 1, 0};
+  const TetMesh mesh = build(soup);
+  EXPECT_EQ(mesh.origin(VertexId(0)), VertexId(7));
+  EXPECT_FALSE(mesh.origin(VertexId(1)).is_valid());
+  EXPECT_EQ(mesh.origin(VertexId(3)), VertexId(1000));
+  EXPECT_EQ(mesh.shape_of(VertexId(2)), shape::kSkin | shape::kWall | shape::kFront);
+  EXPECT_EQ(mesh.shape_of(VertexId(1)), shape::kSkin | shape::kWall);
+}
+
+// A thin wedge of material has walls that lie on one another, too, but nothing all around its edge.
+TEST(TetMesh, sees_no_front_at_the_edge_of_a_thin_wedge) {
+  TetSoup soup;
+  soup.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 1, 0.01)};
+  soup.tets = {{0, 1, 2, 3}};
+  soup.walls = {{{0, 1, 2}, 1}, {{0, 1, 3}, 1}};
+  const TetMesh mesh = build(soup);
+  for (std::uint32_t v = 0; v < 4; ++v) EXPECT_EQ(mesh.shape_of(VertexId(v)) & shape::kFront, 0);
+}
+
+TEST(TetMesh, refuses_walls_origins_and_fronts_that_do_not_fit) {
+  const auto is_refused = [](const auto& change) {
+    TetSoup soup = one_tet();
+    change(soup);
+    return TetMesh::build(soup).error().code == ErrorCode::kBadArgument;
+  };
+  EXPECT_TRUE(is_refused([](TetSoup& soup) { soup.walls = {{{0, 1, 4}, 1}}; }));
+  EXPECT_TRUE(is_refused([](TetSoup& soup) { soup.walls = {{{0, 1, 2}, 0}}; }));
+  EXPECT_TRUE(is_refused([](TetSoup& soup) { soup.walls = {{{0, 1, 2}, TetMesh::kMaxStroke + 1}}; }));
+  EXPECT_TRUE(is_refused([](TetSoup& soup) { soup.origins = {0, 1, 2}; }));
+  EXPECT_TRUE(is_refused([](TetSoup& soup) { soup.fronts = {0, 1, 1, 0, 1}; }));
+}
+
 TEST(TetMesh, remembers_flat_tets_of_its_input) {
   TetSoup soup = one_tet();
   soup.points.emplace_back(0.25, 0.25, 0);

@@ -16,7 +16,7 @@ enum class MeshPose : std::uint8_t { kAtRest, kAsItStands };
 
 /// Packs a mesh for a file: live vertices and tets in the order of their slots; region and piece per tet; a
 /// triangle with its stroke's number for every side of a cut wall; the input's number of each vertex, -1 where a cut
-/// made it.
+/// made it; where there are walls, the vertices at which a cut ends.
 ///
 /// @param pieces       of this mesh.
 /// @param file_vertex  as in `LoadedMesh`: the file's number of each input vertex, or empty.

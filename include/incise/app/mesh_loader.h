@@ -28,7 +28,8 @@ struct MeshSource {
 struct LoadedMesh {
   MeshSource source;
   TetMesh mesh;
-  std::vector<std::uint32_t> file_vertex;  ///< the file's number of each mesh vertex; empty where they are equal
+  std::vector<std::uint32_t> file_vertex;  ///< the file's number of each mesh vertex; empty where they are equal, or
+                                           ///< where the file itself names the vertices before its cuts
 };
 
 /// Takes the mid-edge nodes of ten-node tets out of a mesh; corners keep their order.
@@ -44,7 +45,8 @@ std::vector<std::uint32_t> drop_mid_nodes(io::MeshFile& file);
 [[nodiscard]] MeshSource describe(const io::MeshFile& file, const std::filesystem::path& path);
 
 /// Makes a mesh of what a file holds: mid-edge nodes left out, negative tets turned, exact duplicates dropped, all said
-/// in the notes. Errors: as `TetMesh::build`, naming the file. Cost: O(n log n).
+/// in the notes. Walls, their strokes, where cuts end and origins of vertices are taken where the file is a cut mesh
+/// that Incise wrote. Errors: as `TetMesh::build`, naming the file. Cost: O(n log n).
 [[nodiscard]] Result<LoadedMesh> build_mesh(io::MeshFile file, const std::filesystem::path& path);
 
 /// Reads and builds. Errors: as `io::read_mesh` and `build_mesh`.

@@ -30,7 +30,7 @@ struct StrokeReport {
   MaintainStatistics maintain;
   StageTimes times;             ///< summed over the stroke
   std::vector<double> step_ms;  ///< one entry for each step; one for a stroke that was cut as a whole
-  std::uint32_t stroke = 0;     ///< its number, from 1: the tag of the walls that it made
+  std::uint32_t stroke = 0;     ///< its number: the tag of the walls that it made; see `Engine::next_stroke`
 };
 
 /// The blade at one moment.
@@ -61,7 +61,7 @@ struct MaintainReport {
 /// a whole or not at all.
 class Engine {
  public:
-  /// Takes the mesh. Errors: kBadArgument for options out of range.
+  /// Takes the mesh. Errors: kBadArgument for options out of range. Cost: O(tets).
   static Result<Engine> create(TetMesh mesh, EngineOptions options = {});
 
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
@@ -69,6 +69,9 @@ class Engine {
   [[nodiscard]] const EngineOptions& options() const { return options_; }
   /// Strokes applied so far (undone ones not counted).
   [[nodiscard]] std::uint32_t stroke_count() const { return stroke_count_; }
+  /// The number that the next stroke gets, or the one under way has: one above those applied, which go on from the
+  /// highest tag of the mesh that was taken; 1 for a fresh engine on a body without walls.
+  [[nodiscard]] std::uint32_t next_stroke() const { return earlier_strokes_ + stroke_count_ + 1; }
 
   /// Cuts along the whole stroke, in the rest shape. A blade that misses changes nothing and is no error.
   /// Errors: kBadArgument for a malformed stroke, or while one is under way; kOutOfMemory where ids run out; the mesh
@@ -147,6 +150,7 @@ class Engine {
   std::vector<Operation> operations_;
   std::vector<Operation> undone_;  // what redo would apply, last first
   std::uint32_t stroke_count_ = 0;
+  std::uint32_t earlier_strokes_ = 0;  // the highest tag of the mesh that was taken
   OpenStroke open_;
   bool is_in_stroke_ = false;
   bool has_moved_ = false;  // the body stands otherwise than at rest

@@ -63,7 +63,7 @@ struct FrameReport {
   AdvanceReport relax;
   BladeState blade;
   std::vector<Vec3> hook_forces;  ///< of the tissue on each hook of the input, N
-  std::uint32_t stroke = 0;       ///< the stroke under way, from 1; 0: none
+  std::uint32_t stroke = 0;       ///< the stroke under way, of this simulation's from 1; 0: none
   std::size_t contacts = 0;       ///< vertices that tools touch
 };
 

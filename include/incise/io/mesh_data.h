@@ -16,8 +16,10 @@ struct MeshData {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< `n_triangles × 3`, indices into `soup.points`
   std::vector<std::int32_t> triangle_stroke;            ///< `n_triangles` or empty; 0 = skin, else the stroke's
                                                         ///< number; a foreign file's own face label
+  bool has_foreign_labels = false;                      ///< `triangle_stroke` are such labels, and no strokes
   std::vector<std::int32_t> piece;                      ///< `n_tets` or empty: face-connected piece
   std::vector<std::int32_t> origin_vertex;              ///< `n_points` or empty: vertex of the mesh before the cut
+  std::vector<std::int32_t> cut_front;                  ///< `n_points` or empty: 1 where a cut ends at the vertex
 };
 
 /// Triangles without connectivity, as a surface file holds them; equal points are not merged.

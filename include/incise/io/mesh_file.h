@@ -73,8 +73,9 @@ using SiblingLoader = std::function<Result<std::string>(const std::string& name)
 /// Write a mesh in the format that the extension names, gzipped where `.gz` follows.
 ///
 /// `.mesh`, `.msh` (2.2 ASCII), `.vtk` (4.2 ASCII), `.vtu`, `.node` or `.ele` (both are written), `.veg`, `.inp`.
-/// Numbers read back bit for bit. `region` goes everywhere; `piece` everywhere but `.mesh`; triangles with `stroke`
-/// to `.mesh .msh .vtk .vtu`; `origin_vertex` to `.msh .vtk .vtu .node`.
+/// Numbers read back bit for bit. `region` goes everywhere; `piece` everywhere but `.mesh`; triangles with `stroke`,
+/// and `cut_front`, to `.mesh .msh .vtk .vtu`; `origin_vertex` to these and `.node`. Foreign face labels stay what
+/// they are: no reader takes them for strokes.
 /// The file is written beside its place and renamed: no partial file is ever seen under its name.
 /// @param data  indices in range, finite points, arrays of the documented lengths.
 /// Errors: `kBadArgument` for bad data or an unknown extension, `kIo`. Cost: O(n); holds the file's bytes.

@@ -78,6 +78,8 @@ class TetMesh {
  public:
   /// The largest number of tet slots that a `Link` can address.
   static constexpr std::uint32_t kMaxTets = 1U << 28U;
+  /// The largest number of a stroke that walls may come with; 2^30 more find room above it.
+  static constexpr std::uint32_t kMaxStroke = 1U << 30U;
 
   TetMesh() = default;
 
@@ -86,8 +88,13 @@ class TetMesh {
   /// Every tet must be positive or flat and appear once (`normalise` sees to that); indices must be in range
   /// and points finite. A face with more than two tets gets no neighbours: each of its sides is boundary.
   /// Points without tets are kept as vertices. Slot numbers equal positions in the soup.
-  /// Errors: kBadArgument names the first offending tet or point; kOutOfMemory above 2^28 tets.
-  /// Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet.
+  /// A wall tags the boundary side over its three points. It is passed over where there is none (two tets that share
+  /// the face have closed it) or more than one, and where walls of several strokes claim the side. Without
+  /// `soup.fronts` a cut ends at the edges where its lips meet: two walls that lie on one another with the body all
+  /// around.
+  /// Errors: kBadArgument names the first offending tet, point or wall (a point out of range, a stroke outside
+  /// [1, `kMaxStroke`]), or the array of a wrong length; kOutOfMemory above 2^28 tets.
+  /// Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet; with walls O(surface · log walls) more.
   static Result<TetMesh> build(TetSoup soup);
 
   [[nodiscard]] std::size_t tet_count() const { return live_tets_; }
@@ -129,7 +136,8 @@ class TetMesh {
   [[nodiscard]] TetId tet_of(VertexId vertex) const { return vertex_tet_[vertex]; }
   /// The bits of `shape`.
   [[nodiscard]] std::uint8_t shape_of(VertexId vertex) const { return vertex_shape_[vertex]; }
-  /// The input vertex that this one is, or was duplicated from; invalid where a cut made it.
+  /// The input vertex that this one is, or was duplicated from; invalid where a cut made it. Where the input was cut
+  /// before, a vertex of what was cut first, and no slot of this mesh.
   [[nodiscard]] VertexId origin(VertexId vertex) const { return vertex_origin_[vertex]; }
   [[nodiscard]] const Vec3& rest(VertexId vertex) const { return rest_[vertex]; }
   [[nodiscard]] const Vec3& current(VertexId vertex) const { return current_[vertex]; }
@@ -192,7 +200,10 @@ class TetMesh {
   Status take_points(const TetSoup& soup);
   Status take_tets(const TetSoup& soup);
   void link_faces();
+  void tag_walls(const std::vector<SoupWall>& walls);
   void mark_shapes();
+  [[nodiscard]] bool is_front_edge(Side wall, unsigned corner) const;
+  void mark_fronts(const TetSoup& soup);
   void find_loose_edges();
   [[nodiscard]] bool is_folded(Side side) const;
   void find_folds();
