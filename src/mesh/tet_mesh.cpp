@@ -2,13 +2,16 @@
 #include "incise/mesh/tet_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "incise/core/hash.h"
 #include "incise/geom/quality.h"
+#include "incise/mesh/bounds.h"
 #include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
@@ -35,6 +38,20 @@ std::uint64_t edge_key(VertexId a, VertexId b) {
 
 Error bad_tet(std::size_t tet, const std::string& what) {
   return {ErrorCode::kBadArgument, "tet " + std::to_string(tet) + " " + what, {tet}};
+}
+
+/// Three digits are enough to tell a unit by.
+std::string in_short(double length) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", length);
+  return text.data();
+}
+
+Error bad_extent(const std::string& what) {
+  return {ErrorCode::kBadArgument,
+          what + ": lengths between " + in_short(kLeastExtent) + " and " + in_short(kGreatestExtent) +
+              " can be computed with; rescale the mesh, and what shall cut it, to another unit",
+          {}};
 }
 
 }  // namespace
@@ -64,6 +81,9 @@ Result<TetMesh> TetMesh::build(TetSoup soup) {
     return status.error();
   }
   soup = {};
+  if (Status status = mesh.check_extent(); !status) {
+    return status.error();
+  }
   mesh.link_faces();
   mesh.find_loose_edges();
   mesh.mark_shapes();
@@ -128,6 +148,22 @@ Status TetMesh::take_tets(const TetSoup& soup) {
       flat_at_load_.push_back(id);
     }
   });
+  return {};
+}
+
+Status TetMesh::check_extent() const {
+  const Box box = rest_bounds(*this);
+  if (box.is_empty()) {
+    return {};
+  }
+  const double extent = (box.hi - box.lo).maxCoeff();
+  const double farthest = box.lo.cwiseAbs().cwiseMax(box.hi.cwiseAbs()).maxCoeff();
+  if (!(farthest <= kGreatestExtent)) {
+    return bad_extent("the mesh reaches to a coordinate of " + in_short(farthest));
+  }
+  if (extent > 0 && !(extent >= kLeastExtent)) {
+    return bad_extent("the mesh extends over " + in_short(extent) + " only");
+  }
   return {};
 }
 

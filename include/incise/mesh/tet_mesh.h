@@ -67,6 +67,10 @@ inline constexpr std::uint8_t kDead = 128;   ///< the slot is free
 
 class Transaction;
 
+/// Bodies extend over lengths between these, in whatever unit, and no coordinate lies further from the origin: what is
+/// computed of edges goes up to their eighth powers, and must neither overflow nor vanish.
+inline constexpr double kLeastExtent = 1e-30, kGreatestExtent = 1e30;
+
 /// A tetrahedral mesh as a structure of arrays with tet-to-tet adjacency.
 ///
 /// Slots: every tet and vertex lives in a numbered slot until it dies; freed slots are reused, last freed first, but
@@ -86,8 +90,9 @@ class TetMesh {
   /// Every tet must be positive or flat and appear once (`normalise` sees to that); indices must be in range
   /// and points finite. A face with more than two tets gets no neighbours: each of its sides is boundary.
   /// Points without tets are kept as vertices. Slot numbers equal positions in the soup.
-  /// Errors: kBadArgument names the first offending tet or point; kOutOfMemory above 2^28 tets.
-  /// Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet.
+  /// Errors: kBadArgument names the first offending tet or point, or what the tets extend over where that is not within
+  /// `kLeastExtent` and `kGreatestExtent` (a body of no extent at all is flat, and sound); kOutOfMemory above 2^28
+  /// tets. Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet.
   static Result<TetMesh> build(TetSoup soup);
 
   [[nodiscard]] std::size_t tet_count() const { return live_tets_; }
@@ -191,6 +196,7 @@ class TetMesh {
 
   Status take_points(const TetSoup& soup);
   Status take_tets(const TetSoup& soup);
+  [[nodiscard]] Status check_extent() const;
   void link_faces();
   void mark_shapes();
   void find_loose_edges();
