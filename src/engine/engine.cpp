@@ -319,7 +319,7 @@ bool Engine::undo() {
   while (journal_.position() > target) {
     journal_.undo(mesh_);
   }
-  maintainer_.forget();
+  maintainer_.forget(target);
   paper_first_step_ = kNothingWaits;
   return true;
 }
