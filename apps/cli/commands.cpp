@@ -142,7 +142,7 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
 Status write_results(const std::string& output, const std::string& report, const app::JobResult& result,
                      const Terminal& terminal) {
   const WritingZone zone;
-  if (!output.empty() && result.report.change.ok) {
+  if (!output.empty() && (result.report.change.ok || result.report.broken)) {
     if (const Status status = io::write_mesh(output, result.mesh); !status.ok()) return status;
   }
   if (report == "-") {
@@ -153,6 +153,20 @@ Status write_results(const std::string& output, const std::string& report, const
   return {};
 }
 
+/// What became of a mesh that a job left invalid; `work` names the job.
+std::string broken_text(const std::string& output, const std::string& work, const app::JobReport& report) {
+  if (!report.broken) {
+    return "the " + work +
+           " broke the validity contract, so no mesh was written; see `validity` in the report (--report)";
+  }
+  const app::BrokenStroke& broken = *report.broken;
+  const std::string name = broken.name.empty() ? "" : " \"" + broken.name + "\"";
+  const std::string later = broken.index + 1 < report.strokes ? ", with those after it" : "";
+  const std::string left = output.empty() ? "" : "; " + output + " has the mesh as it was before";
+  return "stroke " + std::to_string(broken.index) + name + " broke the validity contract and was taken back" + later +
+         left + "; see `validity` in the report (--report)";
+}
+
 /// Writes what a job gave and says how it went; `work` names it in messages.
 int finish_job(const std::string& output, const std::string& report, const std::string& work,
                const app::JobResult& result, const Terminal& terminal) {
@@ -161,10 +175,7 @@ int finish_job(const std::string& output, const std::string& report, const std::
   }
   if (report != "-" && !terminal.is_quiet) terminal.data(app::to_text(result.report));
   if (result.report.change.ok) return kDone;
-  return fail(
-      terminal,
-      "the " + work + " broke the validity contract, so no mesh was written; see `validity` in the report (--report)",
-      kCheckFailed);
+  return fail(terminal, broken_text(output, work, result.report), kCheckFailed);
 }
 
 }  // namespace

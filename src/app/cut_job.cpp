@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "app/job_internal.h"
+#include "incise/app/mesh_export.h"
 #include "incise/app/recorded_engine.h"
+#include "incise/mesh/bounds.h"
 
 namespace incise::inline v0 {
 namespace app {
@@ -77,6 +79,26 @@ Status cut_all(RecordedEngine& engine, const CutJob& job, JobReport& report) {
   return {};
 }
 
+/// Says of all blades whether they keep within reach, before anything is cut.
+Status check_blades(const CutJob& job, const Box& body) {
+  for (std::size_t i = 0; i < job.strokes.size(); ++i) {
+    Stroke stroke = job.strokes[i];
+    stroke.name.clear();  // `in_stroke` says it
+    if (const Status status = check_reach(stroke, body); !status.ok()) return in_stroke(status.error(), job, i);
+  }
+  return {};
+}
+
+/// Takes the stroke that broke the mesh back, with all that came after it.
+Status keep_last_valid(RecordedEngine& engine, const CutJob& job, JobReport& report) {
+  const double tolerance = volume_tolerance(job.engine);
+  const Result<std::uint32_t> kept = detail::take_back_until(
+      engine, [&](const TetMesh& mesh) { return detail::keeps_contract(mesh, tolerance, report); });
+  if (!kept.ok()) return kept.error();
+  report.broken = BrokenStroke{*kept, job.strokes[*kept].name, engine.mesh().hash()};
+  return {};
+}
+
 }  // namespace
 
 Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh) {
@@ -85,12 +107,18 @@ Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh)
   report.options = job.options;
   detail::describe_job(loaded, job.engine, job.budget_us, report);
   report.strokes = job.strokes.size();
+  if (const Status status = check_blades(job, rest_bounds(loaded.mesh)); !status.ok()) return status.error();
   detail::measure_before(loaded.mesh, report);
   Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), detail::without_upkeep(job.engine),
                                                          {job.record, loaded.source.file, job.options.seed});
   if (!engine.ok()) return engine.error();
   if (const Status status = cut_all(*engine, job, report); !status.ok()) return status.error();
-  detail::finish(engine->engine(), loaded, wants_mesh, result);
+  Components pieces = detail::measure_end(engine->engine(), report);
+  if (!report.change.ok && !job.strokes.empty()) {
+    if (const Status status = keep_last_valid(*engine, job, report); !status.ok()) return status.error();
+    pieces = find_components(engine->mesh());
+  }
+  if (wants_mesh) result.mesh = to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
   if (job.look) job.look(engine->engine());
   return result;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/job_internal.h"
+#include "incise/app/mesh_export.h"
 
 namespace incise::inline v0 {
 namespace app {
@@ -32,7 +33,8 @@ Result<JobResult> run_improve(LoadedMesh loaded, const ImproveJob& job, bool wan
   Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), detail::without_upkeep(job.engine));
   if (!engine.ok()) return engine.error();
   if (const Status status = improve(*engine, job, result.report); !status.ok()) return status.error();
-  detail::finish(engine->engine(), loaded, wants_mesh, result);
+  const Components pieces = detail::measure_end(engine->engine(), result.report);
+  if (wants_mesh) result.mesh = to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
   return result;
 }
 

@@ -109,10 +109,26 @@ void add_operation(const MaintainStatistics& maintained, const StepSamples& samp
   report.stage_ms.insert(report.stage_ms.end(), samples.stages.begin(), samples.stages.end());
 }
 
-void finish(const Engine& engine, const LoadedMesh& loaded, bool wants_mesh, JobResult& result) {
-  const Components pieces = find_components(engine.mesh());
-  measure_after(engine.mesh(), pieces, volume_tolerance(engine.options()), result.report);
-  if (wants_mesh) result.mesh = to_mesh_data(engine.mesh(), pieces, loaded.file_vertex);
+Components measure_end(const Engine& engine, JobReport& report) {
+  Components pieces = find_components(engine.mesh());
+  measure_after(engine.mesh(), pieces, volume_tolerance(engine.options()), report);
+  return pieces;
+}
+
+bool keeps_contract(const TetMesh& mesh, double volume_tolerance, const JobReport& report) {
+  ValidateOptions options;
+  options.expected_volume = report.volume_before;
+  options.volume_tolerance = volume_tolerance;
+  return compare_with_input(report.validity_before, validate(mesh, ValidateLevel::kGeometry, options)).ok;
+}
+
+Result<std::uint32_t> take_back_until(RecordedEngine& engine, const std::function<bool(const TetMesh&)>& is_valid) {
+  while (engine.engine().stroke_count() > 0) {
+    const Result<bool> undone = engine.undo();
+    if (!undone.ok()) return undone.error();
+    if (is_valid(engine.mesh())) break;
+  }
+  return engine.engine().stroke_count();
 }
 
 }  // namespace detail

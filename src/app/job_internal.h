@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 
 #include "incise/app/cut_job.h"
 #include "incise/app/recorded_engine.h"
@@ -69,8 +70,15 @@ struct StepSamples {
 /// Adds one operation, a stroke or an improvement.
 void add_operation(const MaintainStatistics& maintained, const StepSamples& samples, JobReport& report);
 
-/// Measures what an engine ends with, and packs it where it is wanted.
-void finish(const Engine& engine, const LoadedMesh& loaded, bool wants_mesh, JobResult& result);
+/// Measures what an engine ends with. Returns its pieces.
+Components measure_end(const Engine& engine, JobReport& report);
+
+/// Whether a mesh is as good as what the job began with: the validity contract. Cost: as `validate`.
+[[nodiscard]] bool keeps_contract(const TetMesh& mesh, double volume_tolerance, const JobReport& report);
+
+/// Takes strokes back, the last one in any case, until `is_valid` says so or there are none. Returns how many are left.
+/// Errors: kIo where the recording fails. Cost: their edits, and one question each.
+Result<std::uint32_t> take_back_until(RecordedEngine& engine, const std::function<bool(const TetMesh&)>& is_valid);
 
 }  // namespace detail
 }  // namespace app

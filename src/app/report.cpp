@@ -116,6 +116,11 @@ Json validity_json(const JobReport& report) {
     }
   }
   root["first"] = encode(report.validity_after)["first"];
+  if (report.broken) {
+    root["broken_stroke"] = {{"index", report.broken->index},
+                             {"name", report.broken->name},
+                             {"kept_hash", hash_text(report.broken->kept_hash)}};
+  }
   return root;
 }
 

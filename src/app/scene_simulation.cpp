@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
 
 namespace incise::inline v0 {
@@ -74,6 +75,19 @@ Status attach(const Scene& scene, Simulation& simulation) {
   return {};
 }
 
+/// Whether every blade of the scene keeps within reach of the body.
+Status check_blades(const Scene& scene, const TetMesh& mesh) {
+  const Box body = rest_bounds(mesh);
+  for (std::size_t i = 0; i < scene.strokes.size(); ++i) {
+    Stroke stroke = scene.strokes[i].stroke;
+    if (stroke.name.empty()) stroke.name = std::to_string(i);
+    if (const Status status = check_reach(stroke, body); !status.ok()) {
+      return Error{ErrorCode::kBadFile, status.error().message, {}};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<fs::path> find_model(const Scene& scene) {
@@ -117,6 +131,7 @@ Result<Simulation> make_simulation(const Scene& scene, TetMesh mesh, unsigned th
   SimulationOptions options = scene.options;
   options.engine.threads = options.body.threads = threads;
   options.engine.log = std::move(log);
+  if (const Status status = check_blades(scene, mesh); !status.ok()) return status.error();
   Result<Simulation> simulation = Simulation::create(std::move(mesh), std::move(options));
   if (!simulation.ok()) return simulation;
   if (const Status status = attach(scene, *simulation); !status.ok()) return status.error();

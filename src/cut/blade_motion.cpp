@@ -237,14 +237,13 @@ BladeMotion::Proposal BladeMotion::propose(std::span<const Vec3> row) {
 }
 
 /// The divided front is another polyline, if only by rounding: triangles without area close the seam.
-void BladeMotion::refine(const std::vector<std::size_t>& parts) {
+void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
   Row refined = {front_.front()};
   for (std::size_t c = 0; c + 1 < front_.size(); ++c) {
     const SosPoint &a = front_[c], &b = front_[c + 1];
     std::vector<SosPoint> fan = {a};
-    for (std::size_t k = 1; k < parts[c]; ++k) {
-      const double t = static_cast<double>(k) / static_cast<double>(parts[c]);
-      fan.push_back({a.position + t * (b.position - a.position), next_key_++});
+    for (std::size_t k = 0; k + 1 < shares[c].size(); ++k) {
+      fan.push_back({a.position + shares[c][k] * (b.position - a.position), next_key_++});
     }
     fan.push_back(b);
     for (std::size_t k = 1; k + 1 < fan.size(); ++k) {
@@ -257,7 +256,9 @@ void BladeMotion::refine(const std::vector<std::size_t>& parts) {
     refined.insert(refined.end(), fan.begin() + 1, fan.end());
   }
   std::vector<bool> is_swept;
-  for (std::size_t c = 0; c < parts.size(); ++c) is_swept.insert(is_swept.end(), parts[c], bool{is_swept_[c]});
+  for (std::size_t c = 0; c < shares.size(); ++c) {
+    is_swept.insert(is_swept.end(), shares[c].size(), bool{is_swept_[c]});
+  }
   is_swept_ = std::move(is_swept);
   front_ = std::move(refined);
   if (is_first_strip_) {  // nothing was swept yet: there is no seam

@@ -43,8 +43,8 @@ class BladeMotion {
   [[nodiscard]] Proposal propose(std::span<const Vec3> row);
   /// The strip to a proposed row, without asking whether the blade is in its slit or the sheet meets itself.
   std::unique_ptr<Strip> accept(const Proposal& proposal) { return move_to(proposal.row, nullptr).strip; }
-  /// Divides the segments of the front and of all rows to come into parts.
-  void refine(const std::vector<std::size_t>& parts);
+  /// Divides the segments of the front, and of all rows to come, at shares of their lengths, the last one 1.
+  void refine(const std::vector<std::vector<double>>& shares);
   [[nodiscard]] std::vector<Vec3> front() const;
 
   /// The strip that is left over at the end: to the last row, as far as it was held for moving too little.

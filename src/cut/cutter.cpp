@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cut/blade_motion.h"
+#include "cut/far_blade.h"
 #include "cut/material_blade.h"
 #include "cut/paper_cut.h"
 #include "cut/stroke_cut.h"
@@ -26,6 +27,8 @@ constexpr double kOlderCut = 0.5;
 constexpr double kNearWall = 0.15;
 /// A step of a blade in a moving body is taken in parts of an element, at most so many.
 constexpr double kMostParts = 64;
+/// A blade that comes from far away is near the body within so many of its diagonals.
+constexpr double kNearBody = 0.1;
 /// A blade this many spacings ahead of the crack's tip cuts on even where that closes the cut behind it: else strong
 /// shaking would hold it for ever.
 constexpr double kGiveWay = 0.75;
@@ -197,13 +200,16 @@ class Cutter::Pipeline {
   void enter_material(const TetMesh& mesh) {
     is_in_material_ = true;
     material_.take_over(mesh, stroke_cut_.surface(), last_row_, motion_.front(), spacing_, stroke_cut_.complex());
-    motion_.refine(material_.parts());
+    motion_.refine(material_.shares());
   }
   /// From where the blade was to `last_row_`, in parts of at most an element.
   Status step_in_material(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& before, const Vec3& direction,
                           StageTimes& times) {
     double travel = 0;
     for (std::size_t c = 0; c < before.size(); ++c) travel = std::max(travel, (last_row_[c] - before[c]).norm());
+    if (travel > kMostParts * spacing_ || material_.is_graded()) {
+      return step_from_far(mesh, journal, before, direction, times);
+    }
     const double parts = std::clamp(std::ceil(travel / spacing_), 1.0, kMostParts);
     for (double part = 1; part <= parts; ++part) {
       std::vector<Vec3> row = last_row_;
@@ -213,6 +219,29 @@ class Cutter::Pipeline {
       if (Status status = cut_to(mesh, journal, row, direction, times); !status) return status;
     }
     return {};
+  }
+  /// The same for a blade that reaches far beyond the body, or goes far: away from the body it is only put in place.
+  Status step_from_far(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& before, const Vec3& direction,
+                       StageTimes& times) {
+    const std::vector<Vec3> to = last_row_;
+    const Box body = current_bounds(mesh), near = enlarged(body, kNearBody);
+    const double travel = std::max(spacing_, (body.hi - body.lo).norm() / kMostParts);
+    std::vector<Vec3> row = before;
+    for (const StepPart& part : divide_step(before, to, travel, near)) {
+      const std::vector<Vec3> from = std::exchange(row, to);
+      for (std::size_t c = 0; c < row.size() && part.end < 1; ++c) row[c] = before[c] + part.end * (to[c] - before[c]);
+      const bool is_free = stroke_cut_.complex().size() == 0;
+      if (is_free && (!part.is_near || material_.is_graded())) put_in_place(mesh, journal, part.is_near ? from : row);
+      if (is_free && !part.is_near) continue;
+      if (Status status = cut_to(mesh, journal, row, direction, times); !status) return status;
+    }
+    return {};
+  }
+  /// Starts anew with a blade that has not met the body yet.
+  void put_in_place(const TetMesh& mesh, const Journal& journal, const std::vector<Vec3>& row) {
+    stroke_cut_.prepare(mesh, journal);
+    material_.begin(mesh, stroke_cut_.surface(), row, spacing_, stroke_cut_.complex());
+    motion_.begin(material_.anchors(), spacing_);
   }
   Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction,
                 StageTimes& times) {

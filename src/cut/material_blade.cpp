@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cut/contact_walk.h"
+#include "cut/far_blade.h"
 #include "incise/geom/closest.h"
 #include "incise/geom/quality.h"
 
@@ -14,6 +15,11 @@ namespace {
 
 /// Points of the blade stand at most so many spacings apart.
 constexpr double kPointSpacing = 0.25;
+/// Segments of more parts than this are dense only near the body, if they leave its surroundings: so many of its
+/// diagonals.
+constexpr double kManyParts = 256, kSurroundings = 1.0;
+/// Segments within the surroundings have at most so many parts.
+constexpr double kMostParts = 4096;
 /// The front follows in steps of so many spacings of material.
 constexpr double kLeastStep = 0.1;
 /// A blade cuts on where it is ahead of the tip by this share of how far it is beside it.
@@ -116,21 +122,30 @@ Side nearest_side(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& 
 
 }  // namespace
 
-void MaterialBlade::set_parts(std::span<const Vec3> row) {
-  parts_.clear();
+/// Segments are divided evenly; long ones that leave the body's surroundings only near these.
+void MaterialBlade::set_shares(const TetMesh& mesh, std::span<const Vec3> row) {
+  shares_.clear();
+  is_graded_ = false;
+  Box near;
   for (std::size_t c = 0; c + 1 < row.size(); ++c) {
-    const double count = std::ceil((row[c + 1] - row[c]).norm() / (kPointSpacing * spacing_));
-    parts_.push_back(static_cast<std::size_t>(std::clamp(count, 1.0, 4096.0)));
+    const double parts = std::ceil((row[c + 1] - row[c]).norm() / (kPointSpacing * spacing_));
+    if (parts > kManyParts && near.is_empty()) near = enlarged(current_bounds(mesh), kSurroundings);
+    if (parts > kManyParts && near.distance2(row[c]) + near.distance2(row[c + 1]) > 0) {
+      shares_.push_back(graded_shares(row[c], row[c + 1], kPointSpacing * spacing_, near));
+      is_graded_ = true;
+      continue;
+    }
+    const double count = std::clamp(parts, 1.0, kMostParts);
+    std::vector<double>& shares = shares_.emplace_back();
+    for (double k = 1; k <= count; ++k) shares.push_back(k / count);
   }
 }
 
 std::vector<Vec3> MaterialBlade::refined(std::span<const Vec3> row) const {
   std::vector<Vec3> points = {row.front()};
   for (std::size_t c = 0; c + 1 < row.size(); ++c) {
-    for (std::size_t k = 1; k <= parts_[c]; ++k) {
-      const double t = static_cast<double>(k) / static_cast<double>(parts_[c]);
-      points.push_back(k == parts_[c] ? row[c + 1] : Vec3(row[c] + t * (row[c + 1] - row[c])));
-    }
+    for (const double t : shares_[c])
+      points.push_back(t == 1.0 ? row[c + 1] : Vec3(row[c] + t * (row[c + 1] - row[c])));
   }
   return points;
 }
@@ -139,7 +154,7 @@ void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std:
                           ClosedComplex& complex) {
   spacing_ = spacing;
   course_ = Vec3::Zero();
-  set_parts(row);
+  set_shares(mesh, row);
   const std::vector<Vec3> places = refined(row);
   points_.assign(places.size(), {});
   anchors_.resize(places.size());
@@ -367,7 +382,7 @@ void MaterialBlade::take_over(const TetMesh& mesh, const SurfaceIndex& surface, 
                               std::span<const Vec3> front, double spacing, ClosedComplex& complex) {
   spacing_ = spacing;
   course_ = Vec3::Zero();
-  set_parts(row);
+  set_shares(mesh, row);
   anchors_ = refined(front);
   const std::vector<Vec3> places = refined(row);
   points_.assign(places.size(), {});

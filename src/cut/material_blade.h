@@ -29,8 +29,11 @@ class MaterialBlade {
   /// Takes over a stroke that began at rest: `anchors`, one for each point of the refined row, are its front.
   void take_over(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row,
                  std::span<const Vec3> front, double spacing, ClosedComplex& complex);
-  /// How many parts each segment of the row has.
-  [[nodiscard]] const std::vector<std::size_t>& parts() const { return parts_; }
+  /// Where each segment of the row is divided: shares of its length, the last one 1.
+  [[nodiscard]] const std::vector<std::vector<double>>& shares() const { return shares_; }
+  /// Whether it reaches so far beyond the body that its points are dense near the body alone, as that and the blade
+  /// stood at first: where it has not met the body yet, `begin` again.
+  [[nodiscard]] bool is_graded() const { return is_graded_; }
 
   /// Looks for the blade as it stands now. `direction`: where its edge cuts, unit; zero: where it has cut so far.
   void locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex, std::span<const Vec3> row,
@@ -63,7 +66,7 @@ class MaterialBlade {
   };
 
   [[nodiscard]] std::vector<Vec3> refined(std::span<const Vec3> row) const;
-  void set_parts(std::span<const Vec3> row);
+  void set_shares(const TetMesh& mesh, std::span<const Vec3> row);
   void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);
   void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
@@ -76,8 +79,9 @@ class MaterialBlade {
 
   std::vector<Point> points_;
   std::vector<Vec3> anchors_;
-  std::vector<std::size_t> parts_;  // of each segment of the row
-  Vec3 course_ = Vec3::Zero();      // of the cut at rest, unit
+  std::vector<std::vector<double>> shares_;  // of each segment of the row
+  bool is_graded_ = false;
+  Vec3 course_ = Vec3::Zero();  // of the cut at rest, unit
   double spacing_ = 1.0;
   std::uint64_t next_key_ = std::uint64_t{1} << 48U;
 };

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/cut/stroke.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 namespace incise::inline v0 {
@@ -9,11 +12,25 @@ namespace incise::inline v0 {
 namespace {
 
 Error bad_stroke(const Stroke& stroke, const std::string& what) {
-  return {ErrorCode::kBadArgument, "stroke \"" + stroke.name + "\": " + what, {}};
+  const std::string place = stroke.name.empty() ? "" : "stroke \"" + stroke.name + "\": ";
+  return {ErrorCode::kBadArgument, place + what, {}};
 }
 
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
+/// How many of the greatest sides of a box a point lies away from it, along the axis where that is most. Of a box
+/// without sides: 0.
+double reach_of(const Vec3& p, const Box& body) {
+  const double size = body.is_empty() ? 0.0 : (body.hi - body.lo).maxCoeff();
+  return size > 0 ? (body.lo - p).cwiseMax(p - body.hi).cwiseMax(0.0).maxCoeff() / size : 0.0;
+}
+
+std::string in_short(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
 }
 
 /// The point of the plane n·x = d that is nearest to `p`; exactly on the plane along the axes that n lies in.
@@ -67,6 +84,20 @@ Status check(const Stroke& stroke) {
   return {};
 }
 
+Status check_reach(const Stroke& stroke, const Box& body, std::size_t first_time) {
+  for (std::size_t i = 0; i < stroke.edges.size(); ++i) {
+    for (std::size_t k = 0; k < stroke.edges[i].size(); ++k) {
+      const double reach = reach_of(stroke.edges[i][k], body);
+      if (reach <= kGreatestReach) continue;
+      return bad_stroke(stroke, "point " + std::to_string(k) + " at time " + std::to_string(first_time + i) + " lies " +
+                                    in_short(reach) + " times the body's size away from it; " +
+                                    in_short(kGreatestReach) + " is the most: bring the blade nearer, or to the " +
+                                    "unit of the mesh");
+    }
+  }
+  return {};
+}
+
 Result<Stroke> plane_stroke(const Box& bounds, const Vec3& normal, double offset) {
   const double length = normal.norm();
   if (!is_finite(normal) || !std::isfinite(offset) || !(length > 0) || !std::isfinite(length)) {
@@ -76,7 +107,8 @@ Result<Stroke> plane_stroke(const Box& bounds, const Vec3& normal, double offset
   const Vec3 u = tangent_of(normal);
   const Vec3 v = (normal / length).cross(u);
   // An equilateral triangle whose inscribed circle holds every point of the body near the plane.
-  const double r = 1.25 * (bounds.hi - bounds.lo).norm() + 1e-9 * length;
+  const double diagonal = (bounds.hi - bounds.lo).norm();
+  const double r = 1.25 * diagonal + 1e-9 * std::min(length, diagonal);
   const double half = 1.75 * r;
   Stroke stroke;
   stroke.name = "plane";

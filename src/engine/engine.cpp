@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "incise/improve/paper_maintenance.h"
+#include "incise/mesh/bounds.h"
 
 namespace incise::inline v0 {
 
@@ -57,11 +58,19 @@ Engine::Engine(TetMesh mesh, EngineOptions options)
       options_(std::move(options)),
       cutter_(options_.cut, options_.threads),
       maintainer_(options_.maintain),
-      earlier_strokes_(highest_tag(mesh_)) {}
+      earlier_strokes_(highest_tag(mesh_)),
+      rest_box_(rest_bounds(mesh_)),
+      box_(rest_box_) {}
 
 Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   if (is_in_stroke_) {
     return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
+  }
+  if (Status status = check(stroke); !status) {
+    return status.error();
+  }
+  if (Status status = check_reach(stroke, rest_box_); !status) {
+    return status.error();
   }
   StrokeReport report;
   report.stroke = next_stroke();
@@ -112,11 +121,20 @@ Error no_stroke() {
 
 }  // namespace
 
+Status Engine::check_pose(const BladePose& pose) const {
+  Stroke stroke = stroke_of(pose, nullptr);
+  stroke.name = std::to_string(stroke_count() + 1);
+  return check_reach(stroke, box_, is_in_stroke_ ? open_.steps + 1 : 0);
+}
+
 Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
   if (is_in_stroke_) {
     return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
   }
   if (Status status = check(pose, nullptr); !status) {
+    return status.error();
+  }
+  if (Status status = check_pose(pose); !status) {
     return status.error();
   }
   open_ = {};
@@ -137,6 +155,10 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   if (Status status = check(open_.poses.front(), &pose); !status) {
     return status.error();
   }
+  if (Status status = check_pose(pose); !status) {
+    return status.error();
+  }
+  ++open_.steps;
   if (is_paper()) {
     open_.poses.push_back(pose);
     return StepReport{};
@@ -209,6 +231,7 @@ Status Engine::set_positions(std::span<const Vec3> positions) {
                  {}};
   }
   bool has_moved = false;
+  Box box;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const VertexId v(static_cast<std::uint32_t>(i));
     if (!mesh_.is_live(v)) continue;
@@ -216,9 +239,11 @@ Status Engine::set_positions(std::span<const Vec3> positions) {
       return Error{ErrorCode::kBadArgument, "the position of vertex " + std::to_string(i) + " is not finite", {}};
     }
     has_moved = has_moved || positions[i] != mesh_.rest(v);
+    if (mesh_.tet_of(v).is_valid()) box.extend(positions[i]);
   }
   mesh_.set_current(positions);
   has_moved_ = has_moved;
+  box_ = box;
   return {};
 }
 
@@ -303,7 +328,7 @@ bool Engine::undo() {
   while (journal_.position() > target) {
     journal_.undo(mesh_);
   }
-  maintainer_.forget();
+  maintainer_.forget(target);
   paper_first_step_ = kNothingWaits;
   return true;
 }

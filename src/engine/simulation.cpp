@@ -147,6 +147,7 @@ Status Simulation::State::start_blade(const FrameInput& input) {
       !is_finite(pose.direction)) {
     return bad("the blade's edge must have at least 2 points, and all of it must be finite");
   }
+  if (Status status = engine.check_pose(pose); !status) return status;
   if (is_in_stroke) {
     return pose.edge.size() == blade_before.size()
                ? Status{}

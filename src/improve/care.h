@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "improve/inradius_ratio.h"
@@ -16,12 +17,15 @@ namespace incise::inline v0 {
 struct Care {
   Transaction& transaction;
   const TetMesh& mesh;
-  const References& references;
+  References& references;
   StarWalker& walker;
   MaintainStatistics& statistics;
   bool is_bad;                  ///< the tet in hand is bad: surfaces may give way more
   VertexId born;                ///< out: the vertex that the last accepted operation put in
   std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
+
+  /// To be called with tets whose boundary an operation is about to judge or to change.
+  void note(std::span<const TetId> tets) const { references.skin().note(mesh, tets); }
 
   /// Counts evaluations of tets.
   void spend(std::size_t units) { statistics.work_units += units; }

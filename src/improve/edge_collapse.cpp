@@ -276,6 +276,8 @@ bool EdgeCollapser::improves(Care& care) const {
 }
 
 bool EdgeCollapser::keeps_surfaces(const Care& care) {
+  care.note(star_);
+  care.note(around_);
   for (unsigned i = 0; i < surfaces_.count; ++i) {
     const SurfaceAt& surface = surfaces_.surfaces[i];
     const Vec3 normal = surface.vector_area.normalized();
@@ -295,7 +297,20 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
       return false;
     }
   }
-  return true;
+  return !moves(care) || keeps_skin_beside(care);
+}
+
+/// Whether the skin beside the merged faces stays in its place, too: their common vertex moves.
+bool EdgeCollapser::keeps_skin_beside(const Care& care) {
+  Piece before, after;
+  for_each_face(care.mesh, around_, plan_.into, plan_.from, [&](std::uint32_t tag, Side side) {
+    if (tag != 0) return;
+    Facet facet = facet_of(care.mesh, side, plan_.into);
+    add_facet(before, facet);
+    facet[0] = place_;
+    add_facet(after, facet);
+  });
+  return care.references.skin().keeps(before, after);
 }
 
 /// Whether tets that stand upright now stay so, with the merged vertex where it will stand.
@@ -312,6 +327,7 @@ bool EdgeCollapser::keeps_current(const Care& care) const {
 }
 
 bool EdgeCollapser::carry_out(Care& care) {
+  care.note(star_);
   if (moves(care) && !move_vertex(care, plan_.into, place_, plan_.around)) {
     return false;
   }

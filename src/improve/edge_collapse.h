@@ -43,6 +43,7 @@ class EdgeCollapser {
   [[nodiscard]] bool is_curved() const { return surfaces_.count > 0 && !surfaces_.is_flat(); }
   [[nodiscard]] bool improves(Care& care) const;
   [[nodiscard]] bool keeps_surfaces(const Care& care);
+  [[nodiscard]] bool keeps_skin_beside(const Care& care);
   [[nodiscard]] bool keeps_current(const Care& care) const;
   [[nodiscard]] bool moves(const Care& care) const { return place_ != care.mesh.rest(plan_.into); }
   bool carry_out(Care& care);

@@ -70,6 +70,7 @@ bool EdgeRemover::try_edge(Care& care, VertexId a, VertexId b, TetId seed) {
   if (makes_known_face(care) || !keeps_current(care.mesh, plan_)) {
     return false;
   }
+  care.note(plan_.consumed);
   apply(care.transaction, plan_, care.changed);
   ++care.statistics.removed_edges;
   return true;
@@ -184,6 +185,7 @@ bool FaceRemover::try_face(Care& care, Side face) {
   if (!is_better || exists_elsewhere(care, edge, plan_.consumed) || !keeps_current(mesh, plan_)) {
     return false;
   }
+  care.note(plan_.consumed);
   apply(care.transaction, plan_, care.changed);
   ++care.statistics.removed_faces;
   return true;

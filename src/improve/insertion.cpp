@@ -236,6 +236,7 @@ bool VertexInserter::stays_sound(const TetMesh& mesh, const Vec3& current) const
 bool VertexInserter::carry_out(Care& care) {
   cavity_ = best_cavity_;
   place_ = best_place_;
+  care.note(cavity_);
   if (!keeps_surface(care)) {
     return false;
   }

@@ -97,15 +97,18 @@ class Maintainer::Queue {
     work_units_ = work_units;
     should_stop_ = &should_stop;
     const std::size_t tets_before = mesh.tet_count();
+    if (has_work()) references_.skin().follow(mesh, journal);
     while (has_work() && has_budget()) {
       run_step(mesh, journal, times);
+      references_.skin().skip(journal);
     }
     statistics_.waiting_tets = heap_.size();
     statistics_.created_tets = static_cast<std::int64_t>(mesh.tet_count()) - static_cast<std::int64_t>(tets_before);
     return statistics_;
   }
   [[nodiscard]] bool has_work() const { return !heap_.empty() || !crowd_.empty(); }
-  void forget() {
+  void forget(std::size_t position) {
+    references_.skin().rewind(position);
     heap_.clear();
     crowd_.clear();
     ++epoch_;
@@ -277,8 +280,8 @@ MaintainStatistics Maintainer::run(TetMesh& mesh, Journal& journal, std::uint64_
 bool Maintainer::has_work() const {
   return queue_->has_work();
 }
-void Maintainer::forget() {
-  queue_->forget();
+void Maintainer::forget(std::size_t position) {
+  queue_->forget(position);
 }
 
 }  // namespace incise::inline v0

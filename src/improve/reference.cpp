@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "incise/geom/closest.h"
-
 namespace incise::inline v0 {
 
 namespace {
@@ -20,14 +18,9 @@ constexpr double kSlack = 0.3;
 /// However coarse a wall is, it may leave its place by no more than this share of the local edge.
 constexpr double kGreatestTolerance = 2.25 * kWallTolerance;
 
-bool is_near(const Vec3& p, const std::vector<Facet>& facets, double tolerance2) {
-  return std::any_of(facets.begin(), facets.end(),
-                     [&](const Facet& f) { return closest_on_triangle(p, f[0], f[1], f[2]).distance2 <= tolerance2; });
-}
-
 bool are_near(const Piece& piece, const Piece& other, double tolerance2) {
   return std::all_of(piece.samples.begin(), piece.samples.end(),
-                     [&](const Vec3& p) { return is_near(p, other.facets, tolerance2); });
+                     [&](const Vec3& p) { return distance2_to(other, p) <= tolerance2; });
 }
 
 double farthest(const TriangleTree& sweep, const Piece& piece) {
@@ -86,6 +79,9 @@ double References::tolerance(std::uint32_t tag, bool is_bad) const {
 
 bool References::allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec3& place, double tolerance,
                              double edge) const {
+  if (tag == 0) {
+    return skin_.keeps_vertex(old_place, place, edge);
+  }
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end() ||
       sweep->second.tree.closest(place, std::max(tolerance, sweep->second.chord * edge)).is_valid()) {
@@ -99,7 +95,8 @@ bool References::allows(std::uint32_t tag, const Piece& before, const Piece& aft
                         Reach& reach) const {
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end()) {
-    return are_near(after, before, tolerance * tolerance) && are_near(before, after, tolerance * tolerance);
+    return are_near(after, before, tolerance * tolerance) && are_near(before, after, tolerance * tolerance) &&
+           (tag != 0 || skin_.keeps(before, after));
   }
   const TriangleTree& tree = sweep->second.tree;
   return std::all_of(after.samples.begin(), after.samples.end(), [&](const Vec3& p) {

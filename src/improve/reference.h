@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
 
+#include "improve/original_skin.h"
+#include "improve/piece.h"
 #include "incise/geom/triangle_tree.h"
 #include "incise/mesh/journal.h"
 
@@ -15,30 +16,18 @@ namespace incise::inline v0 {
 /// Cut walls leave their place by at most this share of the local edge.
 inline constexpr double kWallTolerance = 0.012;
 
-/// A triangle of a surface, by its corners.
-using Facet = std::array<Vec3, 3>;
-
-/// A piece of surface that an operation replaces: its facets, and where it may be furthest from the other piece. Both
-/// pieces have one rim, so that points inside are enough.
-struct Piece {
-  std::vector<Facet> facets;
-  std::vector<Vec3> samples;
-
-  void clear() {
-    facets.clear();
-    samples.clear();
-  }
-};
-
 /// The mean length of the edges that lead from the first corners of a piece's facets, the vertex that they share.
 [[nodiscard]] double mean_spoke(const Piece& piece);
 
 /// How far a piece of surface lies from its reference; measured when it is first asked for.
 using Reach = std::optional<double>;
 
-/// The surfaces that boundaries shall stay close to: the sweep of each stroke, at rest.
+/// The surfaces that boundaries shall stay close to: the sweep of each stroke, at rest, and the skin as it was.
 class References {
  public:
+  /// The skin as it was: what is about to change must be noted there.
+  [[nodiscard]] OriginalSkin& skin() { return skin_; }
+
   void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = {std::move(sweep)}; }
 
   /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`: no further
@@ -50,13 +39,14 @@ class References {
   [[nodiscard]] double tolerance(std::uint32_t tag, bool is_bad) const;
 
   /// Whether the surface under a tag may change from `before` to `after`: no sample of `after` lies further from the
-  /// reference than `tolerance`, or than `before` did. Where there is no reference the pieces are compared with each
-  /// other. `reach` is that of `before`. Cost: O(samples), or O(samples·facets).
+  /// reference than `tolerance`, or than `before` did. Where there is no sweep the pieces are compared with each other,
+  /// skin with the skin as it was besides. `reach` is that of `before`. Cost: O(samples), or O(samples·facets).
   [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,
                             Reach& reach) const;
 
   /// The same for a vertex of the surface that moves: it may lie as far from the reference as it did, or as the facets
-  /// of a fresh wall with this mean edge do. True where there is no reference. Cost: O(1) searches.
+  /// of a fresh wall with this mean edge do; on skin see `OriginalSkin::keeps_vertex`. True where there is no
+  /// reference. Cost: O(1) searches.
   [[nodiscard]] bool allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec3& place, double tolerance,
                                  double edge) const;
 
@@ -68,6 +58,7 @@ class References {
   };
 
   std::map<std::uint32_t, Sweep> sweeps_;
+  OriginalSkin skin_;
 };
 
 }  // namespace incise::inline v0

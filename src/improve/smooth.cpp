@@ -178,6 +178,9 @@ bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vect
   if (!may_move(care.mesh, vertex, place, star)) {
     return false;
   }
+  if (care.mesh.shape_of(vertex) != 0) {
+    care.note(star);
+  }
   const MaterialPoint point = locate(care.mesh, place, star);
   care.transaction.move(vertex, place, point.basis, point.weights);
   ++care.statistics.moved_vertices;
@@ -257,6 +260,7 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
   if (surfaces_.mobility == Mobility::kFree || (surfaces_.is_flat() && !surfaces_.is_front())) {
     return true;
   }
+  care.note(star_);
   const double edge = mean_edge(care.mesh, vertex, star_);
   if (surfaces_.is_front() && !keeps_front(care.mesh, vertex, surfaces_, skin_tolerance(care) * edge)) {
     return false;

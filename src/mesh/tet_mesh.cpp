@@ -2,14 +2,17 @@
 #include "incise/mesh/tet_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include "incise/core/hash.h"
 #include "incise/geom/quality.h"
+#include "incise/mesh/bounds.h"
 #include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
@@ -93,6 +96,20 @@ std::vector<ClaimedFace> claimed_faces(const std::vector<SoupWall>& walls) {
   return faces;
 }
 
+/// Three digits are enough to tell a unit by.
+std::string in_short(double length) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", length);
+  return text.data();
+}
+
+Error bad_extent(const std::string& what) {
+  return {ErrorCode::kBadArgument,
+          what + ": lengths between " + in_short(kLeastExtent) + " and " + in_short(kGreatestExtent) +
+              " can be computed with; rescale the mesh, and what shall cut it, to another unit",
+          {}};
+}
+
 }  // namespace
 
 void TetMesh::set_current(std::span<const Vec3> positions) {
@@ -124,6 +141,9 @@ Result<TetMesh> TetMesh::build(TetSoup soup) {
   }
   decltype(soup.tets)().swap(soup.tets);
   decltype(soup.regions)().swap(soup.regions);
+  if (Status status = mesh.check_extent(); !status) {
+    return status.error();
+  }
   mesh.link_faces();
   mesh.tag_walls(soup.walls);
   mesh.find_loose_edges();
@@ -195,6 +215,22 @@ Status TetMesh::take_tets(const TetSoup& soup) {
       flat_at_load_.push_back(id);
     }
   });
+  return {};
+}
+
+Status TetMesh::check_extent() const {
+  const Box box = rest_bounds(*this);
+  if (box.is_empty()) {
+    return {};
+  }
+  const double extent = (box.hi - box.lo).maxCoeff();
+  const double farthest = box.lo.cwiseAbs().cwiseMax(box.hi.cwiseAbs()).maxCoeff();
+  if (!(farthest <= kGreatestExtent)) {
+    return bad_extent("the mesh reaches to a coordinate of " + in_short(farthest));
+  }
+  if (extent > 0 && !(extent >= kLeastExtent)) {
+    return bad_extent("the mesh extends over " + in_short(extent) + " only");
+  }
   return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/job_internal.h"
 #include "incise/app/mesh_export.h"
 #include "incise/app/mesh_info.h"
 #include "incise/mesh/bounds.h"
@@ -37,6 +38,12 @@ app::JobResult cut_cube(Profile profile) {
   EXPECT_TRUE(result.ok());
   return std::move(result).value();
 }
+
+struct RecordedEngineOf {
+  RecordedEngineOf(TetMesh mesh, EngineOptions options)
+      : engine(app::RecordedEngine::create(std::move(mesh), std::move(options)).value()) {}
+  app::RecordedEngine engine;
+};
 
 TEST(Percentiles, are_nearest_ranks) {
   std::vector<double> sample;
@@ -117,6 +124,42 @@ TEST(CutJob, report_has_every_key_of_the_contract) {
   }
   EXPECT_EQ(report["validity"]["ok"], true);
   EXPECT_EQ(report["hash"].get<std::string>().size(), 16U);
+}
+
+TEST(CutJob, takes_strokes_back_until_the_mesh_is_valid) {
+  TetMesh mesh = app::build_mesh(cube_file(), "cube")->mesh;
+  const Box box = rest_bounds(mesh);
+  EngineOptions options;
+  options.maintain.merge = options.maintain.improve = false;
+  RecordedEngineOf cut(std::move(mesh), options);
+  std::vector<std::uint64_t> hashes = {cut.engine.mesh().hash()};
+  for (const double offset : {0.21, 0.43, 0.67}) {
+    ASSERT_TRUE(cut.engine.cut(*plane_stroke(box, Vec3(1, 0, 0), offset)).ok());
+    hashes.push_back(cut.engine.mesh().hash());
+  }
+  const auto has_at_most = [](std::size_t pieces) {
+    return [pieces](const TetMesh& m) { return find_components(m).count() <= pieces; };
+  };
+  EXPECT_EQ(*app::detail::take_back_until(cut.engine, has_at_most(9)), 2U) << "the last one in any case";
+  EXPECT_EQ(cut.engine.mesh().hash(), hashes[2]);
+  EXPECT_EQ(*app::detail::take_back_until(cut.engine, has_at_most(1)), 0U);
+  EXPECT_EQ(cut.engine.mesh().hash(), hashes[0]);
+  EXPECT_EQ(*app::detail::take_back_until(cut.engine, has_at_most(0)), 0U) << "nothing is left to take back";
+}
+
+TEST(CutJob, refuses_a_blade_out_of_reach_before_anything_is_cut) {
+  Result<app::LoadedMesh> loaded = app::build_mesh(cube_file(), "cube");
+  app::CutJob job;
+  const Box box = rest_bounds(loaded->mesh);
+  job.strokes = {*plane_stroke(box, Vec3(1, 0, 0), 0.5), *plane_stroke(box, Vec3(1, 0, 0), 1e8)};
+  std::size_t begun = 0;
+  job.progress = [&](std::size_t, std::size_t) { ++begun; };
+  const Result<app::JobResult> result = app::run_cut(std::move(loaded).value(), job, false);
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().code, ErrorCode::kBadArgument);
+  EXPECT_NE(result.error().message.find("stroke 1 \"plane\": point 0 at time 0"), std::string::npos)
+      << result.error().message;
+  EXPECT_EQ(begun, 0U);
 }
 
 TEST(MeshLoader, leaves_mid_edge_nodes_out_and_remembers_the_files_numbers) {

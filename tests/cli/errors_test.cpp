@@ -2,10 +2,15 @@
 // What the command does when something is wrong: a code, a message that names the place, and no output file.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/program.h"
+#include "cut/bodies.h"
+#include "incise/io/mesh_file.h"
 
 namespace {
 
+using namespace incise;
 using namespace incise_test;
 
 const char* const kBladeHead = R"({"format":"incise-blade","version":1,"strokes":[)";
@@ -146,6 +151,66 @@ TEST_F(CliErrors, outputs_that_cannot_be_written) {
   EXPECT_EQ(run({"improve", cube_, "-o", folder_ / "no/out.vtu"}).code, 1);
   EXPECT_EQ(run({"improve", cube_, "--report", folder_ / "no/r.json"}).code, 1);
   EXPECT_EQ(run({"convert", cube_, folder_ / "no/out.vtu"}).code, 1);
+}
+
+TEST_F(CliErrors, meshes_whose_lengths_cannot_be_computed_with) {
+  for (const std::string unit : {"1e150", "1e-150"}) {
+    const std::string path = folder_.write(
+        "huge" + unit + ".mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n" + unit + " 0 0 0\n0 " +
+                                     unit + " 0 0\n0 0 " + unit + " 0\nTetrahedra\n1\n1 2 3 4 0\nEnd\n");
+    expect_refused({"cut", path, "--plane", "1,0,0,0.5"}, 3, "huge" + unit + ".mesh: the mesh");
+    expect_refused({"improve", path}, 3, "rescale");
+    EXPECT_EQ(run({"info", path}).code, 0);
+    EXPECT_EQ(run({"check", path}).code, 3);
+  }
+}
+
+TEST_F(CliErrors, blades_out_of_reach) {
+  expect_blade_refused(std::string(kBladeHead) +
+                           R"({"name":"near","edges":[{"t":0,"points":[[0.4,-1,-1],[0.4,2,-1]]},
+                              {"t":1,"points":[[0.4,-1,2],[0.4,2,2]]}]},{"name":"slip","edges":[
+                              {"t":0,"points":[[0.5,-1,-1],[0.5,2,-1]]},{"t":1,"points":[[0.5,-1,2],[0.5,2e9,2]]}]}]})",
+                       "stroke 1 \"slip\": point 1 at time 1 lies 2e+09 times");
+}
+
+std::string ball_mesh() {
+  io::MeshData data;
+  data.soup = test::ball(4);
+  return io::write_mesh_bytes(".mesh", data).value();
+}
+
+/// A coarse ball, 14 slices of which the profile paper smoothes until the volume has drifted too far.
+TEST(Cli, a_cut_that_breaks_the_contract_is_taken_back_and_what_was_valid_is_written) {
+  Folder folder;
+  const std::string body = folder.write("ball.mesh", ball_mesh());
+  std::string strokes;
+  for (int i = 0; i < 14; ++i) {
+    const double y = -0.8 + 0.12 * i;
+    const auto edge = [&](double at, double z) {
+      return "[[-2," + std::to_string(at) + "," + std::to_string(z) + "],[2," + std::to_string(at + 0.05) + "," +
+             std::to_string(z) + "]]";
+    };
+    strokes += std::string(i > 0 ? "," : "") + R"({"name":"slice )" + std::to_string(i) +
+               R"(","edges":[{"t":0,"points":)" + edge(y, -2) + R"(},{"t":1,"points":)" + edge(y - 0.03, 2) + "}]}";
+  }
+  const std::string blade = folder.write("blade.json", kBladeHead + strokes + "]}");
+  const std::vector<std::string> arguments = {"cut",       body,
+                                              "--blade",   blade,
+                                              "--profile", "paper",
+                                              "-o",        folder / "out.mesh",
+                                              "--report",  folder / "out.json",
+                                              "--record",  folder / "out.jsonl"};
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("\" broke the validity contract and was taken back"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run({"check", folder / "out.mesh"}).code, 0);
+  const auto report = nlohmann::json::parse(read(folder / "out.json"));
+  EXPECT_EQ(report["validity"]["ok"], false);
+  const auto broken = report["validity"]["broken_stroke"];
+  EXPECT_NE(outcome.err.find("stroke " + broken["index"].dump() + " " + broken["name"].dump()), std::string::npos);
+  const Outcome replay = run({"replay", folder / "out.jsonl", "--verify"});
+  EXPECT_EQ(replay.code, 0);
+  EXPECT_NE(replay.out.find(broken["kept_hash"].get<std::string>()), std::string::npos) << replay.out;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "cut/strokes.h"
 #include "cut/support.h"
 #include "incise/mesh/bounds.h"
+#include "incise/mesh/components.h"
 
 namespace incise::test {
 namespace {
@@ -333,6 +334,104 @@ TEST(PlaneStroke, refuses_planes_without_a_direction) {
   EXPECT_FALSE(plane_stroke(box, Vec3(0, 0, 0), 1).ok());
   EXPECT_FALSE(plane_stroke(box, Vec3(std::numeric_limits<double>::infinity(), 0, 0), 1).ok());
   EXPECT_FALSE(plane_stroke(box, Vec3(1, 0, 0), std::numeric_limits<double>::quiet_NaN()).ok());
+}
+
+/// A straight blade along y through a cube, `reach` beyond it on either side, that moves down.
+Stroke long_stroke(double reach, unsigned steps) {
+  return quad_stroke(Vec3(0.51, -reach, 1.3), Vec3(0.53, reach, 1.3), Vec3(0.46, -reach, -0.3), Vec3(0.48, reach, -0.3),
+                     steps);
+}
+
+StrokeReport cut_by_steps(Engine& engine, const Stroke& stroke) {
+  EXPECT_TRUE(engine.begin_stroke({stroke.edges.front()}).ok());
+  for (std::size_t i = 1; i < stroke.edges.size(); ++i) EXPECT_TRUE(engine.step({stroke.edges[i]}).ok());
+  Result<StrokeReport> report = engine.end_stroke();
+  EXPECT_TRUE(report.ok());
+  return *report;
+}
+
+TEST(EngineFarBlades, cut_as_near_ones_do) {
+  for (const double reach : {1e1, 1e4, 0.99e6}) {
+    SCOPED_TRACE(reach);
+    for (const unsigned steps : {0U, 1U, 20U}) {
+      Engine engine = make_engine(jittered_cube(6, 4), 0.2);
+      const Stroke stroke = long_stroke(reach, std::max(steps, 1U));
+      steps == 0 ? static_cast<void>(cut(engine, stroke)) : static_cast<void>(cut_by_steps(engine, stroke));
+      EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
+      expect_valid(engine.mesh(), 1.0);
+    }
+  }
+}
+
+/// Whether a body that stands moved comes apart under a blade.
+std::size_t pieces_where_moved(const Stroke& stroke) {
+  Engine engine = make_engine(jittered_cube(6, 4), 0.2);
+  std::vector<Vec3> positions(engine.mesh().vertex_slots());
+  engine.mesh().for_each_vertex([&](VertexId v) {
+    const Vec3& p = engine.mesh().rest(v);
+    positions[v.value] = p + Vec3(0.02 * p.z(), 0.03 * p.x(), 0.01);
+  });
+  EXPECT_TRUE(engine.set_positions(positions).ok());
+  cut_by_steps(engine, stroke);
+  expect_valid(engine.mesh(), 1.0);
+  return find_components(engine.mesh()).count();
+}
+
+TEST(EngineFarBlades, cut_a_body_that_has_moved) {
+  for (const double reach : {1.5, 1e4, 0.99e6}) {
+    SCOPED_TRACE(reach);
+    EXPECT_EQ(pieces_where_moved(long_stroke(reach, 20)), 2U);
+  }
+}
+
+TEST(EngineFarBlades, may_come_to_a_body_that_has_moved_from_far_away) {
+  for (const double height : {2.0, 1e4, 0.99e6}) {
+    SCOPED_TRACE(height);
+    EXPECT_EQ(pieces_where_moved(quad_stroke(Vec3(0.51, -0.4, height), Vec3(0.53, 1.4, height),
+                                             Vec3(0.46, -0.4, -height), Vec3(0.48, 1.4, -height))),
+              2U);
+  }
+}
+
+TEST(EngineFarBlades, beyond_a_million_bodies_are_refused_and_change_nothing) {
+  Engine engine = make_engine(jittered_cube(3, 4), 0.2);
+  const std::uint64_t hash = engine.mesh().hash();
+  for (const double reach : {1.1e6, 1e12, 1e150, 1e308}) {
+    SCOPED_TRACE(reach);
+    Stroke stroke = long_stroke(1.5, 2);
+    stroke.name = "slip";
+    stroke.edges[2][1].y() = reach;
+    const Result<StrokeReport> whole = engine.cut(stroke);
+    ASSERT_FALSE(whole.ok());
+    EXPECT_EQ(whole.error().code, ErrorCode::kBadArgument);
+    EXPECT_NE(whole.error().message.find("stroke \"slip\": point 1 at time 2"), std::string::npos)
+        << whole.error().message;
+    ASSERT_TRUE(engine.begin_stroke({stroke.edges[0]}).ok());
+    ASSERT_TRUE(engine.step({stroke.edges[1]}).ok());
+    const Result<StepReport> step = engine.step({stroke.edges[2]});
+    ASSERT_FALSE(step.ok());
+    EXPECT_NE(step.error().message.find("point 1 at time 2"), std::string::npos) << step.error().message;
+    EXPECT_TRUE(engine.is_in_stroke());
+    EXPECT_TRUE(engine.undo());
+    EXPECT_FALSE(engine.begin_stroke({stroke.edges[2]}).ok());
+  }
+  EXPECT_EQ(engine.mesh().hash(), hash);
+}
+
+TEST(EngineSizes, of_bodies_from_least_to_greatest_are_cut_and_maintained_alike) {
+  const auto cut_scaled = [](double by) {
+    TetSoup soup = ball(6);
+    for (Vec3& p : soup.points) p *= by;
+    Engine engine = Engine::create(build(std::move(soup))).value();
+    EXPECT_TRUE(engine.cut(*plane_stroke(rest_bounds(engine.mesh()), Vec3(0.3, 0.5, 0.9), 0.1 * by)).ok());
+    EXPECT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
+    return std::pair(engine.mesh().tet_count(), find_components(engine.mesh()).count());
+  };
+  const auto usual = cut_scaled(1.0);
+  EXPECT_EQ(usual.second, 2U);
+  // Powers of two change no digit of what is computed.
+  EXPECT_EQ(cut_scaled(0x1p98), usual);
+  EXPECT_EQ(cut_scaled(0x1p-98), usual);
 }
 
 }  // namespace

@@ -188,6 +188,34 @@ TEST(TetMesh, refuses_walls_origins_and_fronts_that_do_not_fit) {
   EXPECT_TRUE(is_refused([](TetSoup& soup) { soup.fronts = {0, 1, 1, 0, 1}; }));
 }
 
+TetSoup scaled(TetSoup soup, double by) {
+  for (Vec3& p : soup.points) p *= by;
+  return soup;
+}
+
+TEST(TetMesh, refuses_bodies_whose_lengths_cannot_be_computed_with) {
+  for (const double size : {1e150, 1e31, 1e-31, 1e-150}) {
+    SCOPED_TRACE(size);
+    const Result<TetMesh> mesh = TetMesh::build(scaled(kuhn_cube(2), size));
+    ASSERT_FALSE(mesh.ok());
+    EXPECT_EQ(mesh.error().code, ErrorCode::kBadArgument);
+    EXPECT_NE(mesh.error().message.find("rescale"), std::string::npos) << mesh.error().message;
+  }
+  TetSoup far_off = one_tet();
+  for (Vec3& p : far_off.points) p.x() += 1e150;
+  EXPECT_FALSE(TetMesh::build(far_off).ok());
+}
+
+TEST(TetMesh, takes_bodies_of_any_other_size_and_points_anywhere_that_no_tet_uses) {
+  for (const double size : {0.99e30, 1.01e-30}) {
+    expect_valid(build(scaled(one_tet(), size)), size * size * size / 6.0);
+  }
+  TetSoup soup = one_tet();
+  soup.points.emplace_back(1e200, 0, 0);
+  EXPECT_TRUE(TetMesh::build(soup).ok());
+  EXPECT_TRUE(TetMesh::build(scaled(one_tet(), 0.0)).ok()) << "flat, but sound";
+}
+
 TEST(TetMesh, remembers_flat_tets_of_its_input) {
   TetSoup soup = one_tet();
   soup.points.emplace_back(0.25, 0.25, 0);

@@ -29,7 +29,8 @@ struct CutJob {
   std::uint64_t budget_us = 0;
   ReportOptions options;         ///< repeated in the report; what `engine` and `budget_us` say is taken from them
   std::filesystem::path record;  ///< where the session is recorded, see `RecordedEngine`; empty: nowhere
-  /// Called once with the mesh at the end, after its maintenance. May be empty.
+  /// Called once with the mesh at the end, after its maintenance; as it was last valid, where a stroke broke it. May be
+  /// empty.
   std::function<void(const Engine& engine)> look;
   /// Called before each stroke and after the last: strokes done, strokes in all. May be empty.
   std::function<void(std::size_t done, std::size_t total)> progress;
@@ -37,8 +38,8 @@ struct CutJob {
 
 /// What a job on a mesh gives back.
 struct JobResult {
-  JobReport report;
-  io::MeshData mesh;  ///< what `-o` writes; empty where not asked for
+  JobReport report;   ///< of all that was done
+  io::MeshData mesh;  ///< what `-o` writes, see `JobReport::broken`; empty where not asked for
 };
 
 /// By how much a job may change the total volume, relative: part of the validity contract.
@@ -50,11 +51,12 @@ struct JobResult {
 /// Cuts a loaded mesh along all strokes, in order, and measures it before, after the last cut and after its
 /// maintenance.
 ///
-/// Measuring counts in no time of the report. With `budget_us` the result depends on the clock; the report has the work
-/// that was done after each stroke.
+/// Where the mesh is not valid at the end, strokes are taken back, the last first, until it is; a recording has that,
+/// too. Measuring counts in no time of the report. With `budget_us` the result depends on the clock; the report has the
+/// work that was done after each stroke.
 /// @param wants_mesh  whether `JobResult::mesh` is filled.
-/// Errors: as `Engine::create` and `Engine::cut`, naming the stroke; kIo where the recording fails. Cost: the cuts,
-/// plus about 3 µs per tet.
+/// Errors: as `Engine::create` and `Engine::cut`, naming the stroke, and before anything is cut where a blade is too
+/// far from the body (`check_reach`); kIo where the recording fails. Cost: the cuts, plus about 3 µs per tet.
 [[nodiscard]] Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh);
 
 }  // namespace app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,13 @@ struct ReportOptions {
   std::string plane;  ///< "nx,ny,nz,d", or empty
 };
 
+/// The stroke that broke the validity contract, and was taken back with all that came after it.
+struct BrokenStroke {
+  std::uint64_t index = 0;      ///< among those of the job, from 0: as many were kept
+  std::string name;             ///< may be empty
+  std::uint64_t kept_hash = 0;  ///< of the mesh as it was last valid
+};
+
 /// Everything that `incise cut` and `incise improve` report.
 struct JobReport {
   std::string input;  ///< the mesh file
@@ -61,6 +69,8 @@ struct JobReport {
   double volume_before = 0, volume_after = 0;
   ValidityReport validity_before, validity_after;
   ValidityChange change;  ///< `ok` is the report's verdict
+  /// Of a cut where `change` is not ok. Everything else here is about the mesh after all strokes, the broken one.
+  std::optional<BrokenStroke> broken;
   StageTimes times;
   double total_ms = 0;               ///< by the clock, over all strokes with their maintenance
   std::vector<double> step_ms;       ///< of each step of the blade; a stroke's last with its end and maintenance

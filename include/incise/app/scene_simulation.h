@@ -26,7 +26,8 @@ namespace app {
 ///
 /// @param mesh     as `load_model` gave it.
 /// @param threads  in [1, 256]; the result does not depend on them.
-/// Errors: as `Simulation::create`; kBadFile for an attachment that holds nothing. Cost: O(tets).
+/// Errors: as `Simulation::create`; kBadFile for an attachment that holds nothing, or for a blade out
+/// of reach (`check_reach`). Cost: O(tets).
 [[nodiscard]] Result<Simulation> make_simulation(const Scene& scene, TetMesh mesh, unsigned threads = 1,
                                                  LogSink log = {});
 

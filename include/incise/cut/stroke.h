@@ -26,6 +26,14 @@ struct Stroke {
 /// Whether a stroke keeps the promises above and is finite; the error names the time and point.
 Status check(const Stroke& stroke);
 
+/// A blade keeps within so many times the greatest side of the body's box from that box. Beyond, the rounding of a
+/// point that far away could move the cut by a noticeable share of an element.
+inline constexpr double kGreatestReach = 1e6;
+
+/// Whether a stroke keeps within `kGreatestReach` of a body; the error names stroke, time and point. True where the
+/// body is empty or a point. `first_time`: what the error calls the stroke's first time. Cost: O(points).
+Status check_reach(const Stroke& stroke, const Box& body, std::size_t first_time = 0);
+
 /// The triangles that a stroke sweeps, without empty ones.
 struct SweptTriangles {
   std::vector<Vec3> points;

@@ -74,22 +74,27 @@ class Engine {
   [[nodiscard]] std::uint32_t next_stroke() const { return earlier_strokes_ + stroke_count_ + 1; }
 
   /// Cuts along the whole stroke, in the rest shape. A blade that misses changes nothing and is no error.
-  /// Errors: kBadArgument for a malformed stroke, or while one is under way; kOutOfMemory where ids run out; the mesh
-  /// is then unchanged. Cost: O(tets) to find the first contact, then O(cut tets).
+  /// Errors: kBadArgument for a malformed stroke, one that leaves the body's surroundings (`check_reach`), or while
+  /// another is under way; kOutOfMemory where ids run out; the mesh is then unchanged. Cost: O(tets) to find the first
+  /// contact, then O(cut tets).
   Result<StrokeReport> cut(const Stroke& stroke);
 
   /// Puts the blade in place for a stroke that will be cut step by step; nothing is cut yet. Returns the stroke's
-  /// number. Errors: kBadArgument for a malformed pose, or while another stroke is under way; nothing changes then.
+  /// number. Errors: kBadArgument for a malformed pose, one too far from the body as it stands (`check_reach`), or
+  /// while another stroke is under way; nothing changes then.
   Result<std::uint32_t> begin_stroke(const BladePose& pose);
   /// Moves the blade on and cuts what it passes through on the way, up to where it stands now. All poses of a stroke
-  /// have the same number of points. Errors: kBadArgument without a stroke or for a malformed pose; kOutOfMemory where
-  /// ids run out; the mesh is then as before the step, and the stroke has ended there. May append several steps to the
-  /// journal. Cost: O(tets that the blade touches), whatever the mesh's size.
+  /// have the same number of points. Errors: kBadArgument without a stroke, for a malformed pose or one too far away,
+  /// where nothing changes; kOutOfMemory where ids run out; the mesh is then as before the step, and the stroke has
+  /// ended there. May append several steps to the journal. Cost: O(tets that the blade touches), whatever the mesh's
+  /// size.
   Result<StepReport> step(const BladePose& pose);
   /// Lifts the blade off: what it cut stays, is finished (vertices that took part in the cut move onto it, its front
   /// draws close to the blade), and is maintained within the budget. Errors: kBadArgument without a stroke;
   /// kOutOfMemory, where the stroke ends as its last step left it.
   Result<StrokeReport> end_stroke();
+  /// Whether a blade keeps within reach of the body as it stands (`check_reach`), as `begin_stroke` and `step` ask.
+  [[nodiscard]] Status check_pose(const BladePose& pose) const;
   [[nodiscard]] bool is_in_stroke() const { return is_in_stroke_; }
 
   /// Tells where the body stands now: `positions[slot]` for every vertex slot, dead ones ignored. Finite, in the mesh's
@@ -128,6 +133,7 @@ class Engine {
     StrokeReport report;
     std::size_t first_step = 0;
     std::vector<BladePose> poses;  ///< the first; for the paper's profile all
+    std::size_t steps = 0;         ///< taken so far
   };
 
   Engine(TetMesh mesh, EngineOptions options);
@@ -154,6 +160,7 @@ class Engine {
   OpenStroke open_;
   bool is_in_stroke_ = false;
   bool has_moved_ = false;  // the body stands otherwise than at rest
+  Box rest_box_, box_;      // around the body at load, and as it stands
 
   static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);
 };

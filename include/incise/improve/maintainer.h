@@ -17,7 +17,9 @@ namespace incise::inline v0 {
 /// point leaves a valid and better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed
 /// stay so. Vertices move within what they are part of: interior ones freely, those of a wall or of the skin in their
 /// surface, those where surfaces meet along the line, corners not; the volume on either side of every wall is kept.
-/// What a budget left undone waits for the next call. Not thread-safe; the result does not depend on threads or clocks.
+/// Skin stays close to where it was before the first change of all: `run` follows the journal, and remembers the skin
+/// of every place when it changes there first. What a budget left undone waits for the next call. Not thread-safe; the
+/// result does not depend on threads or clocks.
 /// **Source:** Paper §2.5 and §3; M. Wicke et al., "Dynamic local remeshing for elastoplastic simulation", 2010;
 /// B. Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 2007. Differs from the paper: vertices are
 /// inserted and removed, and no average decides.
@@ -44,8 +46,8 @@ class Maintainer {
 
   /// Whether tets wait for another `run`.
   [[nodiscard]] bool has_work() const;
-  /// Drops what is in care: after an undo.
-  void forget();
+  /// Drops what is in care: after an undo. `position`: how many steps of the journal are still the same.
+  void forget(std::size_t position = 0);
 
  private:
   class Queue;

@@ -67,6 +67,10 @@ inline constexpr std::uint8_t kDead = 128;   ///< the slot is free
 
 class Transaction;
 
+/// Bodies extend over lengths between these, in whatever unit, and no coordinate lies further from the origin: what is
+/// computed of edges goes up to their eighth powers, and must neither overflow nor vanish.
+inline constexpr double kLeastExtent = 1e-30, kGreatestExtent = 1e30;
+
 /// A tetrahedral mesh as a structure of arrays with tet-to-tet adjacency.
 ///
 /// Slots: every tet and vertex lives in a numbered slot until it dies; freed slots are reused, last freed first, but
@@ -93,8 +97,9 @@ class TetMesh {
   /// `soup.fronts` a cut ends at the edges where its lips meet: two walls that lie on one another with the body all
   /// around.
   /// Errors: kBadArgument names the first offending tet, point or wall (a point out of range, a stroke outside
-  /// [1, `kMaxStroke`]), or the array of a wrong length; kOutOfMemory above 2^28 tets.
-  /// Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet; with walls O(surface · log walls) more.
+  /// [1, `kMaxStroke`]), or the array of a wrong length, or what the tets extend over where that is not within
+  /// `kLeastExtent` and `kGreatestExtent` (a body of no extent at all is flat, and sound); kOutOfMemory above 2^28
+  /// tets. Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet; with walls O(surface · log walls) more.
   static Result<TetMesh> build(TetSoup soup);
 
   [[nodiscard]] std::size_t tet_count() const { return live_tets_; }
@@ -199,6 +204,7 @@ class TetMesh {
 
   Status take_points(const TetSoup& soup);
   Status take_tets(const TetSoup& soup);
+  [[nodiscard]] Status check_extent() const;
   void link_faces();
   void tag_walls(const std::vector<SoupWall>& walls);
   void mark_shapes();
