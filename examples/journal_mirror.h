@@ -127,6 +127,7 @@ class JournalMirror {
     for (const OpenedFace& face : step.opened) {
       for (const Side side : {face.a, face.b}) tets_[side.tet().value].opened[side.side()] = face.tag;
     }
+    for (const OpenedFace& face : step.closed) tets_[face.a.tet().value].opened[face.a.side()] = 0;
     for (const VertexId v : step.died) vertices_[v.value].is_live = false;
   }
   void apply_lists(const Step& step) {

@@ -286,8 +286,22 @@ void Transaction::record_vertices() {
 
 void Transaction::record_opened() {
   for (const OpenedFace& face : opened_) {
-    if (mesh_.is_live(face.a.tet()) && mesh_.is_live(face.b.tet())) {
-      step_.opened.push_back(face);
+    const auto is_wall = [&](Side side) {
+      return mesh_.is_live(side.tet()) && mesh_.link(side) == Link::boundary(face.tag);
+    };
+    if (is_wall(face.a) && is_wall(face.b)) step_.opened.push_back(face);
+  }
+}
+
+/// Walls of tets that live on which have a neighbour now.
+void Transaction::record_closed() {
+  for (const TetImage& old : step_.before.tets) {
+    if (!mesh_.is_live(old.id)) continue;
+    for (unsigned s = 0; s < 4; ++s) {
+      const Link before = old.links[s], now = mesh_.links(old.id)[s];
+      if (before.is_boundary() && before.tag() != 0 && !now.is_boundary()) {
+        step_.closed.push_back({Side(old.id, s), now.side(), before.tag()});
+      }
     }
   }
 }
@@ -314,6 +328,7 @@ Step Transaction::commit() {
   record_tets();
   record_vertices();
   record_opened();
+  record_closed();
   std::reverse(step_.before.free_tets.begin(), step_.before.free_tets.end());
   std::reverse(step_.before.free_vertices.begin(), step_.before.free_vertices.end());
   release_slots();

@@ -10,7 +10,7 @@ namespace incise::inline v0 {
 
 // The journal is the mesh's second interface: solvers, renderers and recorders follow it instead of the mesh.
 // Within one step a follower applies the records in the order of the members of `Step`:
-//   born, moved, copied, consumed, produced, rewired, opened, died.
+//   born, moved, copied, consumed, produced, rewired, opened, closed, died.
 // Each list is in the order in which things happened, and may refer to what stands before it.
 // A step of maintenance changes the same place several times: it has `edits` besides, each with its own tets before and
 // after. Followers that carry state from tet to tet apply the edits one by one, instead of born, moved, consumed,
@@ -106,6 +106,7 @@ struct Step {
   std::vector<ProducedTet> produced;
   std::vector<RewiredTet> rewired;
   std::vector<OpenedFace> opened;
+  std::vector<OpenedFace> closed;  ///< walls that are none any more, by the tet that lives on; `b` is what is behind
   std::vector<VertexId> died;
 
   std::vector<Edit> edits;  ///< empty where the lists above tell the whole order

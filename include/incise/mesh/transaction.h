@@ -88,6 +88,7 @@ class Transaction {
   void record_tets();
   void record_vertices();
   void record_opened();
+  void record_closed();
   void release_slots();
   void clear_marks();
   std::uint32_t take_tet_slot();
