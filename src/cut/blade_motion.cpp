@@ -16,9 +16,6 @@ constexpr double kSlitShare = 0.25;
 constexpr double kLeastStep = 0.05;
 /// A strip whose middle lies this close to what was swept before lies on it.
 constexpr double kCoverShare = 0.02;
-/// Where a sheet meets itself, the new one starts so many spacings behind the front: cutting the same place again
-/// changes nothing, and the cut stays whole where they join.
-constexpr double kOverlapShare = 3.0;
 /// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
 constexpr double kFrontShare = 1.5;
 /// Strips that fold back onto earlier ones within so many spacings meet them.
@@ -41,6 +38,8 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   reach_lo_ = reach_hi_ = row.front();
   is_first_strip_ = true;
   is_held_ = false;
+  ways_.assign(row.size(), Vec3::Zero());
+  reaches_on_ = {};
 }
 
 /// A row's points: one that stands where the front does is the front's.
@@ -135,49 +134,6 @@ bool BladeMotion::meets(const SweptSurface& surface, const OwnSheet& sheet) cons
   return false;
 }
 
-/// Whether a strip passes within an element of what was swept well behind the front.
-bool BladeMotion::comes_near(const SweptSurface& surface, const OwnSheet& sheet) const {
-  double travel = 0;
-  for (auto strip = sheet.strips().rbegin(); strip != sheet.strips().rend(); ++strip) {
-    const Sheet& earlier = (*strip)->sheet;
-    for (const SweptTriangle& triangle : surface.triangles) {
-      if (travel <= kFrontShare * spacing_) break;
-      Box box;
-      for (const std::uint32_t p : triangle.points) box.extend(surface.points[p].position);
-      box.lo.array() -= spacing_;
-      box.hi.array() += spacing_;
-      bool is_near = false;
-      if (box.overlaps(earlier.bounds())) earlier.tree().for_each_overlap(box, [&](std::uint32_t) { is_near = true; });
-      if (is_near) return true;
-    }
-    travel += travel_of((*strip)->surface);
-  }
-  return false;
-}
-
-/// The strip as the first of a new sheet.
-std::unique_ptr<Strip> BladeMotion::start_anew(const SweptSurface& surface, const OwnSheet& sheet) const {
-  return std::make_unique<Strip>(with_overlap(surface, sheet), std::vector<std::array<std::uint64_t, 2>>());
-}
-
-/// The strip together with the last ones before it.
-SweptSurface BladeMotion::with_overlap(const SweptSurface& surface, const OwnSheet& sheet) const {
-  double travel = 0;
-  auto first = sheet.strips().end();
-  while (first != sheet.strips().begin() && travel < kOverlapShare * spacing_) {
-    const SweptSurface& before = (*--first)->surface;
-    if (strips_meet(surface, before, (*first)->sheet, kMeetingShare * spacing_)) {
-      ++first;
-      break;
-    }
-    travel += travel_of(before);
-  }
-  SweptSurface all;
-  for (; first != sheet.strips().end(); ++first) append(all, (*first)->surface);
-  append(all, surface);
-  return all;
-}
-
 /// The segments of the front that the strip to `to` leaves behind, and those of the first row that it comes back to.
 std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row& to) const {
   std::vector<std::array<std::uint64_t, 2>> inner;
@@ -193,7 +149,7 @@ std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row&
   return inner;
 }
 
-BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet* sheet) {
+BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around) {
   Move move;
   SweptSurface surface = lay(front_, to);
   if (surface.triangles.empty()) {
@@ -201,26 +157,43 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const OwnSheet* sheet) {
     return move;
   }
   append(surface, seams_);
-  if (sheet != nullptr && meets(surface, *sheet)) {
-    move.starts_anew = true;
-    move.strip = start_anew(surface, *sheet);
-  } else {
-    move.comes_near = sheet != nullptr && comes_near(surface, *sheet);
-    if (move.comes_near) move.anew = start_anew(surface, *sheet);
-    move.strip = std::make_unique<Strip>(std::move(surface), inner_segments(to));
+  for (std::size_t c = 0; c < to.size(); ++c) {
+    if (to[c].key != front_[c].key) ways_[c] = (to[c].position - front_[c].position).normalized();
   }
+  Segments inner = inner_segments(to);
+  if (around.has_older_cuts) {
+    if (is_first_strip_) reach_from_row(surface, front_, -1.0, around);
+    reach_from_ends(surface, to, around, inner);
+  }
+  move.strip = std::make_unique<Strip>(std::move(surface), inner);
   move.strip->row = to;
-  if (move.anew) move.anew->row = to;
   note_swept(to);
   for (const SosPoint& p : to) {
     reach_lo_ = reach_lo_.cwiseMin(p.position);
     reach_hi_ = reach_hi_.cwiseMax(p.position);
   }
+  before_ = front_;
   front_ = to;
   is_first_strip_ = false;
   seams_ = {};
   seam_segments_.clear();
   return move;
+}
+
+/// The next strip is the first of a sheet that starts at a row.
+void BladeMotion::start_sheet(const Row& from) {
+  first_ = front_ = from;
+  is_swept_.assign(from.size() - 1, false);
+  reaches_on_ = {};
+  reach_lo_ = reach_hi_ = from.front().position;
+  is_first_strip_ = true;
+  is_held_ = false;
+}
+
+std::unique_ptr<Strip> BladeMotion::lay_anew(const Surroundings& around) {
+  const Row to = front_;
+  start_sheet(before_);
+  return move_to(to, around).strip;
 }
 
 void BladeMotion::note_swept(const Row& to) {
@@ -261,6 +234,7 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
   }
   is_swept_ = std::move(is_swept);
   front_ = std::move(refined);
+  ways_.assign(front_.size(), Vec3::Zero());
   if (is_first_strip_) {  // nothing was swept yet: there is no seam
     first_ = front_;
     seams_ = {};
@@ -277,24 +251,74 @@ std::vector<Vec3> BladeMotion::front() const {
 /// The blade leaves its slit elsewhere than at the front: a new sheet starts where it left. In the air it may go
 /// anywhere, and come back.
 BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> before, std::span<const Vec3> row,
-                                          const Touches& touches) {
+                                          const Touches& touches, const Surroundings& around) {
   const Row from = number(before), to = number(row);
-  Move move;
-  SweptSurface surface = lay(from, to);
-  if (surface.triangles.empty() || !touches(surface)) return move;
+  const SweptSurface surface = lay(from, to);
+  if (surface.triangles.empty() || !touches(surface)) return {};
+  start_sheet(from);
+  Move move = move_to(to, around);
   move.starts_anew = true;
-  move.strip = std::make_unique<Strip>(std::move(surface), std::vector<std::array<std::uint64_t, 2>>());
-  move.strip->row = to;
-  first_ = front_ = from;
-  is_swept_.assign(to.size() - 1, false);
-  note_swept(to);
-  front_ = to;
-  is_held_ = false;
+  return move;
+}
+
+/// `sign`: 1 ahead of the row, -1 behind it, as its points moved last. Returns the columns that reach on.
+std::vector<std::size_t> BladeMotion::reach_from_row(SweptSurface& surface, const Row& row, double sign,
+                                                     const Surroundings& around) {
+  BorderReach reach(around, spacing_, next_key_);
+  std::vector<std::size_t> columns;
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    if (row[c].key == row[c + 1].key) continue;
+    const SweptSurface piece =
+        reach.from_row({row[c], sign * ways_[c]}, {row[c + 1], sign * ways_[c + 1]}, static_cast<std::uint32_t>(c));
+    if (piece.triangles.empty()) continue;
+    append(surface, piece);
+    columns.push_back(c);
+  }
+  return columns;
+}
+
+/// The traces of the blade's ends. Consecutive pieces share their edge.
+void BladeMotion::reach_from_ends(SweptSurface& surface, const Row& to, const Surroundings& around, Segments& inner) {
+  const std::size_t last = to.size() - 1;
+  for (const unsigned end : {0U, 1U}) {
+    const std::size_t tip = end == 0 ? 0 : last, next = end == 0 ? 1 : last - 1;
+    const SosPoint from = front_[tip], at = to[tip];
+    if (is_closed_ || from.key == at.key) continue;
+    const Vec3 out = (at.position - to[next].position).normalized();
+    const Vec3 normal = out.cross(at.position - from.position);
+    const bool did = reaches_on_[end];
+    const double reach_from = around.reach(from.position, out, normal),
+                 reach_at = around.reach(at.position, out, normal);
+    const bool was_in = did || reach_from > 0, is_in = reach_at > 0;
+    reaches_on_[end] =
+        (was_in || is_in) && (was_in || around.is_outside(from.position)) && (is_in || around.is_outside(at.position));
+    if (!reaches_on_[end]) continue;
+    const double reach = std::max(reach_from, reach_at);
+    const SosPoint old = did ? ends_[end] : SosPoint{from.position + reach * out, next_key_++};
+    ends_[end] = {at.position + (is_in ? reach_at : reach) * out, next_key_++};
+    if (did) inner.push_back(keys_of(from, old));
+    const auto column = static_cast<std::uint32_t>(end == 0 ? 0 : last - 1);
+    add_reaching_triangle(surface, from, at, ends_[end], column);
+    add_reaching_triangle(surface, from, ends_[end], old, column);
+  }
+}
+
+BladeMotion::Move BladeMotion::reach_on(const Surroundings& around) {
+  Move move;
+  if (!around.has_older_cuts || is_first_strip_) return move;
+  SweptSurface surface;
+  Segments inner;
+  for (const std::size_t c : reach_from_row(surface, front_, 1.0, around)) {
+    if (is_swept_[c]) inner.push_back(keys_of(front_[c], front_[c + 1]));
+  }
+  if (surface.triangles.empty()) return move;
+  move.strip = std::make_unique<Strip>(std::move(surface), inner);
+  move.strip->row = front_;
   return move;
 }
 
 BladeMotion::Move BladeMotion::advance(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches,
-                                       bool flushes) {
+                                       const Surroundings& around, bool flushes) {
   const double least2 = flushes ? 0.0 : kLeastStep * spacing_ * kLeastStep * spacing_;
   std::vector<Vec3> wanted(row.begin(), row.end());
   std::size_t in_slit = 0;
@@ -312,14 +336,17 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> row, const OwnSheet
     return {};
   }
   const Row to = number(wanted);
-  if (is_held_ && would_cover(to, sheet)) return leave_slit(before, row, touches);
+  if (is_held_ && would_cover(to, sheet)) return leave_slit(before, row, touches, around);
   is_held_ = false;
-  return move_to(to, &sheet);
+  const bool does_meet = meets(lay(front_, to), sheet);
+  Move move = move_to(to, around);
+  move.starts_anew = does_meet;
+  return move;
 }
 
-BladeMotion::Move BladeMotion::end(const OwnSheet& sheet, const Touches& touches) {
+BladeMotion::Move BladeMotion::end(const OwnSheet& sheet, const Touches& touches, const Surroundings& around) {
   const std::vector<Vec3> last = last_;
-  return advance(last, sheet, touches, true);
+  return advance(last, sheet, touches, around, true);
 }
 
 }  // namespace incise::inline v0

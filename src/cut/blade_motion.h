@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "cut/border_reach.h"
 #include "cut/strip.h"
 
 namespace incise::inline v0 {
@@ -21,12 +22,7 @@ class BladeMotion {
   /// What a row asks for.
   struct Move {
     std::unique_ptr<Strip> strip;  ///< null where the blade is held
-    /// The sheet so far must be finished first: the strip meets it, and starts a new one.
-    bool starts_anew = false;
-    /// The strip passes so close to what was swept well before that both may cross one edge: where they do, the sheet
-    /// must be finished first as well, and `anew` is cut instead.
-    bool comes_near = false;
-    std::unique_ptr<Strip> anew;
+    bool starts_anew = false;      ///< the strip is the first of a new sheet: the one so far must be finished
   };
 
   /// Starts a stroke at a row of at least 2 points. `spacing`: the length of a typical edge, for all tolerances.
@@ -34,7 +30,8 @@ class BladeMotion {
   /// Whether a surface meets the body.
   using Touches = std::function<bool(const SweptSurface&)>;
   /// The strip to the next row, with as many points. `flushes`: holds nothing merely because it moved too little.
-  Move advance(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches, bool flushes);
+  Move advance(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches, const Surroundings& around,
+               bool flushes);
   /// A row that was chosen elsewhere, with the surface from the front to it; for `accept`.
   struct Proposal {
     std::vector<SosPoint> row;
@@ -42,16 +39,24 @@ class BladeMotion {
   };
   [[nodiscard]] Proposal propose(std::span<const Vec3> row);
   /// The strip to a proposed row, without asking whether the blade is in its slit or the sheet meets itself.
-  std::unique_ptr<Strip> accept(const Proposal& proposal) { return move_to(proposal.row, nullptr).strip; }
+  std::unique_ptr<Strip> accept(const Proposal& proposal, const Surroundings& around) {
+    return move_to(proposal.row, around).strip;
+  }
   /// Divides the segments of the front, and of all rows to come, at shares of their lengths, the last one 1.
   void refine(const std::vector<std::vector<double>>& shares);
   [[nodiscard]] std::vector<Vec3> front() const;
 
   /// The strip that is left over at the end: to the last row, as far as it was held for moving too little.
-  Move end(const OwnSheet& sheet, const Touches& touches);
+  Move end(const OwnSheet& sheet, const Touches& touches, const Surroundings& around);
+  /// The last strip once more, as the first of a new sheet: for one that meets what was swept before. The sheet so far
+  /// must be finished first, and is an older cut to the new one.
+  std::unique_ptr<Strip> lay_anew(const Surroundings& around);
+  /// The strip by which the front reaches on into older cuts that begin there, once the blade goes no further.
+  Move reach_on(const Surroundings& around);
 
  private:
   using Row = std::vector<SosPoint>;
+  using Segments = std::vector<std::array<std::uint64_t, 2>>;
 
   [[nodiscard]] Row number(std::span<const Vec3> row);
   [[nodiscard]] bool is_on(const Vec3& point, const OwnSheet& sheet, double distance) const;
@@ -60,19 +65,24 @@ class BladeMotion {
   [[nodiscard]] bool returns_to_start(std::span<const Vec3> row) const;
   [[nodiscard]] SweptSurface lay(const Row& from, const Row& to) const;
   [[nodiscard]] bool meets(const SweptSurface& surface, const OwnSheet& sheet) const;
-  [[nodiscard]] bool comes_near(const SweptSurface& surface, const OwnSheet& sheet) const;
-  [[nodiscard]] std::unique_ptr<Strip> start_anew(const SweptSurface& surface, const OwnSheet& sheet) const;
-  [[nodiscard]] SweptSurface with_overlap(const SweptSurface& surface, const OwnSheet& sheet) const;
   [[nodiscard]] std::vector<std::array<std::uint64_t, 2>> inner_segments(const Row& to) const;
-  Move leave_slit(std::span<const Vec3> before, std::span<const Vec3> row, const Touches& touches);
+  Move leave_slit(std::span<const Vec3> before, std::span<const Vec3> row, const Touches& touches,
+                  const Surroundings& around);
   void note_swept(const Row& to);
-  Move move_to(const Row& to, const OwnSheet* sheet);
+  Move move_to(const Row& to, const Surroundings& around);
+  void start_sheet(const Row& from);
+  std::vector<std::size_t> reach_from_row(SweptSurface& surface, const Row& row, double sign,
+                                          const Surroundings& around);
+  void reach_from_ends(SweptSurface& surface, const Row& to, const Surroundings& around, Segments& inner);
 
   double spacing_ = 1.0;
   std::uint64_t next_key_ = kFirstBladeKey;
-  Row first_, front_;
-  std::vector<bool> is_swept_;  // by column: the front there is the end of a strip
-  std::vector<Vec3> last_;      // where the blade was last
+  Row first_, front_, before_;        // of the sheet; now; before the last strip
+  std::vector<bool> is_swept_;        // by column: the front there is the end of a strip
+  std::vector<Vec3> last_;            // where the blade was last
+  std::vector<Vec3> ways_;            // by point: how it moved last
+  std::array<SosPoint, 2> ends_;      // where the ends of the front reach on to, into an older cut
+  std::array<bool, 2> reaches_on_{};  // whether they do
   Vec3 reach_lo_ = Vec3::Zero(), reach_hi_ = Vec3::Zero();
   SweptSurface seams_;  // between the front as it was and as it is divided now
   std::vector<std::array<std::uint64_t, 2>> seam_segments_;

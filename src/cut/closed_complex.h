@@ -32,10 +32,12 @@ struct ClosedEdge {
 struct FrontPoint {
   Vec3 position = Vec3::Zero();
   std::array<double, 3> weights{};  ///< of the vertices of `face`: where the border pierces it, before any rounding off
-  std::array<VertexId, 3> face;
-  VertexId vertex;                                                     ///< once made
-  std::uint32_t tested = 0;                                            ///< the step that last looked at it
-  bool is_explained = false;                                           ///< pierced, not guessed
+  Vec3 pierced = Vec3::Zero();      ///< the place at these weights, when it was found
+  std::array<double, 3> slide{};    ///< by what these change along the sheet in the face, per unit of mean edge
+  std::array<VertexId, 3> face;     ///< ascending: seen alike from both sides
+  VertexId vertex;                  ///< once made
+  std::uint32_t tested = 0;         ///< the step that last looked at it
+  bool is_explained = false;        ///< pierced, not guessed
   std::array<std::uint32_t, 2> masters{kInvalidIndex, kInvalidIndex};  ///< on either side of the face
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <new>
 #include <utility>
 
@@ -22,9 +23,15 @@ namespace {
 constexpr double kSlitShare = 0.02;
 /// Consecutive parts of a sweep that meets itself overlap by so many spacings.
 constexpr double kOverlapShare = 3.0;
-/// Strokes that meet the end of an older cut reach into it by so many spacings, if its walls lie as near as this there.
-constexpr double kOlderCut = 0.5;
-constexpr double kNearWall = 0.15;
+/// Two crossings of one edge at rest, in different steps, that are further apart are two passes of the blade.
+constexpr double kApart = 0.05;
+/// A border of the sheet that lies at most so many spacings beyond the rim of an older cut reaches on into it.
+constexpr double kWeld = 0.08;
+/// It reaches on so many spacings along that cut: further than fronts lie off their blades; or through its wall, where
+/// it meets that at an angle.
+constexpr double kReachOn = 0.3, kReachThrough = 0.12;
+/// What lies at most so many spacings beyond the rim of an older cut lies in it: rounding, no more.
+constexpr double kInside = 0.02;
 /// A step of a blade in a moving body is taken in parts of an element, at most so many.
 constexpr double kMostParts = 64;
 /// A blade that comes from far away is near the body within so many of its diagonals.
@@ -91,13 +98,11 @@ class Cutter::Pipeline {
              std::uint32_t tag) {
     tag_ = tag;
     swept_ = {};
-    stroke_cut_.begin(tag);
-    stroke_cut_.prepare(mesh, journal);
     spacing_ = typical_spacing(mesh);
+    stroke_cut_.begin(tag, spacing_);
+    stroke_cut_.prepare(mesh, journal);
     last_row_.assign(row.begin(), row.end());
     is_in_material_ = has_moved;
-    is_first_step_ = true;
-    way_.clear();
     if (!has_moved) {
       motion_.begin(row, spacing_);
       return;
@@ -113,26 +118,26 @@ class Cutter::Pipeline {
         enter_material(mesh);
       }
       const std::vector<Vec3> before = std::exchange(last_row_, {row.begin(), row.end()});
-      if (std::exchange(is_first_step_, false) && !is_in_material_) start_in_older_cut(mesh, before);
-      way_ = way_between(before, last_row_);
       if (is_in_material_) {
         return step_in_material(mesh, journal, before, direction, times);
       }
-      return follow(mesh, journal, motion_.advance(row, stroke_cut_.sheet(), touches(mesh), false), times);
+      return follow(mesh, journal, motion_.advance(row, stroke_cut_.sheet(), touches(mesh), surroundings(mesh), false),
+                    times);
     });
   }
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times) {
     return guarded(mesh, journal, [&] {
       Status status;
       if (!is_in_material_) {
-        status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh)), times);
-        if (status) status = end_in_older_cut(mesh, journal, times);
+        status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh), surroundings(mesh)), times);
       }
+      if (status) status = follow(mesh, journal, motion_.reach_on(surroundings(mesh)), times);
       if (status) finish_sheet(mesh, journal, times);
       return status;
     });
   }
   void forget() { stroke_cut_.forget(); }
+  void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
   [[nodiscard]] const SweptTriangles& swept() const { return swept_; }
 
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
@@ -167,34 +172,6 @@ class Cutter::Pipeline {
   }
   [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const {
     return [&](const SweptSurface& surface) { return stroke_cut_.touches(mesh, surface); };
-  }
-  /// How the blade moved, in shares of the point that moved furthest.
-  static std::vector<Vec3> way_between(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-    std::vector<Vec3> way;
-    double longest = 0;
-    for (std::size_t c = 0; c < to.size(); ++c) {
-      way.emplace_back(to[c] - from[c]);
-      longest = std::max(longest, way.back().norm());
-    }
-    for (Vec3& step : way) step = longest > 0 ? Vec3(step / longest) : Vec3(Vec3::Zero());
-    return way;
-  }
-  static std::vector<Vec3> shifted(const std::vector<Vec3>& row, const std::vector<Vec3>& way, double by) {
-    std::vector<Vec3> moved = row;
-    for (std::size_t c = 0; c < row.size() && c < way.size(); ++c) moved[c] += by * way[c];
-    return moved;
-  }
-  /// A stroke that starts where an older cut ends begins a little inside that cut: its front keeps off the edges of
-  /// elements, and would leave a thread of tissue between the two.
-  void start_in_older_cut(const TetMesh& mesh, const std::vector<Vec3>& first) {
-    const std::vector<Vec3> behind = shifted(first, way_between(first, last_row_), -kOlderCut * spacing_);
-    if (stroke_cut_.lies_on_walls(mesh, behind, kNearWall * spacing_)) motion_.begin(behind, spacing_);
-  }
-  /// The same for one that ends where an older cut does.
-  Status end_in_older_cut(TetMesh& mesh, Journal& journal, StageTimes& times) {
-    const std::vector<Vec3> ahead = shifted(last_row_, way_, kOlderCut * spacing_);
-    if (way_.empty() || !stroke_cut_.lies_on_walls(mesh, ahead, kNearWall * spacing_)) return {};
-    return follow(mesh, journal, motion_.advance(ahead, stroke_cut_.sheet(), touches(mesh), true), times);
   }
   /// The body has begun to move: from now on the blade is located in the elements as they stand.
   void enter_material(const TetMesh& mesh) {
@@ -248,7 +225,7 @@ class Cutter::Pipeline {
     BladeMotion::Proposal proposal = propose(mesh, journal, row, direction, times);
     if (proposal.surface.triangles.empty()) return {};
     BladeMotion::Move move;
-    move.strip = motion_.accept(proposal);
+    move.strip = motion_.accept(proposal, surroundings(mesh));
     material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
     return follow(mesh, journal, std::move(move), times);
   }
@@ -278,21 +255,43 @@ class Cutter::Pipeline {
     }
     return has_held;
   }
+  /// What a border of the sheet finds: an older cut to reach on into, or the end of the body.
+  [[nodiscard]] Surroundings surroundings(const TetMesh& mesh) const {
+    Surroundings found;
+    const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    if (!older.exist()) return found;
+    found.has_older_cuts = true;
+    found.is_outside = [this, &mesh](const Vec3& place) {
+      return !locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid();
+    };
+    found.reach = [this, older, is_outside = found.is_outside](const Vec3& place, const Vec3& outwards,
+                                                               const Vec3& normal) {
+      const double along = kReachOn * spacing_, across = kReachThrough * spacing_;
+      const double beside = (options_.snap > 0 ? kBesideWall : kBesideExactly) * spacing_;
+      const Vec3 beyond = place + along * outwards;
+      if (older.pass(place, normal, beside, kWeld * spacing_) &&
+          (older.pass(beyond, normal, beside, kInside * spacing_) || is_outside(beyond))) {
+        return along;
+      }
+      return older.meet(place - kInside * spacing_ * outwards, place + kWeld * spacing_ * outwards) ? across : 0.0;
+    };
+    return found;
+  }
   void finish_sheet(TetMesh& mesh, Journal& journal, StageTimes& times) {
-    stroke_cut_.finish(mesh, journal, statistics_, times);
+    stroke_cut_.finish(mesh, journal, rules(), statistics_, times);
     ++statistics_.sheets;
   }
-  /// Cuts along what the blade's motion asks for.
+  /// Cuts along what the blade's motion asks for. A strip that meets what the sheet has cut through is the first of a
+  /// new sheet, to which the one so far is an older cut.
   Status follow(TetMesh& mesh, Journal& journal, BladeMotion::Move move, StageTimes& times) {
-    if (move.comes_near && stroke_cut_.crosses_own_cut(mesh, *move.strip)) {
-      move.starts_anew = true;
-      move.strip = std::move(move.anew);
-    }
-    if (move.starts_anew) {
-      finish_sheet(mesh, journal, times);
-      stroke_cut_.begin(tag_);
-    }
     if (move.strip == nullptr) return {};
+    if (move.starts_anew || (!is_in_material_ && stroke_cut_.crosses_own_cut(mesh, *move.strip, kApart))) {
+      finish_sheet(mesh, journal, times);
+      stroke_cut_.begin(tag_, spacing_);
+      if (between_sheets_) between_sheets_();
+      stroke_cut_.prepare(mesh, journal);
+      move.strip = motion_.lay_anew(surroundings(mesh));
+    }
     note_swept(move.strip->surface);
     return stroke_cut_.advance(mesh, journal, std::move(move.strip), rules(), statistics_, times);
   }
@@ -313,7 +312,8 @@ class Cutter::Pipeline {
 
   /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
   Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
-    const double spacing = typical_spacing(mesh);
+    is_in_material_ = false;
+    const double spacing = spacing_ = typical_spacing(mesh);
     const SweptSurface surface = sweep(stroke, kSlitShare * spacing);
     for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
       Status status = is_paper() ? paper_cut_.cut(mesh, journal, Sheet(surface, part), tag, statistics_, times)
@@ -327,10 +327,10 @@ class Cutter::Pipeline {
   }
   /// One part of the sweep as a sheet of its own, in one step.
   Status cut_strip(TetMesh& mesh, Journal& journal, SweptSurface part, std::uint32_t tag, StageTimes& times) {
-    stroke_cut_.begin(tag);
+    stroke_cut_.begin(tag, spacing_);
     auto strip = std::make_unique<Strip>(std::move(part), std::vector<std::array<std::uint64_t, 2>>());
-    Status status = stroke_cut_.advance(mesh, journal, std::move(strip), {}, statistics_, times);
-    stroke_cut_.finish(mesh, journal, statistics_, times);
+    Status status = stroke_cut_.advance(mesh, journal, std::move(strip), rules(), statistics_, times);
+    stroke_cut_.finish(mesh, journal, rules(), statistics_, times);
     return status;
   }
   static SweptSurface part_of(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles) {
@@ -347,9 +347,8 @@ class Cutter::Pipeline {
   MaterialBlade material_;
   std::vector<Vec3> last_row_;
   double spacing_ = 1.0;
-  std::vector<Vec3> way_;  // of the last step
   bool is_in_material_ = false;
-  bool is_first_step_ = false;
+  std::function<void()> between_sheets_;
   std::uint32_t tag_ = 1;
   CutStatistics statistics_;  // of the stroke being cut
 };
@@ -377,6 +376,9 @@ Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& t
 }
 void Cutter::forget() {
   pipeline_->forget();
+}
+void Cutter::call_between_sheets(std::function<void()> between_sheets) {
+  pipeline_->call_between_sheets(std::move(between_sheets));
 }
 const SweptTriangles& Cutter::swept() const {
   return pipeline_->swept();

@@ -8,6 +8,32 @@
 
 namespace incise::inline v0 {
 
+namespace {
+
+/// The front point inside keeps this barycentric share from every side, where it can.
+constexpr double kInnerMargin = 0.08;
+/// It is drawn along the sheet by this share of an edge at most.
+constexpr double kGreatestDraw = 0.15;
+
+/// Weights of at least `kInnerMargin`; what the others give for it, they give in proportion to what they have beyond
+/// it.
+std::array<double, 4> kept_off(std::array<double, 4> weights) {
+  double lacking = 0, excess = 0;
+  for (const double w : weights) {
+    (w < kInnerMargin ? lacking : excess) += w < kInnerMargin ? kInnerMargin - w : w - kInnerMargin;
+  }
+  for (double& w : weights) {
+    w = w < kInnerMargin ? kInnerMargin : w - (w - kInnerMargin) * (lacking / excess);
+  }
+  return weights;
+}
+
+Vec3 blend(const std::array<Vec3, 4>& p, const std::array<double, 4>& weights) {
+  return weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2] + weights[3] * p[3];
+}
+
+}  // namespace
+
 std::span<const std::uint8_t> Divider::order_of(const Master& master) {
   order_.clear();
   const unsigned split = split_edges(master);
@@ -21,7 +47,7 @@ std::span<const std::uint8_t> Divider::order_of(const Master& master) {
 
 const SplitTemplate& Divider::find(const Master& master) {
   const auto order = order_of(master);
-  if (order.empty() || !has_odd_face(master.flagged)) {
+  if (!is_cone(master)) {
     return templates_.find(order);
   }
   unsigned pierced = 0;
@@ -32,7 +58,6 @@ const SplitTemplate& Divider::find(const Master& master) {
 }
 
 Vec3 Divider::middle_of(const Master& master) const {
-  if (master.corner_key != 0) return master.corner;
   Vec3 sum = Vec3::Zero();
   unsigned count = 0;
   for (const std::uint32_t point : master.points) {
@@ -40,9 +65,34 @@ Vec3 Divider::middle_of(const Master& master) const {
     sum += complex_.point(point).position;
     ++count;
   }
-  if (count >= 2) return sum / count;
+  if (count >= 2) {
+    const Vec3 amid = sum / count;
+    return master.corner_key != 0 ? kept_inside(master, master.corner, amid) : amid;
+  }
   for (const VertexId v : master.vertices) sum += mesh_.rest(v);
-  return sum / (4 + count);
+  const Vec3 amid = sum / (4 + count);
+  return master.corner_key != 0 ? kept_inside(master, master.corner, amid) : amid;
+}
+
+/// The first place on the way from `place` to `amid` that keeps its share from every side; where that is far, the place
+/// next to it that does, off the sheet.
+Vec3 Divider::kept_inside(const Master& master, const Vec3& place, const Vec3& amid) const {
+  std::array<Vec3, 4> p;
+  for (unsigned c = 0; c < 4; ++c) p[c] = mesh_.rest(master.vertices[c]);
+  const double whole = signed_volume6(p[0], p[1], p[2], p[3]);
+  const auto depths = [&](const Vec3& x) -> std::array<double, 4> {
+    return {signed_volume6(x, p[1], p[2], p[3]) / whole, signed_volume6(p[0], x, p[2], p[3]) / whole,
+            signed_volume6(p[0], p[1], x, p[3]) / whole, signed_volume6(p[0], p[1], p[2], x) / whole};
+  };
+  const std::array<double, 4> here = depths(place), there = depths(amid);
+  double share = 0;
+  for (unsigned c = 0; c < 4; ++c) {
+    if (here[c] >= kInnerMargin) continue;
+    share = there[c] > kInnerMargin ? std::max(share, (kInnerMargin - here[c]) / (there[c] - here[c])) : 1.0;
+  }
+  const Vec3 way = std::min(share, 1.0) * (amid - place);
+  if (way.squaredNorm() <= kGreatestDraw * kGreatestDraw * (p[1] - p[0]).squaredNorm()) return place + way;
+  return blend(p, kept_off(here));
 }
 
 Vec3 Divider::position_of(const Master& master, std::uint8_t code) const {

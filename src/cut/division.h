@@ -45,10 +45,13 @@ inline constexpr std::array<std::uint8_t, 4> kEdgesOfSide = [] {
 [[nodiscard]] inline bool needs_split(const Master& master, unsigned edge) {
   return ((split_edges(master) >> edge) & 1U) != 0;
 }
-/// Whether the cut ends in a side of a master, and something is split there: the side gets a front point.
-[[nodiscard]] inline bool needs_point(const Master& master, unsigned side) {
-  const unsigned edges = detail::kEdgesOfSide[side];
-  return std::popcount(master.flagged & edges) % 2 == 1 && (split_edges(master) & edges) != 0;
+/// Whether an odd number of the edges of a side of a master are flagged: the cut ends in it.
+[[nodiscard]] inline bool is_odd_side(const Master& master, unsigned side) {
+  return std::popcount(master.flagged & unsigned{detail::kEdgesOfSide[side]}) % 2 == 1;
+}
+/// Whether an edge of a side of a master is to be split.
+[[nodiscard]] inline bool has_split_on(const Master& master, unsigned side) {
+  return (split_edges(master) & detail::kEdgesOfSide[side]) != 0;
 }
 
 /// Finds how masters are to be divided, from their flags, ON vertices and front points.
@@ -60,11 +63,14 @@ class Divider {
   /// The template for a master as it is flagged now. Complete ones are bisected in one order of all edges (longest
   /// first, then by ends), so that neighbours agree; those that the blade is still in are coned. Paper §2.2, Figure 2.
   [[nodiscard]] const SplitTemplate& find(const Master& master);
-  /// Whether the blade is still in a master and something in it is split: it is coned.
+  /// Whether the blade is still in a master, and something in it is split or the cut ends inside a side: it is coned.
   [[nodiscard]] static bool is_cone(const Master& master) {
-    return split_edges(master) != 0 && has_odd_face(master.flagged);
+    return has_odd_face(master.flagged) &&
+           (split_edges(master) != 0 ||
+            master.points != std::array<std::uint32_t, 4>{Master::kNone, Master::kNone, Master::kNone, Master::kNone});
   }
-  /// Where the front point inside a coned master belongs: amid those in its sides.
+  /// Where the front point inside a coned master belongs: where the border of the sheet turns in it, drawn towards the
+  /// front points in its sides as far as it must to keep off the sides; else amid these. So it is on a plane sheet.
   [[nodiscard]] Vec3 middle_of(const Master& master) const;
   /// The rest position of a vertex of a template.
   [[nodiscard]] Vec3 position_of(const Master& master, std::uint8_t code) const;
@@ -73,6 +79,7 @@ class Divider {
 
  private:
   [[nodiscard]] std::span<const std::uint8_t> order_of(const Master& master);
+  [[nodiscard]] Vec3 kept_inside(const Master& master, const Vec3& place, const Vec3& amid) const;
 
   const TetMesh& mesh_;
   SplitTemplates& templates_;

@@ -14,14 +14,62 @@ namespace {
 
 /// The border of a sheet turns where its direction changes by more than this cosine tells.
 constexpr double kStraight = 0.94;
-/// The front point inside keeps this barycentric share from every side.
-constexpr double kInnerMargin = 0.08;
+/// A border that passes this close to an edge of a face without a split edge is absorbed by the vertex that stands for
+/// the crossing.
+constexpr double kLeastOpen = 1e-6;
+/// Once the blade goes no further, points slide along the sheet by at most this share of the mean edge to keep off the
+/// edges of their face; what is lacking then they give way across the sheet, but at least the lesser share always.
+constexpr double kMostSlide = 0.03, kLeastMargin = 0.01;
 
 using Face = std::array<VertexId, 3>;
 
+/// The corners of a side, ascending: the same from both masters, so that what is computed from them is, too.
 Face face_of(const Master& master, unsigned side) {
   const auto& k = kSideCorners[side];
-  return {master.vertices[k[0]], master.vertices[k[1]], master.vertices[k[2]]};
+  Face face = {master.vertices[k[0]], master.vertices[k[1]], master.vertices[k[2]]};
+  std::sort(face.begin(), face.end());
+  return face;
+}
+
+double mean_edge(const TetMesh& mesh, const Face& face) {
+  return ((mesh.rest(face[0]) - mesh.rest(face[1])).norm() + (mesh.rest(face[1]) - mesh.rest(face[2])).norm() +
+          (mesh.rest(face[2]) - mesh.rest(face[0])).norm()) /
+         3.0;
+}
+
+/// Barycentric weights of a place in the plane of a face; they need not be positive.
+std::array<double, 3> weights_of(const TetMesh& mesh, const Face& face, const Vec3& x) {
+  const Vec3 &a = mesh.rest(face[0]), &b = mesh.rest(face[1]), &c = mesh.rest(face[2]);
+  const Vec3 normal = (b - a).cross(c - a);
+  const double area2 = normal.squaredNorm();
+  const double wb = normal.dot((a - c).cross(x - c)) / area2, wc = normal.dot((b - a).cross(x - a)) / area2;
+  return {1.0 - wb - wc, wb, wc};
+}
+
+/// How the weights of a point in a face change along a sheet with this normal, per mean edge; zero where the sheet lies
+/// in the face.
+std::array<double, 3> slide_along(const TetMesh& mesh, const Face& face, const Vec3& sheet_normal) {
+  const Vec3 &a = mesh.rest(face[0]), &b = mesh.rest(face[1]), &c = mesh.rest(face[2]);
+  const Vec3 along = sheet_normal.cross((b - a).cross(c - a));
+  const double length = along.norm();
+  if (!(length > 0)) return {};
+  const Vec3 step = along * (mean_edge(mesh, face) / length);
+  const std::array<double, 3> end = weights_of(mesh, face, a + step);
+  return {end[0] - 1.0, end[1], end[2]};
+}
+
+/// Weights moved along `slide` by as little as gives each at least `margin`, but by no more than `most`.
+std::array<double, 3> slid(std::array<double, 3> weights, const std::array<double, 3>& slide, double margin,
+                           double most) {
+  double lo = -most, hi = most;
+  for (unsigned k = 0; k < 3; ++k) {
+    const double lacking = margin - weights[k];
+    if (slide[k] > 0) lo = std::max(lo, lacking / slide[k]);
+    if (slide[k] < 0) hi = std::min(hi, lacking / slide[k]);
+  }
+  const double by = lo <= hi ? std::clamp(0.0, lo, hi) : std::clamp(0.5 * (lo + hi), -most, most);
+  for (unsigned k = 0; k < 3; ++k) weights[k] += by * slide[k];
+  return weights;
 }
 
 /// Weights made positive, with sum 1.
@@ -105,12 +153,12 @@ class PointUpdate {
     if (Divider::is_cone(complex_[master])) update_corner(complex_[master], master);
     for (unsigned s = 0; s < 4; ++s) {
       const std::uint32_t at = complex_[master].points[s];
-      if (!needs_point(complex_[master], s)) {
+      if (!is_odd_side(complex_[master], s)) {
         if (at != Master::kNone) drop(at);
       } else if (at == Master::kNone) {
         create(master, s);
       } else {
-        refresh(at, face_of(complex_[master], s));
+        refresh(at, master, s);
       }
     }
   }
@@ -126,16 +174,45 @@ class PointUpdate {
     mark_dirty(complex_.point(at));
     complex_.remove_point(at);
   }
-  void create(std::uint32_t master, unsigned side) {
-    const Face face = face_of(complex_[master], side);
+  /// Where the cut ends in a side.
+  struct End {
+    bool is_inside = false;   ///< it ends there: there is to be a point
+    bool is_pierced = false;  ///< by this strip or an earlier one; else the place is the middle
+    std::array<double, 3> weights{};
+  };
+  [[nodiscard]] End end_in(const Master& master, unsigned side, const Face& face) const {
     auto pierced = find_piercing(face);
     if (!pierced) pierced = find_earlier_piercing(face);
+    if (!pierced) return {has_split_on(master, side), false, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+    const std::array<double, 3> weights = normalised(*pierced);
+    const bool is_open = has_split_on(master, side) || *std::min_element(weights.begin(), weights.end()) > kLeastOpen;
+    return {is_open && !lies_in_older_cut(master, side, face, weights), true, weights};
+  }
+  [[nodiscard]] bool lies_in_older_cut(const Master& master, unsigned side, const Face& face,
+                                       const std::array<double, 3>& weights) const {
+    if (rules_.older == nullptr || !rules_.older->exist()) return false;
+    const double edge = std::max(mean_edge(mesh_, face), kLeastScale * rules_.spacing);
+    return rules_.older->pass(blend(mesh_, face, weights), crossing_normal(master, side), rules_.beside * edge,
+                              kBeyondRim * edge);
+  }
+  /// The sheet's normal where it crosses an edge of a side: that of the edge with the lowest number.
+  [[nodiscard]] Vec3 crossing_normal(const Master& master, unsigned side) const {
+    std::uint32_t lowest = kInvalidIndex;
+    for (const unsigned e : kSideEdges[side]) {
+      if (((unsigned{master.flagged} >> e) & 1U) != 0) lowest = std::min(lowest, master.edges[e]);
+    }
+    return complex_.edges()[lowest].normal;
+  }
+  void create(std::uint32_t master, unsigned side) {
+    const Face face = face_of(complex_[master], side);
+    const End end = end_in(complex_[master], side, face);
+    if (!end.is_inside) return;
     FrontPoint point;
-    place(point, face, pierced ? *pierced : std::array<double, 3>{1.0, 1.0, 1.0});
-    point.is_explained = pierced.has_value();
+    place(point, face, end.weights, crossing_normal(complex_[master], side));
+    point.is_explained = end.is_pierced;
     point.tested = step_;
     point.masters = {master, complex_[master].behind[side]};
-    guessed_ += pierced ? 0U : 1U;
+    guessed_ += end.is_pierced ? 0U : 1U;
     const std::uint32_t at = complex_.add_point(point);
     complex_[master].points[side] = at;
     if (const std::uint32_t behind = point.masters[1]; behind != Master::kNone) {
@@ -145,23 +222,32 @@ class PointUpdate {
     }
     mark_dirty(point);
   }
-  void refresh(std::uint32_t at, const Face& face) {
+  void refresh(std::uint32_t at, std::uint32_t master, unsigned side) {
     FrontPoint& point = complex_.point(at);
     if (point.tested == step_) return;
     point.tested = step_;
+    const Face face = face_of(complex_[master], side);
+    const End end = end_in(complex_[master], side, face);
+    if (!end.is_inside) {
+      drop(at);
+      return;
+    }
     const auto pierced = find_piercing(face);
     if (!pierced) return;
     point.is_explained = true;
     FrontPoint moved = point;
-    place(moved, face, *pierced);
-    if ((moved.position - point.position).squaredNorm() <= rules_.reach * rules_.reach) return;
+    place(moved, face, normalised(*pierced), crossing_normal(complex_[master], side));
+    const bool stays = (moved.position - point.position).squaredNorm() <= rules_.reach * rules_.reach;
+    if (stays) moved.position = point.position;  // for now: where it belongs is asked again at the end
     point = moved;
-    mark_dirty(point);
+    if (!stays) mark_dirty(point);
   }
-  void place(FrontPoint& point, const Face& face, const std::array<double, 3>& weights) const {
+  void place(FrontPoint& point, const Face& face, const std::array<double, 3>& weights, const Vec3& normal) const {
     point.face = face;
-    point.weights = normalised(weights);
-    point.position = blend(mesh_, face, kept_off(point.weights, rules_.margin));
+    point.weights = weights;
+    point.pierced = blend(mesh_, face, weights);
+    point.slide = slide_along(mesh_, face, normal);
+    point.position = blend(mesh_, face, kept_off(weights, rules_.margin));
   }
   /// Notes the turn of the border inside a master that lies deepest in it. One noted before stays, unless this strip
   /// has its point and found that the border does not turn there any more.
@@ -172,7 +258,7 @@ class PointUpdate {
       const double depth = *std::min_element(weights.begin(), weights.end());
       if (depth <= deepest) continue;
       deepest = depth;
-      set_corner(master, index, turn.key, blend(mesh_, master.vertices, kept_off(weights, kInnerMargin)));
+      set_corner(master, index, turn.key, turn.position);
     }
     const auto& points = strip_.surface.points;
     if (deepest == 0 && master.corner_key != 0 &&
@@ -239,13 +325,35 @@ std::uint64_t update_front_points(const TetMesh& mesh, const OwnSheet& sheet, st
   return update.guessed();
 }
 
-void place_front_points(const TetMesh& mesh, double margin, ClosedComplex& complex) {
+namespace {
+
+/// The place in the plane of a face where the sheet passes, nearest to `place`: one step, exact for a plane sheet.
+Vec3 back_on_sheet(const TetMesh& mesh, const OwnSheet& sheet, const Face& face, const Vec3& place) {
+  const std::array<double, 3> weights = weights_of(mesh, face, place);
+  const Vec3 flat = blend(mesh, face, weights);
+  const double edge = mean_edge(mesh, face);
+  const SheetPlace hit = sheet.closest(flat, edge);
+  if (!hit.is_valid()) return flat;
+  const Vec3 normal = (mesh.rest(face[1]) - mesh.rest(face[0])).cross(mesh.rest(face[2]) - mesh.rest(face[0]));
+  const Vec3 across = hit.normal - (hit.normal.dot(normal) / normal.squaredNorm()) * normal;
+  const double slope = across.dot(hit.normal);
+  return slope > 0.1 ? Vec3(flat - (hit.normal.dot(flat - hit.point) / slope) * across) : flat;
+}
+
+}  // namespace
+
+void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, double margin, ClosedComplex& complex) {
   for (std::uint32_t index = 0; index < complex.size(); ++index) {
     if (complex[index].split == nullptr) continue;
     for (const std::uint32_t at : complex[index].points) {
       if (at == Master::kNone) continue;
       FrontPoint& point = complex.point(at);
-      const Vec3 place = blend(mesh, point.face, kept_off(point.weights, margin));
+      if (blend(mesh, point.face, point.weights) != point.pierced) {  // a vertex of the face has moved
+        point.pierced = back_on_sheet(mesh, sheet, point.face, point.pierced);
+        point.weights = normalised(weights_of(mesh, point.face, point.pierced));
+      }
+      const std::array<double, 3> weights = slid(point.weights, point.slide, margin, kMostSlide);
+      const Vec3 place = blend(mesh, point.face, kept_off(normalised(weights), kLeastMargin));
       if (place != point.position) point.position = place;
       if (!point.vertex.is_valid() || mesh.rest(point.vertex) != place) complex.mark_dirty(index);
     }

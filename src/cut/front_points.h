@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cut/closed_complex.h"
+#include "cut/older_walls.h"
 #include "cut/strip.h"
 
 namespace incise::inline v0 {
@@ -14,10 +15,14 @@ struct FrontRules {
   double reach = 0.0;    ///< a point stays where it is while the blade's border pierces its face within this length
   double margin = 0.15;  ///< barycentric share that points keep from every edge of their face: smaller ones make
                          ///< slivers, larger ones move the front off the blade
+  double spacing = 0.0;  ///< the length of a typical edge of the mesh
+  double beside = 0.2;   ///< an older wall passes so far beside a border that lies in it, as a share of the local edge
+  const OlderWalls* older = nullptr;  ///< a border that lies in an older cut ends nothing; null: there is none
 };
 
-/// Puts a front point into every face where the cut ends: an odd number of its edges are crossed, and one of them is
-/// split. Takes away those of faces where it no longer does.
+/// Puts a front point into every face where the cut ends: an odd number of its edges are crossed, and the border of the
+/// sheet pierces its inside, or one of these edges is split. Takes away those of faces where it no longer does. Where
+/// the border lies in an older cut, nothing ends: there is no point.
 ///
 /// Notes besides where the strip's border turns inside a master: the front point inside goes there.
 /// A point lies where the border of the strip pierces its face, but keeps a share of the face's height from its edges;
@@ -28,7 +33,15 @@ struct FrontRules {
 std::uint64_t update_front_points(const TetMesh& mesh, const OwnSheet& sheet, std::span<const std::uint32_t> masters,
                                   const FrontRules& rules, std::uint32_t step, ClosedComplex& complex);
 
-/// Puts all front points where the border pierces their faces, with another margin. Marks what moves as dirty.
-void place_front_points(const TetMesh& mesh, double margin, ClosedComplex& complex);
+/// Gives all front points another margin, to which they slide along the line in which the sheet passes through their
+/// face, so that they stay on the sheet; and puts them back on it where vertices of the face have moved.
+/// Marks what moves as dirty. Cost: O(masters), with a search of the sheet for each point.
+void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, double margin, ClosedComplex& complex);
+
+/// How far an older wall may pass beside a place of the sheet that counts as open already, as a share of the local
+/// edge, with snapping and without; and how far short of that place its rim may end.
+inline constexpr double kBesideWall = 0.2, kBesideExactly = 0.02, kBeyondRim = 0.05;
+/// However short the edges around a place have become by cuts, it is judged by this share of a typical edge at least.
+inline constexpr double kLeastScale = 0.5;
 
 }  // namespace incise::inline v0

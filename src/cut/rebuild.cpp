@@ -315,6 +315,8 @@ class Rebuild::Run {
     return lines.contains(foot[0], foot[1]);
   }
   void meet(Side a, Side b, bool is_incision) {
+    const Link wall = Link::boundary(settings_.tag);
+    if (is_incision && mesh_.link(a) == wall && mesh_.link(b) == wall) standing_.push_back(a);
     set_link(a, is_incision ? Link::boundary(settings_.tag) : Link(b));
     set_link(b, is_incision ? Link::boundary(settings_.tag) : Link(a));
     if (is_incision) incision_.push_back({a, b});
@@ -397,6 +399,7 @@ class Rebuild::Run {
   // --- separation ----------------------------------------------------------------------------------------------------
 
   void keep_crumbs() {
+    std::sort(standing_.begin(), standing_.end());
     if (!settings_.keeps_crumbs) return;
     const CrumbLimit limit = [&](TetId tet) {
       const std::uint32_t index = complex_.find(tet);
@@ -405,11 +408,21 @@ class Rebuild::Run {
       for (const std::uint32_t e : complex_[index].edges) {
         sum += (mesh_.rest(complex_.edges()[e].b) - mesh_.rest(complex_.edges()[e].a)).norm();
       }
-      return crumb_limit(sum / 6.0);
+      return crumb_limit(std::max(sum / 6.0, 0.5 * settings_.spacing));
     };
     dropped_.clear();
     result_.crumbs_kept += incise::keep_crumbs(mesh_, limit, incision_, dropped_, owner_.crumbs_);
-    for (const IncisionFace& face : dropped_) close(face);
+    for (const IncisionFace& face : dropped_) {
+      if (stands_open(face)) {
+        incision_.push_back(face);
+      } else {
+        close(face);
+      }
+    }
+  }
+  /// Whether a face was open before, between tets that stay: it is never joined again but where nothing separates it.
+  [[nodiscard]] bool stands_open(const IncisionFace& face) const {
+    return std::binary_search(standing_.begin(), standing_.end(), face.a);
   }
   /// Leaves the material joined at an incision face.
   void close(const IncisionFace& face) { transaction_.join(face.a, face.b); }
@@ -732,6 +745,7 @@ class Rebuild::Run {
   std::vector<StarTet>& star_;
   std::vector<std::uint32_t>& ring_;
   std::vector<Side>& surface_;  // boundary sides to be looked at
+  std::vector<Side> standing_;  // incision faces that were open before, by their first side; ascending
   SurfaceEdges& edges_;
   RebuildStatistics result_;
   bool is_beside_closed_ = false;  // `star_`: beside faces of the cut that were left joined

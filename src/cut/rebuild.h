@@ -37,6 +37,7 @@ class Rebuild {
   struct Settings {
     std::uint32_t tag = 1;
     bool keeps_crumbs = true;
+    double spacing = 0.0;        ///< the length of a typical edge: crumbs are judged by half of it at least
     bool closes_pinched = true;  ///< leaves faces joined where two fans of tets would touch along an edge
   };
 

@@ -229,13 +229,12 @@ struct Candidate {
   }
 };
 
-/// Snapping reaches a little further along a wall that an earlier cut left at the same place: it may have bent to a
-/// vertex by `snap` of edges that have become shorter since.
-constexpr double kWallReach = 1.75;
 /// It reaches less far for vertices that cannot be moved onto the sheet, since the wall then bends to them.
 constexpr double kBentReach = 0.5;
-/// A wall whose normal has this cosine with the sheet's lies along it.
-constexpr double kAlong = 0.9;
+/// A wall whose normal has this cosine with the sheet's lies along it; older walls are crooked at their fronts.
+constexpr double kAlong = 0.9, kAlongOlder = 0.5;
+/// Cuts make the edges around their walls shorter by this factor at most, for what counts as near an older wall.
+constexpr double kOlderScale = 2.0;
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
 bool is_on_same_part(const OnVertex& on, const Vec3& place, const Vec3& normal) {
   return on.normal.dot(normal) > 0.3 && std::abs(on.normal.dot(place - on.target)) <= 0.3 * on.spacing;
@@ -258,8 +257,9 @@ bool crosses_one_part(const ClosedComplex& complex, const OnVertex& on, std::spa
 /// The vertices that snapping considers in one step.
 class CloseVertices {
  public:
-  CloseVertices(const TetMesh& mesh, const OwnSheet& sheet, double snap, ClosedComplex& complex, SnapScratch& scratch)
-      : mesh_(mesh), sheet_(sheet), snap_(snap), complex_(complex), scratch_(scratch) {}
+  CloseVertices(const TetMesh& mesh, const OwnSheet& sheet, const SnapRules& rules, ClosedComplex& complex,
+                SnapScratch& scratch)
+      : mesh_(mesh), sheet_(sheet), snap_(rules.snap), rules_(rules), complex_(complex), scratch_(scratch) {}
   CloseVertices(const CloseVertices&) = delete;
   CloseVertices& operator=(const CloseVertices&) = delete;
   ~CloseVertices() {
@@ -309,23 +309,28 @@ class CloseVertices {
     const VertexId v = noted.vertex;
     const double snap = noted.has_odd_face ? 0.0 : snap_;
     const bool is_on_wall = (mesh_.shape_of(v) & shape::kWall) != 0;
-    const double share = std::max(kCoincident, is_on_wall ? kWallReach * snap : snap);
+    const double share = std::max(kCoincident, is_on_wall ? kOlderScale * snap_ : snap);
     const SheetPlace hit = sheet_.closest(mesh_.rest(v), share * std::sqrt(noted.longest2));
     if (!hit.is_valid()) return;
     const std::vector<std::uint32_t>& star = complex_.star(mesh_, noted.master, v);
     const double spacing = mean_edge_length(mesh_, complex_, v, star, neighbours_);
     const OnVertex on{v, spacing, std::sqrt(hit.distance2), hit.point, hit.normal};
-    const bool is_coincident = on.distance <= kCoincident * spacing;
-    if (is_coincident
-            ? waits_for_front(on, star)
-            : on.distance > share * spacing || on.distance > snap * reach_of(on, star) * spacing || is_at_front(star)) {
-      return;
-    }
+    const bool is_older_cut =
+        is_on_wall && on.distance <= snap_ * uncut_spacing(spacing) && lies_along(on, star, 1, kAlongOlder);
+    const bool is_coincident = is_older_cut || on.distance <= kCoincident * spacing;
+    const bool may_take_part =
+        is_older_cut || (is_coincident ? !waits_for_front(on, star)
+                                       : on.distance <= snap * reach_of(on, star) * spacing && passed_around(star));
+    if (!may_take_part) return;
     close_.push_back({on, noted.master, is_coincident});
     noted_[i].close = static_cast<std::uint32_t>(close_.size());
   }
-  [[nodiscard]] bool is_at_front(std::span<const std::uint32_t> star) const {
-    return std::any_of(star.begin(), star.end(), [&](std::uint32_t m) { return has_odd_face(complex_[m].flagged); });
+  /// What the spacing at a vertex may have been before cuts made its edges shorter: an older wall has bent by as much.
+  [[nodiscard]] double uncut_spacing(double spacing) const {
+    return std::max(spacing, std::min(rules_.spacing, kOlderScale * spacing));
+  }
+  [[nodiscard]] bool passed_around(std::span<const std::uint32_t> star) const {
+    return std::none_of(star.begin(), star.end(), [&](std::uint32_t m) { return has_odd_face(complex_[m].flagged); });
   }
   /// How far snapping reaches for a vertex, as a multiple of `snap`.
   [[nodiscard]] double reach_of(const OnVertex& on, std::span<const std::uint32_t> star) const {
@@ -336,14 +341,14 @@ class CloseVertices {
     if (has_landed(land_on_sheet(mesh_.rest(on.vertex), on, sheet_, constraint), on)) {
       return 1.0;
     }
-    return lies_along(on, star, 1) ? kWallReach : kBentReach;
+    return kBentReach;
   }
   /// Whether a surface at a vertex lies along the sheet: one with a tag of at least `least_tag`, so 1 leaves out skin.
-  [[nodiscard]] bool lies_along(const OnVertex& on, std::span<const std::uint32_t> star,
-                                std::uint32_t least_tag) const {
+  [[nodiscard]] bool lies_along(const OnVertex& on, std::span<const std::uint32_t> star, std::uint32_t least_tag,
+                                double cosine = kAlong) const {
     bool lies_along = false;
     for_each_surface(mesh_, complex_, on.vertex, star, [&](const Vec3& normal, std::uint32_t tag) {
-      lies_along |= tag != kBorder && tag >= least_tag && std::abs(normal.dot(on.normal)) > kAlong;
+      lies_along |= tag != kBorder && tag >= least_tag && std::abs(normal.dot(on.normal)) > cosine;
     });
     return lies_along;
   }
@@ -351,12 +356,13 @@ class CloseVertices {
   /// inside the faces beside it: it is split beside until the blade has passed. Not where the sheet lies on a surface:
   /// there is nothing to cut.
   [[nodiscard]] bool waits_for_front(const OnVertex& on, std::span<const std::uint32_t> star) const {
-    return snap_ > 0 && is_at_front(star) && !lies_along(on, star, 0);
+    return snap_ > 0 && !passed_around(star) && !lies_along(on, star, 0);
   }
 
   const TetMesh& mesh_;
   const OwnSheet& sheet_;
   double snap_;
+  SnapRules rules_;
   ClosedComplex& complex_;
   SnapScratch& scratch_;
   std::vector<VertexId> neighbours_;
@@ -477,10 +483,10 @@ void move_with_copies(Transaction& transaction, const ClosedComplex& complex, Ve
 
 }  // namespace
 
-std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sheet, double snap,
+std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sheet, const SnapRules& rules,
                                          std::span<const std::uint32_t> masters, ClosedComplex& complex,
                                          SnapScratch& scratch) {
-  CloseVertices close(mesh, sheet, snap, complex, scratch);
+  CloseVertices close(mesh, sheet, rules, complex, scratch);
   close.find(masters);
   const std::vector<Candidate> candidates = find_candidates(mesh, close, complex);
   for (const Candidate& candidate : candidates) {

@@ -20,6 +20,12 @@ struct OnVertex {
   std::uint32_t master = 0;    ///< one that has the vertex
 };
 
+/// How far vertices snap.
+struct SnapRules {
+  double snap = 0.2;     ///< reach, as a share of the mean length of a vertex's edges
+  double spacing = 0.0;  ///< the length of a typical edge of the mesh
+};
+
 /// Memory that snapping keeps between the steps of a stroke.
 struct SnapScratch {
   ZeroedArray<std::uint32_t> index_of_vertex;  ///< all zero between steps
@@ -33,11 +39,12 @@ struct SnapScratch {
 /// where it cannot be moved onto the sheet), nearest first, unless (i) a tet would get four such vertices, (ii) its
 /// flagged or unflagged neighbours are not connected in its link (two sheets pass near it, or a bubble), or its star
 /// was not face-connected at load. Vertices within `kCoincident` are chosen regardless of (ii); at once where skin or a
-/// wall lies along the sheet, and where `snap` is 0.
+/// wall lies along the sheet, and where `snap` is 0. Vertices of an older wall that runs along the sheet within `snap`
+/// are the cut already: they are chosen at once and regardless of (i) and (ii), so that no tet comes between.
 /// Marks them in the complex. Source: snapping before splitting as in Labelle & Shewchuk 2007 and level-set
 /// discretisation in Mmg; not in the paper, whose edge merging (§2.5) repairs afterwards what this avoids. Cost: one
 /// star per vertex close to the sheet.
-std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sheet, double snap,
+std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sheet, const SnapRules& rules,
                                          std::span<const std::uint32_t> masters, ClosedComplex& complex,
                                          SnapScratch& scratch);
 

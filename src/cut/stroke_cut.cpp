@@ -19,8 +19,6 @@ namespace {
 constexpr double kSplitClamp = 0.02;
 /// Two crossings of one edge closer than this share of it are one graze, not two sheets.
 constexpr double kGrazeShare = 0.02;
-/// Two crossings of one edge in different steps that are further apart are two passes of the blade.
-constexpr double kApart = 0.05;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
 constexpr double kFinalMargin = 0.04;
@@ -29,9 +27,10 @@ constexpr unsigned kMaxBisectionRounds = 8;
 
 }  // namespace
 
-void StrokeCut::begin(std::uint32_t tag) {
+void StrokeCut::begin(std::uint32_t tag, double spacing) {
   forget();
   tag_ = tag;
+  spacing_ = spacing;
 }
 
 void StrokeCut::forget() {
@@ -46,17 +45,13 @@ Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip
                           CutStatistics& statistics, StageTimes& times) {
   if (next->sheet.triangle_count() == 0) return {};
   const Strip& strip = sheet_.add(std::move(next));
-  std::vector<OnVertex> on;
   {
     const StageZone zone(times, Stage::kCollision);
     collide(mesh, journal, strip);
     flag(mesh, strip);
     walk_.keep_front(mesh, complex_, strip.row);
-    on = choose_on_vertices(mesh, sheet_, snap(), *met_, complex_, snapping_);
-    for (const OnVertex& vertex : on) {
-      for (const std::uint32_t master : complex_.star(mesh, vertex.master, vertex.vertex)) complex_.mark_dirty(master);
-    }
-    place_front(mesh, rules, statistics);
+    choose_on(mesh, *met_, {snap(), spacing_}, statistics);
+    place_front(mesh, *met_, rules, statistics);
     count_cut(statistics);
   }
   if (std::size_t{mesh.tet_slots()} + kMostChildren * complex_.dirty().size() >= TetMesh::kMaxTets) {
@@ -67,8 +62,6 @@ Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip
     if (complex_[index].is_pinched || complex_[index].has_latent_faces) complex_.mark_dirty(index);
   }
   const StageZone zone(times, Stage::kSubdivide);
-  statistics.snapped_vertices += on.size();
-  on_.insert(on_.end(), on.begin(), on.end());
   rebuild(mesh, journal, true, statistics);
   return {};
 }
@@ -125,8 +118,9 @@ void StrokeCut::refresh_around(std::uint32_t edge) {
 /// Takes the strip's crossings into the complex: an edge is flagged while it is crossed an odd number of times.
 void StrokeCut::flag(const TetMesh& mesh, const Strip& strip) {
   const double clamp = snap() > 0 ? kSplitClamp : 0.0;
+  const bool is_all_reached = find_reached(strip);
   for (const StripCrossing& crossing : *crossed_) {
-    if (crossing.count % 2 == 0) continue;
+    if (crossing.count % 2 == 0 || !(is_all_reached || is_reached(crossing.edge))) continue;
     ClosedEdge& edge = complex_.edges()[crossing.edge];
     edge.is_blocked |= mesh.touched_itself_at_load() && mesh.is_overshared_at_load(edge.a, edge.b);
     complex_.toggle(crossing.edge);
@@ -140,10 +134,50 @@ void StrokeCut::flag(const TetMesh& mesh, const Strip& strip) {
   }
 }
 
+/// What joins a strip to an older cut may pass through that cut's wall, and must not notch the other lip: it counts
+/// only in masters that are reached through faces from those that the sheet itself is in. Returns whether all are.
+bool StrokeCut::find_reached(const Strip& strip) {
+  bool reaches_on = false;
+  for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) reaches_on |= strip.sheet.reaches_on(t);
+  if (!reaches_on) return true;
+  reached_.assign(complex_.size(), false);
+  std::vector<std::uint32_t> queue;
+  const auto reach = [&](std::uint32_t master) {
+    if (reached_[master] || complex_[master].seen != step_) return;
+    reached_[master] = true;
+    queue.push_back(master);
+  };
+  for (const StripCrossing& crossing : *crossed_) {
+    if (strip.sheet.reaches_on(crossing.triangle) && strip.sheet.reaches_on(crossing.triangle_last)) continue;
+    complex_.for_each_around(crossing.edge, reach);
+  }
+  for (const std::uint32_t master : *met_) {
+    if (complex_[master].flagged != 0) reach(master);
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const std::uint32_t behind : complex_[queue[i]].behind) {
+      if (behind != Master::kNone) reach(behind);
+    }
+  }
+  return false;
+}
+
+bool StrokeCut::is_reached(std::uint32_t edge) const {
+  bool is_reached = false;
+  complex_.for_each_around(edge, [&](std::uint32_t master) { is_reached |= reached_[master]; });
+  return is_reached;
+}
+
 /// Front points for the faces where the cut ends now. Edges whose division would make a tet that is not sound are left
 /// out of the cut, and the front looked at again.
-void StrokeCut::place_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics) {
-  update_front_points(mesh, sheet_, *met_, rules, step_, complex_);
+void StrokeCut::place_front(const TetMesh& mesh, std::span<const std::uint32_t> masters, const FrontRules& given,
+                            CutStatistics& statistics) {
+  const OlderWalls older(mesh, surface_, complex_);
+  FrontRules rules = given;
+  rules.spacing = spacing_;
+  rules.beside = beside();
+  rules.older = snap() > 0 ? &older : nullptr;
+  update_front_points(mesh, sheet_, masters, rules, step_, complex_);
   while (true) {
     const std::vector<std::uint32_t> dirty = complex_.dirty();
     update_front_points(mesh, sheet_, dirty, rules, step_, complex_);
@@ -167,7 +201,8 @@ void StrokeCut::count_cut(CutStatistics& statistics) {
 void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, CutStatistics& statistics) {
   const std::size_t tets = mesh.tet_count(), vertices = mesh.vertex_count();
   Transaction transaction(mesh);
-  const RebuildStatistics done = rebuild_.run(transaction, complex_, sheet_, {tag_, snap() > 0, closes_pinched});
+  const RebuildStatistics done =
+      rebuild_.run(transaction, complex_, sheet_, {tag_, snap() > 0, spacing_, closes_pinched});
   Step step = transaction.commit();
   statistics.created_tets += mesh.tet_count() - tets;
   statistics.new_vertices += mesh.vertex_count() - vertices;
@@ -195,46 +230,20 @@ std::vector<std::uint32_t> StrokeCut::recrossed_columns(const TetMesh& mesh, con
   return columns;
 }
 
-bool StrokeCut::crosses_own_cut(const TetMesh& mesh, const Strip& strip) {
+bool StrokeCut::crosses_own_cut(const TetMesh& mesh, const Strip& strip, double least_apart) {
+  if (sheet_.strips().empty()) return false;
   ++step_;
   met_ = &walk_.find(mesh, strip, surface_, complex_, step_);
   crossed_ = &crossings_.find(mesh, strip, *met_, complex_, step_);
   return std::any_of(crossed_->begin(), crossed_->end(), [&](const StripCrossing& crossing) {
     const ClosedEdge& edge = complex_.edges()[crossing.edge];
-    if (crossing.count % 2 == 0 || !edge.is_crossed || std::abs(crossing.t - edge.t) < kApart) return false;
+    if (crossing.count % 2 == 0 || !edge.is_crossed || std::abs(crossing.t - edge.t) < least_apart) {
+      return false;
+    }
     bool is_done = true;
     complex_.for_each_around(crossing.edge, [&](std::uint32_t m) { is_done &= !has_odd_face(complex_[m].flagged); });
     return is_done;
   });
-}
-
-bool StrokeCut::lies_on_walls(const TetMesh& mesh, std::span<const Vec3> row, double distance) const {
-  constexpr unsigned kSamples = 64;
-  constexpr double kMost = 0.8;
-  unsigned inside = 0, on_wall = 0;
-  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
-    for (unsigned i = 0; i < kSamples; ++i) {
-      const Vec3 place = row[c] + ((i + 0.5) / kSamples) * (row[c + 1] - row[c]);
-      if (surface_.bounds().distance2(place) > 0) continue;
-      const bool is_near = is_near_older_wall(mesh, place, distance);
-      on_wall += is_near ? 1U : 0U;
-      inside += is_near || locate(mesh, surface_, {place, ~std::uint64_t{0} - 1}).is_valid() ? 1U : 0U;
-    }
-  }
-  return on_wall > 0 && on_wall >= kMost * inside;
-}
-
-bool StrokeCut::is_near_older_wall(const TetMesh& mesh, const Vec3& place, double distance) const {
-  bool is_near = false;
-  const Vec3 reach = Vec3::Constant(distance);
-  surface_.for_each_near(mesh, {place - reach, place + reach}, [&](Side side) {
-    const std::uint32_t tag = mesh.link(side).tag();
-    if (is_near || tag == 0 || tag == tag_) return;
-    const auto v = mesh.vertices(side);
-    is_near =
-        closest_on_triangle(place, mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])).distance2 <= distance * distance;
-  });
-  return is_near;
 }
 
 bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const {
@@ -252,11 +261,76 @@ bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const 
   return does_touch || locate(mesh, surface_, surface.points.back()).is_valid();
 }
 
-void StrokeCut::finish(TetMesh& mesh, Journal& journal, CutStatistics& statistics, StageTimes& times) {
+/// Chooses vertices that take part in the cut, and has the tets around them made anew.
+void StrokeCut::choose_on(const TetMesh& mesh, std::span<const std::uint32_t> masters, const SnapRules& rules,
+                          CutStatistics& statistics) {
+  const std::vector<OnVertex> on = choose_on_vertices(mesh, sheet_, rules, masters, complex_, snapping_);
+  for (const OnVertex& vertex : on) {
+    for (const std::uint32_t master : complex_.star(mesh, vertex.master, vertex.vertex)) complex_.mark_dirty(master);
+  }
+  statistics.snapped_vertices += on.size();
+  on_.insert(on_.end(), on.begin(), on.end());
+}
+
+/// Where the sheet ends a little beyond the rim of an older cut, that cut ends here: what is crossed between the two
+/// would make slivers of no use.
+void StrokeCut::let_go_of_older_cut(const TetMesh& mesh) {
+  const OlderWalls older(mesh, surface_, complex_);
+  if (!older.exist()) return;
+  std::vector<std::uint32_t> waiting;  // edges; each that is let go brings its neighbours here
+  const auto wait = [&](const Master& master) {
+    for (unsigned e = 0; e < 6; ++e) {
+      if (needs_split(master, e) && complex_.edges()[master.edges[e]].is_crossed) waiting.push_back(master.edges[e]);
+    }
+  };
+  for (std::uint32_t i = 0; i < complex_.size(); ++i) {
+    if (complex_[i].split != nullptr && has_odd_face(complex_[i].flagged)) wait(complex_[i]);
+  }
+  for (std::size_t i = 0; i < waiting.size(); ++i) {
+    const ClosedEdge& edge = complex_.edges()[waiting[i]];
+    const double length = (mesh.rest(edge.b) - mesh.rest(edge.a)).norm();
+    const double scale = std::max(length, kLeastScale * spacing_);
+    if (!edge.is_flagged() || !is_at_border(waiting[i]) ||
+        !older.pass(edge.position, edge.normal, beside() * scale, kBeyondRim * scale)) {
+      continue;
+    }
+    complex_.toggle(waiting[i]);
+    refresh_around(waiting[i]);
+    complex_.for_each_around(waiting[i], [&](std::uint32_t master) { wait(complex_[master]); });
+  }
+}
+
+/// Whether the cut ends in a face that has a certain edge.
+bool StrokeCut::is_at_border(std::uint32_t edge) const {
+  bool is_at_border = false;
+  complex_.for_each_around(edge, [&](std::uint32_t m) {
+    const Master& master = complex_[m];
+    for (unsigned s = 0; s < 4; ++s) {
+      for (const unsigned e : kSideEdges[s]) is_at_border |= master.edges[e] == edge && is_odd_side(master, s);
+    }
+  });
+  return is_at_border;
+}
+
+/// The blade goes no further: its border is where it is, but for what lies at an older cut.
+void StrokeCut::settle_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics) {
+  if (sheet_.strips().empty()) return;
+  let_go_of_older_cut(mesh);
+  if (complex_.dirty().empty()) return;
+  ++step_;
+  const std::vector<std::uint32_t> changed = complex_.dirty();
+  place_front(mesh, changed, rules, statistics);
+}
+
+void StrokeCut::finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics,
+                       StageTimes& times) {
   const StageZone zone(times, Stage::kSeparate);
-  land(mesh, journal, statistics);
-  place_front_points(mesh, kFinalMargin, complex_);
+  settle_front(mesh, rules, statistics);
   if (!complex_.dirty().empty()) rebuild(mesh, journal, true, statistics);
+  land(mesh, journal, statistics);
+  place_front_points(mesh, sheet_, kFinalMargin, complex_);
+  if (!complex_.dirty().empty()) rebuild(mesh, journal, true, statistics);
+  if (make_idle_cones_whole(mesh)) rebuild(mesh, journal, true, statistics);
   for (std::uint32_t i = 0; i < complex_.size(); ++i) {
     if (complex_[i].split != nullptr && (complex_[i].is_pinched || complex_[i].has_latent_faces))
       complex_.mark_dirty(i);
@@ -266,6 +340,36 @@ void StrokeCut::finish(TetMesh& mesh, Journal& journal, CutStatistics& statistic
     part_edges(mesh, journal, statistics);
   }
   forget();
+}
+
+/// Whether nothing in a master is split or open: its front points divide it for nothing.
+bool StrokeCut::is_idle_cone(const TetMesh& mesh, const Master& master) const {
+  if (!Divider::is_cone(master) || split_edges(master) != 0) return false;
+  const auto& inner = master.split->inner;
+  return std::none_of(inner.begin(), inner.end(),
+                      [&](const auto& sides) { return mesh.link(complex_.facet(master, sides[0])).is_boundary(); });
+}
+
+/// Takes the front points out of sides between masters in which nothing came open. Returns whether there were any.
+bool StrokeCut::make_idle_cones_whole(const TetMesh& mesh) {
+  std::vector<std::uint32_t> needless;
+  for (std::uint32_t i = 0; i < complex_.size(); ++i) {
+    if (complex_[i].split == nullptr || !is_idle_cone(mesh, complex_[i])) continue;
+    for (unsigned s = 0; s < 4; ++s) {
+      const std::uint32_t at = complex_[i].points[s], behind = complex_[i].behind[s];
+      if (at == Master::kNone || (behind != Master::kNone && !is_idle_cone(mesh, complex_[behind]))) continue;
+      needless.push_back(at);
+    }
+  }
+  std::sort(needless.begin(), needless.end());
+  needless.erase(std::unique(needless.begin(), needless.end()), needless.end());
+  for (const std::uint32_t at : needless) {
+    for (const std::uint32_t master : complex_.point(at).masters) {
+      if (master != Master::kNone) complex_.mark_dirty(master);
+    }
+    complex_.remove_point(at);
+  }
+  return !needless.empty();
 }
 
 /// The vertices that took part in the cut move onto its sheet.

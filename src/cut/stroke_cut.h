@@ -7,6 +7,7 @@
 #include "cut/closed_complex.h"
 #include "cut/contact_walk.h"
 #include "cut/front_points.h"
+#include "cut/older_walls.h"
 #include "cut/rebuild.h"
 #include "cut/snapping.h"
 #include "cut/strip.h"
@@ -28,8 +29,8 @@ class StrokeCut {
  public:
   explicit StrokeCut(CutOptions options) : options_(options), complex_(templates_), rebuild_(templates_) {}
 
-  /// Starts afresh: the next strip is the first of a sheet. Walls get `tag`.
-  void begin(std::uint32_t tag);
+  /// Starts afresh: the next strip is the first of a sheet. Walls get `tag`. `spacing`: the length of a typical edge.
+  void begin(std::uint32_t tag, double spacing);
   /// Finds the mesh's surface ahead of the first touch. Cost: O(tets) once, then O(edits since).
   void prepare(const TetMesh& mesh, const Journal& journal) { surface_.follow(mesh, journal); }
   /// Cuts along one more strip, and appends what changed to the journal: at most one step, and one for each round of
@@ -42,32 +43,42 @@ class StrokeCut {
   /// Adopts what the strip meets, and changes nothing else. Cost: as `advance` without the rebuild.
   [[nodiscard]] std::vector<std::uint32_t> recrossed_columns(const TetMesh& mesh, const Strip& strip);
   /// Whether a strip crosses an edge that the sheet has crossed elsewhere and is done with: the two would cancel there.
-  [[nodiscard]] bool crosses_own_cut(const TetMesh& mesh, const Strip& strip);
+  /// Crossings nearer than `least_apart` of the edge are one. Adopts what the strip meets.
+  [[nodiscard]] bool crosses_own_cut(const TetMesh& mesh, const Strip& strip, double least_apart);
   /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
-  void finish(TetMesh& mesh, Journal& journal, CutStatistics& statistics, StageTimes& times);
+  void finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics, StageTimes& times);
   /// Forgets a sheet whose cut was taken back.
   void forget();
 
   /// Whether a surface meets the body at rest. Cost: the cells of the surface index that it passes through.
   [[nodiscard]] bool touches(const TetMesh& mesh, const SweptSurface& surface) const;
-  /// Whether a row lies on the walls of older cuts, as far as it is in the body: at least most of it within `distance`.
-  [[nodiscard]] bool lies_on_walls(const TetMesh& mesh, std::span<const Vec3> row, double distance) const;
   [[nodiscard]] const OwnSheet& sheet() const { return sheet_; }
   [[nodiscard]] ClosedComplex& complex() { return complex_; }
+  [[nodiscard]] const ClosedComplex& complex() const { return complex_; }
   [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
 
  private:
   void collide(TetMesh& mesh, Journal& journal, const Strip& strip);
   bool bisect(TetMesh& mesh, Journal& journal, const std::vector<BetweenCrossings>& between);
   void flag(const TetMesh& mesh, const Strip& strip);
-  [[nodiscard]] bool is_near_older_wall(const TetMesh& mesh, const Vec3& place, double distance) const;
+  bool find_reached(const Strip& strip);
+  [[nodiscard]] bool is_reached(std::uint32_t edge) const;
   void refresh_around(std::uint32_t edge);
-  void place_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
+  void place_front(const TetMesh& mesh, std::span<const std::uint32_t> masters, const FrontRules& given,
+                   CutStatistics& statistics);
   void count_cut(CutStatistics& statistics);
   void rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, CutStatistics& statistics);
+  void let_go_of_older_cut(const TetMesh& mesh);
+  [[nodiscard]] bool is_idle_cone(const TetMesh& mesh, const Master& master) const;
+  bool make_idle_cones_whole(const TetMesh& mesh);
+  [[nodiscard]] bool is_at_border(std::uint32_t edge) const;
+  void settle_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
+  void choose_on(const TetMesh& mesh, std::span<const std::uint32_t> masters, const SnapRules& rules,
+                 CutStatistics& statistics);
   void land(TetMesh& mesh, Journal& journal, CutStatistics& statistics);
   void part_edges(TetMesh& mesh, Journal& journal, CutStatistics& statistics);
   [[nodiscard]] double snap() const { return options_.snap; }
+  [[nodiscard]] double beside() const { return snap() > 0 ? kBesideWall : kBesideExactly; }
 
   CutOptions options_;
   SplitTemplates templates_;
@@ -82,6 +93,8 @@ class StrokeCut {
   StarWalker walker_;
   const std::vector<StripCrossing>* crossed_ = nullptr;  // of the current strip
   const std::vector<std::uint32_t>* met_ = nullptr;      // likewise
+  std::vector<bool> reached_;  // by master: through faces, from where the current strip itself is
+  double spacing_ = 0.0;
   std::uint32_t tag_ = 1, step_ = 0;
   std::uint32_t first_look_ = 0;  // the first of the steps that look at the current strip
 };

@@ -52,10 +52,12 @@ void SurfaceIndex::add_changed(const TetMesh& mesh, const Step& step) {
 void SurfaceIndex::build(const TetMesh& mesh) {
   std::vector<Side> sides;
   double length = 0;
+  has_walls_ = false;
   mesh.for_each_tet([&](TetId tet) {
     for (unsigned s = 0; s < 4; ++s) {
       if (!mesh.links(tet)[s].is_boundary()) continue;
       sides.emplace_back(tet, s);
+      note_wall(mesh.links(tet)[s]);
       const auto v = mesh.vertices(sides.back());
       length += (mesh.rest(v[0]) - mesh.rest(v[1])).norm();
     }
@@ -87,6 +89,7 @@ void SurfaceIndex::add(const TetMesh& mesh, TetId tet) {
   for (unsigned s = 0; s < 4; ++s) {
     const Side side(tet, s);
     if (!mesh.link(side).is_boundary()) continue;
+    note_wall(mesh.link(side));
     for_each_cell(box_of(mesh, side), [&](std::uint32_t& head) {
       if (!has(head, side)) insert(head, side);
     });

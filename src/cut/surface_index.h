@@ -23,6 +23,8 @@ class SurfaceIndex {
   /// Has the next `follow` build the grid anew.
   void forget() { is_built_ = false; }
   [[nodiscard]] const Box& bounds() const { return bounds_; }
+  /// Whether walls of cuts were ever seen.
+  [[nodiscard]] bool has_walls() const { return has_walls_; }
   /// Whether a box meets the body's box.
   [[nodiscard]] bool is_near(const Box& box) const { return !heads_.empty() && bounds_.overlaps(box); }
   /// Whether a box takes up a few cells only, or lies outside all of them.
@@ -39,6 +41,7 @@ class SurfaceIndex {
   void build(const TetMesh& mesh);
   void add_changed(const TetMesh& mesh, const Step& step);
   void add(const TetMesh& mesh, TetId tet);
+  void note_wall(Link link) { has_walls_ = has_walls_ || link.tag() != 0; }
   [[nodiscard]] bool has(std::uint32_t head, Side side) const;
   void insert(std::uint32_t& head, Side side);
   /// Calls `visit(head)` for the list of each cell that meets a box.
@@ -75,6 +78,7 @@ class SurfaceIndex {
   std::size_t position_ = 0;  // of the journal
   std::uint64_t rewinds_ = 0;
   std::size_t built_entries_ = 0;
+  bool has_walls_ = false;
   bool is_built_ = false;
 };
 

@@ -63,6 +63,9 @@ class PointGrid {
   bool is_closed_ = false;
 };
 
+/// A triangle that is thinner than this share of its length has no normal of its own: it closes a seam.
+constexpr double kSeamShare = 1e-9;
+
 using Corners = std::array<SosPoint, 3>;
 
 Corners corners(const SweptSurface& surface, std::uint32_t triangle) {
@@ -326,6 +329,7 @@ Sheet::Sheet(const SweptSurface& surface, const std::vector<std::uint32_t>& tria
   double area = 0;
   for (const std::uint32_t t : triangles) {
     triangles_.push_back(surface.triangles[t].points);
+    reaches_on_.push_back(surface.triangles[t].reaches_on);
     const auto p = corners(surface, t);
     for (const SosPoint& q : p) {
       bounds_.lo = bounds_.lo.cwiseMin(q.position);
@@ -335,13 +339,37 @@ Sheet::Sheet(const SweptSurface& surface, const std::vector<std::uint32_t>& tria
     area += area_vector(p).norm();
   }
   tree_ = TriangleTree(points, triangles_);
+  find_normals();
   const double length = mean_normal_.norm();
   mean_normal_ = length > 0.01 * area && length > 0 ? Vec3(mean_normal_ / length) : Vec3(Vec3::Zero());
 }
 
-Vec3 Sheet::normal(std::uint32_t triangle) const {
-  const Vec3& a = point(triangle, 0).position;
-  return (point(triangle, 1).position - a).cross(point(triangle, 2).position - a);
+void Sheet::find_normals() {
+  const auto corner = [&](std::size_t t, unsigned k) -> const Vec3& {
+    return (*surface_).points[triangles_[t][k]].position;
+  };
+  std::vector<std::size_t> flat;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Vec3 a = corner(t, 1) - corner(t, 0), b = corner(t, 2) - corner(t, 0);
+    normals_.push_back(a.cross(b));
+    const double size2 = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+    if (!(normals_.back().squaredNorm() > kSeamShare * kSeamShare * size2 * size2)) flat.push_back(t);
+  }
+  if (flat.empty()) return;
+  std::vector<Vec3> own = normals_;
+  for (const std::size_t t : flat) own[t] = Vec3::Zero();
+  for (const std::size_t t : flat) {
+    const Vec3 centre = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t other = 0; other < triangles_.size(); ++other) {
+      if (own[other].isZero(0.0)) continue;
+      const double distance2 =
+          closest_on_triangle(centre, corner(other, 0), corner(other, 1), corner(other, 2)).distance2;
+      if (!(distance2 < least)) continue;
+      least = distance2;
+      normals_[t] = own[other];
+    }
+  }
 }
 
 }  // namespace incise::inline v0

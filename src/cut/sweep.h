@@ -14,6 +14,7 @@ struct SweptTriangle {
   std::array<std::uint32_t, 3> points;  ///< indices into `SweptSurface::points`
   std::uint32_t step;                   ///< the step that swept it
   std::uint32_t column;                 ///< the segment of the edge that swept it
+  bool reaches_on = false;              ///< not swept: it joins the border of the sheet to an older cut
 };
 
 /// What a blade swept: triangles in the order of time, then along the edge.
@@ -65,16 +66,23 @@ class Sheet {
   [[nodiscard]] const SosPoint& point(std::uint32_t triangle, unsigned corner) const {
     return (*surface_).points[triangles_[triangle][corner]];
   }
+  /// Whether a triangle only joins the border of the sheet to an older cut.
+  [[nodiscard]] bool reaches_on(std::uint32_t triangle) const { return reaches_on_[triangle]; }
   [[nodiscard]] const TriangleTree& tree() const { return tree_; }
   [[nodiscard]] const Box& bounds() const { return bounds_; }
   /// Unit mean normal, or zero where the sheet has none (closed).
   [[nodiscard]] const Vec3& mean_normal() const { return mean_normal_; }
-  /// Unnormalised normal of a triangle: twice its area vector.
-  [[nodiscard]] Vec3 normal(std::uint32_t triangle) const;
+  /// Unnormalised normal of a triangle: twice its area vector. One without area, which closes a seam, has that of the
+  /// nearest triangle that has one.
+  [[nodiscard]] const Vec3& normal(std::uint32_t triangle) const { return normals_[triangle]; }
 
  private:
   const SweptSurface* surface_;
+  void find_normals();
+
   std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<Vec3> normals_;
+  std::vector<bool> reaches_on_;
   TriangleTree tree_;
   Box bounds_;
   Vec3 mean_normal_ = Vec3::Zero();

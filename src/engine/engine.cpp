@@ -165,6 +165,7 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   }
   const auto start = std::chrono::steady_clock::now();
   StepReport report;
+  maintain_between_sheets();
   Result<CutStatistics> cut = cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
   if (!cut) {
     return abort_stroke(cut.error());
@@ -176,10 +177,20 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   return report;
 }
 
+/// Where the blade comes back to what it cut, it must find the mesh in shape: what it crosses twice would be slivers.
+void Engine::maintain_between_sheets() {
+  cutter_.call_between_sheets([this] {
+    take_up(cutter_.swept(), open_.report.stroke, open_.first_step);
+    open_.report.maintain += maintain(options_.maintain.work_units, open_.report.times, {});
+    open_.first_step = journal_.position();
+  });
+}
+
 /// A step that failed leaves the stroke as it was before; what it had found out about the mesh is lost, so that the
 /// stroke ends there.
 Error Engine::abort_stroke(Error error) {
   is_in_stroke_ = false;
+  maintainer_.forget();
   push_operation(true);
   return error;
 }
@@ -195,7 +206,7 @@ Result<StrokeReport> Engine::end_stroke() {
     return status.error();
   }
   take_up(cutter_.swept(), open_.report.stroke, open_.first_step);
-  open_.report.maintain = maintain(options_.maintain.work_units, open_.report.times, {});
+  open_.report.maintain += maintain(options_.maintain.work_units, open_.report.times, {});
   operations_.back().end = journal_.position();
   tell(options_.log, open_.report.cut);
   return std::move(open_.report);
@@ -204,6 +215,7 @@ Result<StrokeReport> Engine::end_stroke() {
 /// The stroke becomes an operation, cut to where the blade was last.
 Status Engine::close_stroke() {
   is_in_stroke_ = false;
+  maintain_between_sheets();
   Result<CutStatistics> cut = cutter_.end(mesh_, journal_, open_.report.times);
   push_operation(true);
   if (!cut) {

@@ -85,6 +85,7 @@ bool EdgeCollapser::improve(Care& care, TetId tet) {
   const auto edges = edges_by_length(care.mesh, tet);
   begun_ = VertexId();
   least_gain_ = kLeastGain;
+  enough_ = 1.0;
   for (std::size_t i = 0; i < kEdgesTried; ++i) {
     if (try_collapse(care, edges[i].a, edges[i].b) || try_collapse(care, edges[i].b, edges[i].a)) {
       return true;
@@ -93,7 +94,7 @@ bool EdgeCollapser::improve(Care& care, TetId tet) {
   return false;
 }
 
-bool EdgeCollapser::thin_out(Care& care, VertexId vertex) {
+bool EdgeCollapser::thin_out(Care& care, VertexId vertex, double enough) {
   neighbours_.clear();
   begun_ = VertexId();
   begin(care, vertex);
@@ -111,6 +112,7 @@ bool EdgeCollapser::thin_out(Care& care, VertexId vertex) {
   });
   neighbours_.resize(std::min(neighbours_.size(), kNeighboursTried));
   least_gain_ = 0.0;
+  enough_ = enough;
   return std::any_of(neighbours_.begin(), neighbours_.end(), [&](VertexId v) { return try_collapse(care, vertex, v); });
 }
 
@@ -148,7 +150,8 @@ bool EdgeCollapser::try_collapse(Care& care, VertexId from, VertexId into) {
   if (is_curved() && !(keep_volume(care) && improves(care) && keeps_surfaces(care))) {
     return false;
   }
-  if (surfaces_.is_front() && !keeps_front(care.mesh, from, surfaces_, skin_tolerance(care) * longest_)) {
+  if (surfaces_.is_front() &&
+      !keeps_front(care.mesh, care.mesh.rest(from), surfaces_, skin_tolerance(care) * longest_)) {
     return false;
   }
   planner_.plan(care.mesh, from, into, plan_);
@@ -263,7 +266,7 @@ bool EdgeCollapser::improves(Care& care) const {
   if (moves(care)) {
     before = std::min(before, worst_of(care, around_));
   }
-  const double bound = std::max(before * (1.0 + least_gain_), kLeastRatio);
+  const double bound = std::max(std::min(before * (1.0 + least_gain_), enough_), kLeastRatio);
   const auto is_better = [&](TetId tet, VertexId vertex) {
     care.spend(1);
     return inradius_ratio_with(care.mesh, tet, vertex, place_) > bound;

@@ -22,8 +22,9 @@ class EdgeCollapser {
   bool improve(Care& care, TetId tet);
 
   /// Tries to merge a vertex that a cut made into one of its neighbours, nearest first, under the same rules, but where
-  /// the worst tet is merely no worse: fewer tets of the same quality. Cost: about 5 µs.
-  bool thin_out(Care& care, VertexId vertex);
+  /// the worst tet is merely no worse, or no worse than `enough` (in (0, 1], of a regular tet): fewer tets of the same
+  /// quality. Cost: about 5 µs.
+  bool thin_out(Care& care, VertexId vertex, double enough = 1.0);
 
  private:
   /// One surface of `from`: what changes on it.
@@ -61,6 +62,7 @@ class EdgeCollapser {
   std::vector<TetId> around_;  // the star of `into`
   std::array<Patch, 2> patches_;
   Vec3 place_ = Vec3::Zero();  // of the merged vertex
+  double enough_ = 1.0;        ///< what thinning out leaves may be worse than before, but not than this
   double least_gain_ = kLeastGain;
   std::vector<VertexId> neighbours_;
 };

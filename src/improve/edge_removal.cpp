@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "improve/surfaces.h"
+
 namespace incise::inline v0 {
 
 namespace {
@@ -18,7 +20,7 @@ bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
   const Side first_face(ring.tets.front(), mesh.corner_of(ring.tets.front(), ring.vertices[1]));
   const Side last_face(ring.tets.back(), mesh.corner_of(ring.tets.back(), ring.vertices[last]));
   const Vec3 n = vector_area2(mesh, first_face), m = vector_area2(mesh, last_face);
-  return mesh.link(first_face).tag() == mesh.link(last_face).tag() && n.dot(m) > 0 &&
+  return are_alike(mesh.link(first_face).tag(), mesh.link(last_face).tag()) && n.dot(m) > 0 &&
          n.cross(m).squaredNorm() <= kFlat * kFlat * n.squaredNorm() * m.squaredNorm();
 }
 

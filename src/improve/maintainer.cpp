@@ -23,6 +23,11 @@ constexpr double kGoal = kRegularLr / 11.0;
 constexpr double kBad = kRegularLr / 18.0;
 /// Vertices that cuts made are tried so often: a merge makes room for others.
 constexpr unsigned kThinningRounds = 3;
+/// Where a cut goes on from an older one, thinning out may cost shape down to this L/r: there all is in good shape
+/// already, and nothing would ever be thinned out.
+constexpr double kEnough = kRegularLr / 13.0;
+/// The end of an older cut is dense so many rings of vertices behind the seam.
+constexpr unsigned kSeamRings = 4;
 /// Changes per journal step: what they free is used again from the next one on.
 constexpr std::uint64_t kChangesPerStep = 4096;
 
@@ -78,6 +83,7 @@ class Maintainer::Queue {
     for (const VertexId v : touched) {
       add_with_neighbours(mesh, v, ring);
     }
+    is_at_seam_ = !opened.empty() && add_older_seam(mesh, opened.front().tag, ring);
     push_stars(mesh, ring);
     for (const VertexId v : ring) {
       if (!mesh.origin(v).is_valid()) crowd_.push_back({v, mesh.generation(v)});
@@ -137,6 +143,29 @@ class Maintainer::Queue {
     for (const TetId tet : walker_.star(mesh, touched)) {
       for (const VertexId v : mesh.vertices(tet)) add_to_care(v, 1, added);
     }
+  }
+  /// What an older cut had to leave dense around its end can be thinned out once this one, with another tag, goes on
+  /// from there. Returns whether there is any.
+  bool add_older_seam(const TetMesh& mesh, std::uint32_t tag, std::vector<VertexId>& ring) {
+    const auto has_older_wall = [&](TetId tet) {
+      const TetLinks& links = mesh.links(tet);
+      return std::any_of(links.begin(), links.end(),
+                         [&](Link link) { return link.is_boundary() && link.tag() != 0 && link.tag() != tag; });
+    };
+    bool is_at_seam = false;
+    std::size_t first = 0;
+    for (unsigned round = 0; round < kSeamRings; ++round) {
+      const std::size_t last = ring.size();
+      for (std::size_t i = first; i < last; ++i) {
+        if (mesh.origin(ring[i]).is_valid()) continue;
+        for (const TetId tet : walker_.star(mesh, ring[i])) {
+          is_at_seam = is_at_seam || has_older_wall(tet);
+          for (const VertexId v : mesh.vertices(tet)) add_to_care(v, 1, ring);
+        }
+      }
+      first = last;
+    }
+    return is_at_seam;
   }
   void push_stars(const TetMesh& mesh, const std::vector<VertexId>& centres) {
     is_pushed_.ensure(mesh.tet_slots());
@@ -201,7 +230,7 @@ class Maintainer::Queue {
     care.is_bad = false;
     const auto [vertex, generation] = crowd_[next_in_crowd_++];
     const bool has_merged = options_.merge && care.mesh.is_live(vertex) && care.mesh.generation(vertex) == generation &&
-                            collapser_.thin_out(care, vertex);
+                            collapser_.thin_out(care, vertex, is_at_seam_ ? kEnough : 1.0);
     if (next_in_crowd_ == crowd_.size()) {
       next_in_crowd_ = 0;
       if (++thinning_round_ == kThinningRounds) crowd_.clear();
@@ -245,6 +274,7 @@ class Maintainer::Queue {
   std::vector<Crowded> crowd_;  // vertices that cuts made, to be merged where they are not needed
   std::size_t next_in_crowd_ = 0;
   unsigned thinning_round_ = 0;
+  bool is_at_seam_ = false;
   std::uint64_t work_units_ = 0;  // of the run in progress
   const ShouldStop* should_stop_ = nullptr;
   ZeroedArray<std::uint32_t> in_care_;   // per vertex slot: 4 · the epoch that took it up + nearness

@@ -262,7 +262,9 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
   }
   care.note(star_);
   const double edge = mean_edge(care.mesh, vertex, star_);
-  if (surfaces_.is_front() && !keeps_front(care.mesh, vertex, surfaces_, skin_tolerance(care) * edge)) {
+  const double slack = skin_tolerance(care) * edge;
+  if (surfaces_.is_front() && !(keeps_front(care.mesh, care.mesh.rest(vertex), surfaces_, slack) &&
+                                keeps_front(care.mesh, place, surfaces_, slack))) {
     return false;
   }
   for (unsigned i = 0; i < surfaces_.count; ++i) {
@@ -270,7 +272,7 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
     if (surface.is_flat) {
       continue;
     }
-    collect_pieces(care, vertex, place, surface.tag);
+    collect_pieces(care, vertex, place, i);
     const double tolerance = surface_tolerance(care, surface.tag) * mean_spoke(before_);
     Reach apex_reach, reach;
     const Piece apex_before{before_.facets, {care.mesh.rest(vertex)}}, apex_after{after_.facets, {place}};
@@ -284,15 +286,17 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
 
 /// The faces of one surface around the vertex, before and after its move. They differ most at the vertex, which is
 /// looked at by itself, and along the edges that lead to it.
-void Smoother::collect_pieces(const Care& care, VertexId vertex, const Vec3& place, std::uint32_t tag) {
+void Smoother::collect_pieces(const Care& care, VertexId vertex, const Vec3& place, unsigned surface) {
+  const std::uint32_t tag = surfaces_.surfaces[surface].tag;
   const Vec3 old_place = care.mesh.rest(vertex);
   before_.clear();
   after_.clear();
   for (const TetId tet : star_) {
     for (unsigned s = 0; s < 4; ++s) {
-      if (care.mesh.vertices(tet)[s] == vertex || surface_tag(care.mesh, {tet, s}) != tag) {
-        continue;
-      }
+      const std::int64_t at = care.mesh.vertices(tet)[s] == vertex ? -1 : surface_tag(care.mesh, {tet, s});
+      if (at < 0) continue;
+      const auto own = static_cast<std::uint32_t>(at);
+      if (own != tag && surfaces_.find(own, vector_area2(care.mesh, {tet, s}).normalized()) != surface) continue;
       const auto v = care.mesh.vertices(Side(tet, s));
       const auto centre = static_cast<std::size_t>(std::find(v.begin(), v.end(), vertex) - v.begin());
       const Vec3 &p = care.mesh.rest(v[(centre + 1) % 3]), &q = care.mesh.rest(v[(centre + 2) % 3]);

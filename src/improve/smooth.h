@@ -55,7 +55,7 @@ class Smoother {
   void collect(const Care& care, VertexId vertex);
   [[nodiscard]] Vec3 find_place(Care& care, VertexId vertex) const;
   [[nodiscard]] bool keeps_surfaces(const Care& care, VertexId vertex, const Vec3& place);
-  void collect_pieces(const Care& care, VertexId vertex, const Vec3& place, std::uint32_t tag);
+  void collect_pieces(const Care& care, VertexId vertex, const Vec3& place, unsigned surface);
   [[nodiscard]] double worst_at(Care& care, VertexId vertex, const Vec3& place, double bound) const;
 
   std::vector<TetId> star_;

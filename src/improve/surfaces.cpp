@@ -11,6 +11,10 @@ namespace {
 /// Two surfaces that meet at less than this sine have no line to slide along.
 constexpr double kLeastSine = 0.17;
 
+/// A vertex at a front slides along it, not across: what keeps the volume must turn it from there by no more than
+/// this cosine tells, 2.5 degrees.
+constexpr double kAlongFront = 0.999;
+
 bool is_same_plane(const Vec3& a, const Vec3& b) {
   return a.cross(b).squaredNorm() <= kFlat * kFlat;
 }
@@ -38,7 +42,7 @@ void note_front_edges(const TetMesh& mesh, Side side, VertexId vertex, unsigned 
 void find_front(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star, VertexSurfaces& found) {
   const SurfaceAt &one = found.surfaces[0], &other = found.surfaces[1];
   found.mobility = Mobility::kFixed;
-  if (found.count != 2 || one.tag != other.tag || one.first_normal.dot(other.first_normal) > -kSmoothCosine) {
+  if (found.count != 2 || !are_alike(one.tag, other.tag) || one.first_normal.dot(other.first_normal) > -kSmoothCosine) {
     return;
   }
   std::vector<FrontEdge> edges;
@@ -61,7 +65,7 @@ void find_front(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& 
     along -= (along.dot(area) / area.squaredNorm()) * area;
   }
   const double length = along.norm();
-  if (length > kSmoothCosine) {
+  if (length > kAlongFront) {
     found.front_ends = {edges[0].end, edges[1].end};
     found.along = along / length;
     found.mobility = Mobility::kLine;
@@ -110,7 +114,7 @@ void decide_mobility(VertexSurfaces& found) {
 
 unsigned VertexSurfaces::find(std::uint32_t tag, const Vec3& normal) const {
   for (unsigned i = 0; i < std::min(count, 2U); ++i) {
-    if (surfaces[i].tag == tag && surfaces[i].first_normal.dot(normal) >= kSmoothCosine) {
+    if (surfaces[i].first_normal.dot(normal) >= least_cosine(surfaces[i].tag, tag)) {
       return i;
     }
   }
@@ -171,9 +175,9 @@ bool find_volume_step(const VertexSurfaces& surfaces, const std::array<double, 2
   return true;
 }
 
-bool keeps_front(const TetMesh& mesh, VertexId vertex, const VertexSurfaces& surfaces, double tolerance) {
+bool keeps_front(const TetMesh& mesh, const Vec3& place, const VertexSurfaces& surfaces, double tolerance) {
   const Vec3& start = mesh.rest(surfaces.front_ends[0]);
-  const Vec3 chord = mesh.rest(surfaces.front_ends[1]) - start, arm = mesh.rest(vertex) - start;
+  const Vec3 chord = mesh.rest(surfaces.front_ends[1]) - start, arm = place - start;
   return chord.cross(arm).squaredNorm() <= tolerance * tolerance * chord.squaredNorm();
 }
 

@@ -23,6 +23,20 @@ inline constexpr double kSmoothCosine = 0.26;
 /// Tag of borders between regions.
 inline constexpr std::uint32_t kBorderTag = 0x7FFFFFFFU;
 
+/// Walls of different strokes whose normals have at least this cosine go on from each other: 20 degrees. Where they
+/// cross at a larger angle there is a crease, to be kept.
+inline constexpr double kSeamCosine = 0.94;
+
+/// Whether faces with these tags may be parts of one surface: walls of successive cuts continue each other.
+inline bool are_alike(std::uint32_t a, std::uint32_t b) {
+  const auto is_wall = [](std::uint32_t tag) { return tag != 0 && tag != kBorderTag; };
+  return a == b || (is_wall(a) && is_wall(b));
+}
+/// The least cosine between the normals of two faces with these tags that are parts of one surface; above 1 for none.
+inline double least_cosine(std::uint32_t a, std::uint32_t b) {
+  return a == b ? kSmoothCosine : (are_alike(a, b) ? kSeamCosine : 2.0);
+}
+
 /// How freely a vertex may move.
 enum class Mobility : std::uint8_t {
   kFree,     ///< interior
@@ -68,8 +82,8 @@ VertexSurfaces surfaces_at(const TetMesh& mesh, VertexId vertex, const std::vect
 /// surface i. Returns false where the vertex is on no surface, on more than two, or on two that are nearly parallel.
 bool find_volume_step(const VertexSurfaces& surfaces, const std::array<double, 2>& lost6, Vec3& step);
 
-/// Whether the front is straight at a vertex that slides along it: it lies within `tolerance` of the line between its
-/// neighbours there.
-bool keeps_front(const TetMesh& mesh, VertexId vertex, const VertexSurfaces& surfaces, double tolerance);
+/// Whether the front is straight at a place of a vertex that slides along it: it lies within `tolerance` of the line
+/// between its neighbours there.
+bool keeps_front(const TetMesh& mesh, const Vec3& place, const VertexSurfaces& surfaces, double tolerance);
 
 }  // namespace incise::inline v0

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "cut/strips.h"
 
@@ -18,11 +19,21 @@ class Motion {
 
   BladeMotion::Move advance(const Row& row, bool flushes = false) {
     return keep(motion_.advance(
-        row, sheet_, [](const SweptSurface&) { return true; }, flushes));
+        row, sheet_, [](const SweptSurface&) { return true; }, around_, flushes));
   }
   BladeMotion::Move end() {
-    return keep(motion_.end(sheet_, [](const SweptSurface&) { return true; }));
+    return keep(motion_.end(
+        sheet_, [](const SweptSurface&) { return true; }, around_));
   }
+  /// From now on there is an older cut wherever `reach` says so; nothing is outside the body.
+  void meet_older_cuts(std::function<double(const Vec3& place, const Vec3& outwards)> reach) {
+    around_.has_older_cuts = true;
+    around_.reach = [reach = std::move(reach)](const Vec3& place, const Vec3& outwards, const Vec3&) {
+      return reach(place, outwards);
+    };
+    around_.is_outside = [](const Vec3&) { return false; };
+  }
+  BladeMotion::Move reach_on() { return keep(motion_.reach_on(around_)); }
   [[nodiscard]] const OwnSheet& sheet() const { return sheet_; }
   [[nodiscard]] const Strip& last() const { return *sheet_.strips().back(); }
   /// Everything swept since the sheet was started, as one.
@@ -46,6 +57,7 @@ class Motion {
 
  private:
   BladeMotion motion_;
+  Surroundings around_;
   OwnSheet sheet_;
   bool has_strip_ = false;
 };
@@ -180,6 +192,48 @@ TEST(BladeMotion, starts_anew_where_it_meets_itself) {
   EXPECT_EQ(blade.sheet().strips().size(), 1U);
   EXPECT_EQ(blade.last().sheet.bounds().lo.y(), -1.0);
   EXPECT_EQ(blade.last().sheet.bounds().hi.y(), 1.0);
+}
+
+TEST(BladeMotion, reaches_back_into_an_older_cut_that_ends_where_it_starts) {
+  Motion blade(at(0));
+  blade.meet_older_cuts([](const Vec3& place, const Vec3& outwards) {
+    return place.x() < 0.01 && outwards.x() < -0.5 && place.y() < 1.01 ? 0.3 : 0.0;
+  });
+  blade.advance(at(1));
+  EXPECT_NEAR(blade.last().sheet.bounds().lo.x(), -0.3, 1e-12);
+  EXPECT_EQ(keys_of(blade.sheet().border()), blade.whole_border());
+  double area = 0;
+  for (std::uint32_t t = 0; t < blade.last().sheet.triangle_count(); ++t) {
+    const std::array<Vec3, 3> p = {blade.last().sheet.point(t, 0).position, blade.last().sheet.point(t, 1).position,
+                                   blade.last().sheet.point(t, 2).position};
+    area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
+  }
+  EXPECT_NEAR(area, 2.0 + 0.3 * 1.0, 1e-12);  // half of its edge is at the older cut
+}
+
+TEST(BladeMotion, reaches_on_into_an_older_cut_where_it_ends) {
+  Motion blade(at(0));
+  blade.meet_older_cuts(
+      [](const Vec3& place, const Vec3& outwards) { return place.x() > 0.99 && outwards.x() > 0.5 ? 0.3 : 0.0; });
+  blade.advance(at(1));
+  EXPECT_EQ(blade.last().sheet.bounds().hi.x(), 1.0);
+  blade.reach_on();
+  ASSERT_TRUE(blade.has_strip());
+  EXPECT_NEAR(blade.last().sheet.bounds().hi.x(), 1.3, 1e-12);
+  EXPECT_EQ(keys_of(blade.sheet().border()), blade.whole_border());
+}
+
+TEST(BladeMotion, reaches_on_beside_the_traces_of_its_ends) {
+  Motion blade(at(0));
+  blade.meet_older_cuts([](const Vec3& place, const Vec3& outwards) {
+    return place.y() < 0.01 && outwards.y() < -0.5 && place.x() > 0.9 && place.x() < 3.1 ? 0.3 : 0.0;
+  });
+  for (const double x : {1.0, 2.0, 3.0, 4.0}) {
+    blade.advance(at(x));
+    EXPECT_EQ(keys_of(blade.sheet().border()), blade.whole_border()) << x;
+    const bool does_reach_on = x == 2.0 || x == 3.0;
+    EXPECT_NEAR(blade.last().sheet.bounds().lo.y(), does_reach_on ? -0.3 : 0.0, 1e-12) << x;
+  }
 }
 
 TEST(BladeMotion, of_a_closed_edge_has_no_border_along_it) {

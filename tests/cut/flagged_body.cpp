@@ -90,7 +90,7 @@ void FlaggedBody::place_points(Random& random, double moved_share) {
   for (std::uint32_t m = 0; m < complex_.size(); ++m) {
     for (unsigned s = 0; s < 4; ++s) {
       const std::uint32_t at = complex_[m].points[s];
-      if (!needs_point(complex_[m], s)) {
+      if (!is_odd_side(complex_[m], s) || !has_split_on(complex_[m], s)) {
         if (at == Master::kNone) continue;
         mark_dirty(complex_.point(at));
         complex_.remove_point(at);

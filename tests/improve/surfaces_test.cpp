@@ -130,7 +130,8 @@ TEST(Surfaces, of_a_front_are_both_lips_and_its_direction) {
     EXPECT_EQ(mesh.rest(end).z(), 0.5);
   }
   const VertexId v = nearest_vertex(mesh, Vec3(0.5, 0.5, 0.5));
-  EXPECT_TRUE(keeps_front(mesh, v, found, 1e-9));
+  EXPECT_TRUE(keeps_front(mesh, mesh.rest(v), found, 1e-9));
+  EXPECT_FALSE(keeps_front(mesh, mesh.rest(v) + Vec3(0.01, 0, 0), found, 1e-9));
 }
 
 TEST(Surfaces, where_a_front_meets_the_skin_hold_the_vertex) {
@@ -174,7 +175,18 @@ TEST(Surfaces, tell_folds_from_bends) {
   EXPECT_EQ(count_at(6.0), 2U);
 }
 
-TEST(Surfaces, tell_tags_from_each_other_even_in_one_plane) {
+TEST(Surfaces, of_walls_are_one_whichever_stroke_cut_them) {
+  VertexSurfaces found;
+  add_face(found, 2, Vec3(0, 0, 1));
+  add_face(found, 3, Vec3(0, 0, 1));
+  decide_mobility(found);
+  EXPECT_EQ(found.count, 1U);
+  EXPECT_EQ(found.mobility, Mobility::kSurface);
+  EXPECT_FALSE(are_alike(0, 3));
+  EXPECT_FALSE(are_alike(kBorderTag, 3));
+}
+
+TEST(Surfaces, tell_skin_from_walls_even_in_one_plane) {
   VertexSurfaces found;
   add_face(found, 0, Vec3(0, 0, 1));
   add_face(found, 3, Vec3(0, 0, 1));
@@ -183,7 +195,7 @@ TEST(Surfaces, tell_tags_from_each_other_even_in_one_plane) {
   EXPECT_EQ(found.mobility, Mobility::kFixed);
   EXPECT_EQ(found.find(3, Vec3(0, 0, 1)), 1U);
   EXPECT_EQ(found.find(3, Vec3(0, 0, -1)), 2U);
-  EXPECT_EQ(found.find(2, Vec3(0, 0, 1)), 2U);
+  EXPECT_EQ(found.find(kBorderTag, Vec3(0, 0, 1)), 2U);
 }
 
 TEST(Surfaces, pass_over_faces_without_area) {

@@ -199,7 +199,9 @@ TEST(BodyFollow, HoldsComeBackWithUndoAndRedo) {
       moving.mesh().for_each_vertex([&](VertexId v) {
         const double x = std::abs(moving.mesh().rest(v).x());  // a cut may draw skin a little off its plane
         const bool is_at_wall = x < 1e-9, is_held = moving.body().is_held(v);
-        ASSERT_TRUE(x < 1e-2 || !is_held) << v.value;
+        // What is no skin any more has slid along the wall of its piece.
+        const bool is_skin = (moving.mesh().shape_of(v) & shape::kSkin) != 0;
+        ASSERT_TRUE(x < 1e-2 || !is_held || !is_skin) << v.value << " at " << moving.mesh().rest(v).transpose();
         at_wall += is_at_wall ? 1U : 0U;
         held += is_held ? 1U : 0U;
       });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -43,6 +44,10 @@ class Cutter {
                              bool has_moved, StageTimes& times);
   /// Ends the stroke where the blade was last. Errors: as `step`.
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times);
+  /// Has `between_sheets` called within `step` and `end` wherever a sheet of the stroke is finished and another one
+  /// starts, since the blade has come back to what it cut: the mesh may be maintained there. It must not throw. Empty:
+  /// nothing is called.
+  void call_between_sheets(std::function<void()> between_sheets);
   /// Forgets a stroke whose steps were taken back.
   void forget();
   /// What the stroke has swept at rest, so far.

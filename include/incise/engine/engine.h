@@ -142,6 +142,7 @@ class Engine {
   [[nodiscard]] bool maintains() const;
   void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step);
   Status close_stroke();
+  void maintain_between_sheets();
   Error abort_stroke(Error error);
   Result<StrokeReport> end_stroke_as_paper();
   MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop);

@@ -13,8 +13,9 @@ namespace incise::inline v0 {
 
 /// Keeps the neighbourhood of cuts fit to simulate: local, worst tets first, within a budget, monotone.
 ///
-/// Every accepted change replaces a few tets by others whose worst L/r is smaller than theirs was; stopping at any
-/// point leaves a valid and better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed
+/// Every accepted change replaces a few tets by others whose worst L/r is smaller than theirs was, but for thinning out
+/// where a cut goes on from an older one, which may cost shape down to L/r 13; stopping at any point leaves a valid and
+/// better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed
 /// stay so. Vertices move within what they are part of: interior ones freely, those of a wall or of the skin in their
 /// surface, those where surfaces meet along the line, corners not; the volume on either side of every wall is kept.
 /// Skin stays close to where it was before the first change of all: `run` follows the journal, and remembers the skin

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What older cuts have opened, asked for by geometry alone: so it is the same wound after a file was written and read.
+#include "cut/older_walls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "incise/geom/closest.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// A wall whose normal has this cosine with the sheet's runs along it. Fronts are crooked: 0.9 misses their facets.
+constexpr double kAlongOlder = 0.5;
+
+}  // namespace
+
+bool OlderWalls::exist() const {
+  return surface_.has_walls();
+}
+
+/// A wall inside a master is the sheet's own.
+bool OlderWalls::is_older(Side side) const {
+  const Link link = mesh_.link(side);
+  if (!link.is_boundary() || link.tag() == 0) return false;
+  const std::uint32_t index = complex_.find(side.tet());
+  if (index == Master::kNone) return true;
+  const Master& master = complex_[index];
+  for (unsigned s = 0; s < 4; ++s) {
+    const auto& outer = master.split->outer[s];
+    if (master.behind[s] == Master::kNone &&
+        std::any_of(outer.begin(), outer.end(), [&](auto child) { return complex_.facet(master, child) == side; })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, double beyond) const {
+  if (!exist()) return false;
+  const Vec3 n = normal.normalized();
+  const double reach = std::max(beside, beyond);
+  const Vec3 margin = Vec3::Constant(reach);
+  bool does_pass = false;
+  surface_.for_each_near(mesh_, {place - margin, place + margin}, [&](Side side) {
+    if (does_pass || !is_older(side)) return;
+    const auto v = mesh_.vertices(side);
+    const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
+    const Vec3 area = (b - a).cross(c - a);
+    const double length = area.norm(), cosine = area.dot(n);
+    if (!(std::abs(cosine) > kAlongOlder * length)) return;
+    const Vec3 way = place - closest_on_triangle(place, a, b, c).point;
+    const double across = way.dot(area) / length;
+    const double along2 = way.squaredNorm() - across * across;
+    does_pass = std::abs(across) <= beside && along2 <= beyond * beyond;
+  });
+  return does_pass;
+}
+
+bool OlderWalls::meet(const Vec3& from, const Vec3& to) const {
+  if (!exist()) return false;
+  bool do_meet = false;
+  surface_.for_each_near(mesh_, {from.cwiseMin(to), from.cwiseMax(to)}, [&](Side side) {
+    if (do_meet || !is_older(side)) return;
+    const auto v = mesh_.vertices(side);
+    const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
+    const Vec3 area = (b - a).cross(c - a);
+    const double before = area.dot(from - a), after = area.dot(to - a);
+    if ((before > 0) == (after > 0)) return;
+    const Vec3 x = from + (before / (before - after)) * (to - from);
+    do_meet = area.dot((b - a).cross(x - a)) >= 0 && area.dot((c - b).cross(x - b)) >= 0 &&
+              area.dot((a - c).cross(x - c)) >= 0;
+  });
+  return do_meet;
+}
+
+}  // namespace incise::inline v0
