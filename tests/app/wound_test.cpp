@@ -24,7 +24,7 @@ struct Case {
   bool maintains = false;
 };
 
-void PrintTo(const Case& tried, std::ostream* out) {
+void PrintTo(const Case& tried, std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest's
   *out << tried.name;
 }
 
