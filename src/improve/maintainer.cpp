@@ -25,7 +25,7 @@ constexpr double kBad = kRegularLr / 18.0;
 constexpr unsigned kThinningRounds = 3;
 /// Where a cut goes on from an older one, thinning out may cost shape down to this L/r: there all is in good shape
 /// already, and nothing would ever be thinned out.
-constexpr double kEnough = kRegularLr / 13.0;
+constexpr double kEnough = kRegularLr / 18.0;
 /// The end of an older cut is dense so many rings of vertices behind the seam.
 constexpr unsigned kSeamRings = 4;
 /// Changes per journal step: what they free is used again from the next one on.

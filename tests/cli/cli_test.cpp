@@ -267,7 +267,7 @@ TEST(Cli, a_second_run_goes_on_from_the_wound_of_the_first) {
     ASSERT_EQ(before.size(), 1U) << end;
     ASSERT_EQ(after.size(), 2U) << end;
     EXPECT_GT(after.at(1), 0U);
-    EXPECT_GT(after.at(2), 100U);
+    EXPECT_GT(after.at(2), 50U);
     EXPECT_EQ(json::parse(run({"check", twice, "--json"}).out)["components"], 4) << end;
     EXPECT_EQ(run({"replay", log, "--verify", "-q", "-o", folder / ("replayed" + end)}).code, 0) << end;
     EXPECT_EQ(read(folder / ("replayed" + end)), read(twice)) << end;
