@@ -51,6 +51,8 @@ class BladeMotion {
   /// The last strip once more, as the first of a new sheet: for one that meets what was swept before. The sheet so far
   /// must be finished first, and is an older cut to the new one.
   std::unique_ptr<Strip> lay_anew(const Surroundings& around);
+  /// The next strip is the first of a new sheet, which goes on from the front. The sheet so far must be finished first.
+  void begin_anew() { start_sheet(Row(front_)); }
   /// The strip by which the front reaches on into older cuts that begin there, once the blade goes no further.
   Move reach_on(const Surroundings& around);
 

@@ -31,25 +31,21 @@ void add_reaching_triangle(SweptSurface& surface, const SosPoint& a, const SosPo
   append(surface, one);
 }
 
-/// At which of the places along a border it reaches on: those at an older cut, and the first outside the body beside
-/// them.
-std::vector<bool> BorderReach::find_open(const BorderPlace& from, const BorderPlace& to, std::size_t parts) {
+/// How far the places along a border reach on: those at an older cut, and as far as they the first outside the body
+/// beside them.
+std::vector<double> BorderReach::find_reach(const BorderPlace& from, const BorderPlace& to, std::size_t parts) const {
   const Vec3 &a = from.at.position, &b = to.at.position;
-  std::vector<bool> is_in_cut(parts + 1);
-  reach_ = 0;
+  std::vector<double> in_cut(parts + 1);
   for (std::size_t i = 0; i <= parts; ++i) {
     const Vec3 outwards = outwards_at(from, to, i, parts);
-    const double reach = around_.reach(between(a, b, i, parts), outwards, (b - a).cross(outwards));
-    is_in_cut[i] = reach > 0;
-    reach_ = std::max(reach_, reach);
+    in_cut[i] = around_.reach(between(a, b, i, parts), outwards, (b - a).cross(outwards));
   }
-  if (!(reach_ > 0)) return is_in_cut;
-  std::vector<bool> is_open = is_in_cut;
+  std::vector<double> reach = in_cut;
   for (std::size_t i = 0; i <= parts; ++i) {
-    const bool is_beside = (i > 0 && is_in_cut[i - 1]) || (i < parts && is_in_cut[i + 1]);
-    if (!is_in_cut[i] && is_beside) is_open[i] = around_.is_outside(between(a, b, i, parts));
+    const double beside = std::max(i > 0 ? in_cut[i - 1] : 0.0, i < parts ? in_cut[i + 1] : 0.0);
+    if (in_cut[i] == 0 && beside > 0 && around_.is_outside(between(a, b, i, parts))) reach[i] = beside;
   }
-  return is_open;
+  return reach;
 }
 
 SweptSurface BorderReach::from_row(const BorderPlace& from, const BorderPlace& to, std::uint32_t column) {
@@ -57,18 +53,18 @@ SweptSurface BorderReach::from_row(const BorderPlace& from, const BorderPlace& t
   const Vec3 &a = from.at.position, &b = to.at.position;
   const auto parts =
       static_cast<std::size_t>(std::clamp(std::ceil((b - a).norm() / (kSampleShare * spacing_)), 1.0, kMostSamples));
-  const std::vector<bool> is_open = find_open(from, to, parts);
+  const std::vector<double> reach = find_reach(from, to, parts);
   const auto on_border = [&](std::size_t i) -> SosPoint {
     return i == 0 ? from.at : (i == parts ? to.at : SosPoint{between(a, b, i, parts), next_key_++});
   };
   const auto beyond = [&](std::size_t i) -> SosPoint {
-    return {between(a, b, i, parts) + reach_ * outwards_at(from, to, i, parts), next_key_++};
+    return {between(a, b, i, parts) + reach[i] * outwards_at(from, to, i, parts), next_key_++};
   };
   std::vector<SosPoint> rim = {from.at};
-  for (std::size_t i = 0; reach_ > 0 && i <= parts; ++i) {
-    if (!is_open[i]) continue;
+  for (std::size_t i = 0; i <= parts; ++i) {
+    if (!(reach[i] > 0)) continue;
     std::size_t last = i;
-    while (last < parts && is_open[last + 1]) ++last;
+    while (last < parts && reach[last + 1] > 0) ++last;
     if (last > i) {
       const SosPoint p = on_border(i), q = on_border(last), r = beyond(last), s = beyond(i);
       add_reaching_triangle(surface, p, q, r, column);

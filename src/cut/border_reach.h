@@ -40,12 +40,11 @@ class BorderReach {
   [[nodiscard]] SweptSurface from_row(const BorderPlace& from, const BorderPlace& to, std::uint32_t column);
 
  private:
-  [[nodiscard]] std::vector<bool> find_open(const BorderPlace& from, const BorderPlace& to, std::size_t parts);
+  [[nodiscard]] std::vector<double> find_reach(const BorderPlace& from, const BorderPlace& to, std::size_t parts) const;
 
   const Surroundings& around_;
   double spacing_;
   std::uint64_t& next_key_;
-  double reach_ = 0;  // the longest of the last row
 };
 
 /// Adds a triangle that joins a border to an older cut; none where two of its points are one.

@@ -9,13 +9,15 @@ namespace {
 
 constexpr std::size_t kMaxCrumbTets = 256;
 constexpr std::size_t kMaxPieceSearch = 512;
+/// A piece may look so many times too thick while it is searched: its walls come last.
+constexpr double kWhileGrowing = 2.0;
 
 class CrumbFinder {
  public:
-  CrumbFinder(const TetMesh& mesh, const CrumbLimit& limit, std::vector<IncisionFace>& incision,
+  CrumbFinder(const TetMesh& mesh, const CrumbRules& rules, std::vector<IncisionFace>& incision,
               std::vector<IncisionFace>& dropped, CrumbScratch& scratch)
       : mesh_(mesh),
-        limit_(limit),
+        rules_(rules),
         incision_(incision),
         dropped_(dropped),
         blocked_(scratch.blocked),
@@ -60,14 +62,14 @@ class CrumbFinder {
 
   /// Floods from `seed` until the piece is complete or too large. Leaves its tets in `piece_`.
   bool is_crumb(TetId seed) {
-    const double limit = limit_(seed);
-    double volume = 0;
+    const double limit = rules_.limit(seed);
+    Shaving shaving;
     piece_.assign(1, seed);
     state_[seed.value] = kCrumb;
     bool is_large = false;
     for (std::size_t i = 0; i < piece_.size() && !is_large; ++i) {
-      volume += mesh_.rest_volume(piece_[i]);
-      is_large = volume >= limit || piece_.size() > kMaxCrumbTets;
+      add_to(shaving, piece_[i]);
+      is_large = (shaving.volume >= limit && !is_thin(shaving, kWhileGrowing)) || piece_.size() > kMaxCrumbTets;
       for (unsigned s = 0; s < 4 && !is_large; ++s) {
         const Link link = mesh_.links(piece_[i])[s];
         if (link.is_boundary() || is_blocked(Side(piece_[i], s))) {
@@ -85,12 +87,33 @@ class CrumbFinder {
         }
       }
     }
+    is_large |= shaving.volume >= limit && !(shaving.has_older_wall && is_thin(shaving, 1.0));
     if (is_large) {
       for (const TetId tet : piece_) {
         state_[tet.value] = kLarge;
       }
     }
     return !is_large;
+  }
+  /// What tells a shaving.
+  struct Shaving {
+    double volume = 0, walls = 0;  ///< twice the area of its walls
+    bool has_older_wall = false;
+  };
+  void add_to(Shaving& shaving, TetId tet) const {
+    shaving.volume += mesh_.rest_volume(tet);
+    if (!(rules_.thin > 0)) return;
+    for (unsigned s = 0; s < 4; ++s) {
+      const Side side(tet, s);
+      const Link link = mesh_.link(side);
+      const bool is_wall = link.is_boundary() && link.tag() != 0, is_new = is_blocked(side);
+      if (is_wall || is_new) shaving.walls += area_of(side);
+      shaving.has_older_wall = shaving.has_older_wall || (is_wall && !is_new && rules_.is_older(side));
+    }
+  }
+  /// Whether the walls on either side are at most `slack` times the greatest thickness apart, on the average.
+  [[nodiscard]] bool is_thin(const Shaving& shaving, double slack) const {
+    return 4 * shaving.volume <= slack * rules_.thin * shaving.walls;
   }
   [[nodiscard]] bool is_in_piece(TetId tet) const {
     return std::find(piece_.begin(), piece_.end(), tet) != piece_.end();
@@ -155,7 +178,7 @@ class CrumbFinder {
   }
 
   const TetMesh& mesh_;
-  const CrumbLimit& limit_;
+  const CrumbRules& rules_;
   std::vector<IncisionFace>& incision_;
   std::vector<IncisionFace>& dropped_;
   ZeroedArray<std::uint8_t>&blocked_, &state_;
@@ -166,9 +189,9 @@ class CrumbFinder {
 
 }  // namespace
 
-std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbLimit& limit, std::vector<IncisionFace>& incision,
+std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbRules& rules, std::vector<IncisionFace>& incision,
                           std::vector<IncisionFace>& dropped, CrumbScratch& scratch) {
-  return CrumbFinder(mesh, limit, incision, dropped, scratch).run();
+  return CrumbFinder(mesh, rules, incision, dropped, scratch).run();
 }
 
 }  // namespace incise::inline v0

@@ -18,6 +18,15 @@ inline double crumb_limit(double spacing) {
   return kCrumbShare * spacing * spacing * spacing;
 }
 
+/// What counts as a crumb.
+struct CrumbRules {
+  CrumbLimit limit;  ///< the volume below which a piece is one
+  /// A piece between an older wall and the cut is one where it is thinner than this on the average: where a blade comes
+  /// back beside its cut, shavings would fall. In length units; 0: none is.
+  double thin = 0.0;
+  std::function<bool(Side)> is_older;  ///< of a wall: asked where `thin` is above 0
+};
+
 /// Memory that the search for crumbs keeps; all zero between calls.
 struct CrumbScratch {
   ZeroedArray<std::uint8_t> blocked, state;  ///< by tet slot
@@ -26,7 +35,7 @@ struct CrumbScratch {
 /// Takes the incision faces of crumbs out of `incision` and adds them to `dropped`, so that a crumb stays attached to
 /// the piece that it shares its faces with. Where it touches two pieces it stays with one, and they come apart. Returns
 /// how many crumbs. Cost: O(incision faces) plus a search of a few tets around each small tet beside one.
-std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbLimit& limit, std::vector<IncisionFace>& incision,
+std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbRules& rules, std::vector<IncisionFace>& incision,
                           std::vector<IncisionFace>& dropped, CrumbScratch& scratch);
 
 }  // namespace incise::inline v0

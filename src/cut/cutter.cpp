@@ -30,6 +30,8 @@ constexpr double kWeld = 0.08;
 /// It reaches on so many spacings along that cut: further than fronts lie off their blades; or through its wall, where
 /// it meets that at an angle.
 constexpr double kReachOn = 0.3, kReachThrough = 0.12;
+/// All of this way lies in the older cut or outside the body: asked at these shares of it, the furthest first.
+constexpr std::array kReachSamples = {1.0, 0.5, 0.1, 0.25, 0.75};
 /// What lies at most so many spacings beyond the rim of an older cut lies in it: rounding, no more.
 constexpr double kInside = 0.02;
 /// A step of a blade in a moving body is taken in parts of an element, at most so many.
@@ -246,9 +248,10 @@ class Cutter::Pipeline {
   bool hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Proposal& proposal) {
     const Strip strip(proposal.surface, {});
     bool has_held = false;
-    for (const std::uint32_t column : stroke_cut_.recrossed_columns(mesh, strip)) {
+    for (const auto& [column, is_apart] : stroke_cut_.recrossed_columns(mesh, strip)) {
       for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
-        if (!material_.is_accepted(point) || material_.lead(point) > kGiveWay * spacing_) continue;
+        if (!material_.is_accepted(point)) continue;
+        if (!is_apart && material_.lead(point) > kGiveWay * spacing_) continue;
         material_.hold(point);
         has_held = true;
       }
@@ -268,9 +271,12 @@ class Cutter::Pipeline {
                                                                const Vec3& normal) {
       const double along = kReachOn * spacing_, across = kReachThrough * spacing_;
       const double beside = (options_.snap > 0 ? kBesideWall : kBesideExactly) * spacing_;
-      const Vec3 beyond = place + along * outwards;
+      const auto is_open = [&](double share) {
+        const Vec3 beyond = place + share * along * outwards;
+        return older.pass(beyond, normal, beside, kInside * spacing_) || is_outside(beyond);
+      };
       if (older.pass(place, normal, beside, kWeld * spacing_) &&
-          (older.pass(beyond, normal, beside, kInside * spacing_) || is_outside(beyond))) {
+          std::all_of(kReachSamples.begin(), kReachSamples.end(), is_open)) {
         return along;
       }
       return older.meet(place - kInside * spacing_ * outwards, place + kWeld * spacing_ * outwards) ? across : 0.0;
@@ -293,7 +299,18 @@ class Cutter::Pipeline {
       move.strip = motion_.lay_anew(surroundings(mesh));
     }
     note_swept(move.strip->surface);
-    return stroke_cut_.advance(mesh, journal, std::move(move.strip), rules(), statistics_, times);
+    stroke_cut_.keep_pieces(is_in_material_);
+    Status status = stroke_cut_.advance(mesh, journal, std::move(move.strip), rules(), statistics_, times);
+    if (status && stroke_cut_.must_finish()) go_on_from_front(mesh, journal, times);
+    return status;
+  }
+  /// Finishes the sheet where it is; the next one goes on from there.
+  void go_on_from_front(TetMesh& mesh, Journal& journal, StageTimes& times) {
+    finish_sheet(mesh, journal, times);
+    stroke_cut_.begin(tag_, spacing_);
+    stroke_cut_.prepare(mesh, journal);
+    motion_.begin_anew();
+    if (is_in_material_) material_.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
   }
   /// In a body that moves, front points keep still while they can: each that is made anew disturbs the solver.
   [[nodiscard]] FrontRules rules() const {

@@ -13,6 +13,8 @@ namespace {
 
 /// A wall whose normal has this cosine with the sheet's runs along it. Fronts are crooked: 0.9 misses their facets.
 constexpr double kAlongOlder = 0.5;
+/// A segment meets a wall at an angle of which this is the sine at least: in its plane, rounding would decide.
+constexpr double kAcross = 0.1;
 
 }  // namespace
 
@@ -20,17 +22,16 @@ bool OlderWalls::exist() const {
   return surface_.has_walls();
 }
 
-/// A wall inside a master is the sheet's own.
-bool OlderWalls::is_older(Side side) const {
-  const Link link = mesh_.link(side);
+bool is_older_wall(const TetMesh& mesh, const ClosedComplex& complex, Side side) {
+  const Link link = mesh.link(side);
   if (!link.is_boundary() || link.tag() == 0) return false;
-  const std::uint32_t index = complex_.find(side.tet());
+  const std::uint32_t index = complex.find(side.tet());
   if (index == Master::kNone) return true;
-  const Master& master = complex_[index];
+  const Master& master = complex[index];
   for (unsigned s = 0; s < 4; ++s) {
     const auto& outer = master.split->outer[s];
     if (master.behind[s] == Master::kNone &&
-        std::any_of(outer.begin(), outer.end(), [&](auto child) { return complex_.facet(master, child) == side; })) {
+        std::any_of(outer.begin(), outer.end(), [&](auto child) { return complex.facet(master, child) == side; })) {
       return true;
     }
   }
@@ -44,7 +45,7 @@ bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, doub
   const Vec3 margin = Vec3::Constant(reach);
   bool does_pass = false;
   surface_.for_each_near(mesh_, {place - margin, place + margin}, [&](Side side) {
-    if (does_pass || !is_older(side)) return;
+    if (does_pass || !is_older_wall(mesh_, complex_, side)) return;
     const auto v = mesh_.vertices(side);
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
@@ -62,12 +63,12 @@ bool OlderWalls::meet(const Vec3& from, const Vec3& to) const {
   if (!exist()) return false;
   bool do_meet = false;
   surface_.for_each_near(mesh_, {from.cwiseMin(to), from.cwiseMax(to)}, [&](Side side) {
-    if (do_meet || !is_older(side)) return;
+    if (do_meet || !is_older_wall(mesh_, complex_, side)) return;
     const auto v = mesh_.vertices(side);
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
     const double before = area.dot(from - a), after = area.dot(to - a);
-    if ((before > 0) == (after > 0)) return;
+    if ((before > 0) == (after > 0) || !(std::abs(after - before) > kAcross * area.norm() * (to - from).norm())) return;
     const Vec3 x = from + (before / (before - after)) * (to - from);
     do_meet = area.dot((b - a).cross(x - a)) >= 0 && area.dot((c - b).cross(x - b)) >= 0 &&
               area.dot((a - c).cross(x - c)) >= 0;

@@ -6,6 +6,9 @@
 
 namespace incise::inline v0 {
 
+/// Whether a side is a wall that was there before the sheet of `complex`: one inside a master is that sheet's own.
+[[nodiscard]] bool is_older_wall(const TetMesh& mesh, const ClosedComplex& complex, Side side);
+
 /// The walls that a stroke finds in the rest shape when it comes: what an older cut has opened is air.
 ///
 /// A sheet that runs along such a wall needs no border of its own there, and what it would cut beside it is open
@@ -24,12 +27,10 @@ class OlderWalls {
   /// wall, and at most `beyond` past its rim, in length units. `normal`: of the sheet there, any length above 0.
   /// Cost: the cells of the surface index within the greater of both.
   [[nodiscard]] bool pass(const Vec3& place, const Vec3& normal, double beside, double beyond) const;
-  /// Whether a segment at rest meets a wall, whatever its direction. Cost: the cells of the surface index around it.
+  /// Whether a segment at rest meets a wall, at 6 degrees or more. Cost: the cells of the surface index around it.
   [[nodiscard]] bool meet(const Vec3& from, const Vec3& to) const;
 
  private:
-  [[nodiscard]] bool is_older(Side side) const;
-
   const TetMesh& mesh_;
   const SurfaceIndex& surface_;
   const ClosedComplex& complex_;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "cut/neighbourhood.h"
+#include "cut/older_walls.h"
 #include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
@@ -125,6 +126,7 @@ class Rebuild::Run {
     for (unsigned round = 0; round < kMaxPinchRounds && close_pinched_faces(); ++round) separate();
     open_faces();
     bury_retired();
+    forget_pieces();
     owner_.sizes_ = transaction_.sizes();
     for (const std::uint32_t index : dirty_) complex_[index].is_dirty = false;
     dirty_.clear();
@@ -137,6 +139,54 @@ class Rebuild::Run {
   void keep_old() {
     ranges_.reserve(dirty_.size());
     for (const std::uint32_t index : dirty_) keep_old(complex_[index]);
+    if (settings_.keeps_pieces) find_pieces();
+  }
+  /// Finds of which pieces the material is, of the dirty masters and of the tets beside them, before anything changes.
+  void find_pieces() {
+    std::vector<TetId>& seeds = owner_.seeds_;
+    seeds.clear();
+    for (std::uint32_t old = 0; old < old_.size(); ++old) seeds.push_back(old_.id(old));
+    for (const std::uint32_t index : dirty_) {
+      for (unsigned s = 0; s < 4; ++s) note_beside(complex_[index], s);
+    }
+    has_pieces_ = owner_.pieces_.find(mesh_, seeds) > 1;
+    if (!has_pieces_) return;
+    for (std::size_t i = 0; i < seeds.size(); ++i) set_piece(seeds[i], owner_.pieces_.piece_of(i) + 1);
+  }
+  /// The tets behind a side of a dirty master, where these stay as they are.
+  void note_beside(const Master& master, unsigned side) {
+    const std::uint32_t behind = master.behind[side];
+    if (behind == Master::kNone) {
+      const Link link = complex_.outside(mesh_, master, side);
+      if (!link.is_boundary()) owner_.seeds_.push_back(link.side().tet());
+    } else if (!complex_[behind].is_dirty) {
+      for (const TetId child : complex_.children(complex_[behind])) owner_.seeds_.push_back(child);
+    }
+  }
+  void set_piece(TetId tet, std::uint32_t piece) {
+    owner_.piece_of_.ensure(std::size_t{tet.value} + 1);
+    if (owner_.piece_of_[tet.value] == 0) owner_.has_piece_.push_back(tet);
+    owner_.piece_of_[tet.value] = piece;
+  }
+  [[nodiscard]] std::uint32_t piece_of(TetId tet) const {
+    return tet.value < owner_.piece_of_.capacity() ? owner_.piece_of_[tet.value] : 0;
+  }
+  /// Whether the material of two tets was of two pieces: no step joins them.
+  [[nodiscard]] bool were_apart(TetId a, TetId b) const {
+    const std::uint32_t p = piece_of(a), q = piece_of(b);
+    return p != 0 && q != 0 && p != q;
+  }
+  /// The same for a face of the cut, also between masters that are taken in later. What this step itself parts counts
+  /// as apart there.
+  [[nodiscard]] bool would_join_pieces(const IncisionFace& face) {
+    if (piece_of(face.a.tet()) != 0 && piece_of(face.b.tet()) != 0) return were_apart(face.a.tet(), face.b.tet());
+    if (!settings_.keeps_pieces || !stands_open(face)) return false;
+    const std::array<TetId, 2> sides = {face.a.tet(), face.b.tet()};
+    return owner_.pieces_.find(mesh_, sides) > 1;
+  }
+  void forget_pieces() {
+    for (const TetId tet : owner_.has_piece_) owner_.piece_of_[tet.value] = 0;
+    owner_.has_piece_.clear();
   }
   void keep_old(Master& master) {
     OldRange range{old_.size(), 0, {}};
@@ -260,6 +310,7 @@ class Rebuild::Run {
   void note_old(TetId tet, std::uint32_t old) {
     owner_.old_of_.ensure(std::size_t{tet.value} + 1);
     owner_.old_of_[tet.value] = old;
+    if (has_pieces_) set_piece(tet, piece_of(old_.id(old)));
   }
   /// Whether a master's children are those of a template already, down to the vertices.
   [[nodiscard]] bool is_divided_so(const Master& master, const SplitTemplate& split) const {
@@ -314,12 +365,20 @@ class Rebuild::Run {
     }
     return lines.contains(foot[0], foot[1]);
   }
-  void meet(Side a, Side b, bool is_incision) {
+  void meet(Side a, Side b, bool is_crossed) {
     const Link wall = Link::boundary(settings_.tag);
-    if (is_incision && mesh_.link(a) == wall && mesh_.link(b) == wall) standing_.push_back(a);
+    const bool is_incision = is_crossed || were_apart(a.tet(), b.tet());
+    if (is_incision && !is_crossed) note_apart(a);
+    if (is_incision && mesh_.link(a) == wall && mesh_.link(b) == wall) {
+      standing_.insert(std::upper_bound(standing_.begin(), standing_.end(), a), a);
+    }
     set_link(a, is_incision ? Link::boundary(settings_.tag) : Link(b));
     set_link(b, is_incision ? Link::boundary(settings_.tag) : Link(a));
     if (is_incision) incision_.push_back({a, b});
+  }
+  /// A face that the sheet does not pass, between two pieces: its vertices need copies, wherever they are.
+  void note_apart(Side side) {
+    for (const VertexId v : mesh_.vertices(side)) apart_.push_back({complex_.closed(v), complex_.find(side.tet())});
   }
   void set_link(Side side, Link link) {
     if (mesh_.link(side) != link) transaction_.set_link(side, link);
@@ -332,8 +391,8 @@ class Rebuild::Run {
         set_link(facet, outside);
         note_surface(facet, outside.tag() == 0 ? shape::kSkin : shape::kWall);
       } else {
-        set_link(facet, outside);
-        set_link(outside.side(), Link(facet));
+        if (were_apart(facet.tet(), outside.side().tet())) complex_.adopt(mesh_, outside.side().tet());
+        meet(facet, outside.side(), false);
       }
     }
   }
@@ -399,9 +458,9 @@ class Rebuild::Run {
   // --- separation ----------------------------------------------------------------------------------------------------
 
   void keep_crumbs() {
-    std::sort(standing_.begin(), standing_.end());
     if (!settings_.keeps_crumbs) return;
-    const CrumbLimit limit = [&](TetId tet) {
+    CrumbRules rules;
+    rules.limit = [&](TetId tet) {
       const std::uint32_t index = complex_.find(tet);
       if (index == Master::kNone) return 0.0;
       double sum = 0;
@@ -410,10 +469,12 @@ class Rebuild::Run {
       }
       return crumb_limit(std::max(sum / 6.0, 0.5 * settings_.spacing));
     };
+    rules.thin = settings_.thin;
+    rules.is_older = [&](Side side) { return is_older_wall(mesh_, complex_, side); };
     dropped_.clear();
-    result_.crumbs_kept += incise::keep_crumbs(mesh_, limit, incision_, dropped_, owner_.crumbs_);
+    result_.crumbs_kept += incise::keep_crumbs(mesh_, rules, incision_, dropped_, owner_.crumbs_);
     for (const IncisionFace& face : dropped_) {
-      if (stands_open(face)) {
+      if (stands_open(face) || were_apart(face.a.tet(), face.b.tet())) {
         incision_.push_back(face);
       } else {
         close(face);
@@ -446,7 +507,7 @@ class Rebuild::Run {
     is_beside_closed_ = false;
     for (const std::uint32_t index : masters) {
       const Master& master = complex_[index];
-      is_beside_closed_ |= master.is_pinched || master.has_latent_faces;
+      is_beside_closed_ |= master.is_pinched || master.has_latent_faces || ends_without_point(master);
       const SplitTemplate& split = *master.split;
       const Codes codes = codes_in(master);
       const auto tets = complex_.children(master);
@@ -458,6 +519,13 @@ class Rebuild::Run {
         star_.push_back({tets[k], at & 3U, is_new, old, 0, ends});
       }
     }
+  }
+  /// Whether the cut ends in a side that has no front point, since an older cut is beside it: it ends at split points.
+  [[nodiscard]] static bool ends_without_point(const Master& master) {
+    if (!has_odd_face(master.flagged)) return false;
+    bool does_end = false;
+    for (unsigned s = 0; s < 4; ++s) does_end |= master.points[s] == Master::kNone && is_odd_side(master, s);
+    return does_end;
   }
   [[nodiscard]] static Codes codes_of_corner(const Master& master, VertexId vertex) {
     const auto& corners = master.vertices;
@@ -475,10 +543,13 @@ class Rebuild::Run {
     while (master.points[s] == Master::kNone || complex_.point(master.points[s]).vertex != vertex) ++s;
     return {static_cast<std::uint8_t>(SplitTemplate::kFirstPoint + s)};
   }
-  [[nodiscard]] bool is_first(VertexId vertex) {
+  void note_visited(VertexId vertex) {
     owner_.visited_.ensure(std::size_t{vertex.value} + 1);
-    if (owner_.visited_[vertex.value] == owner_.round_) return false;
     owner_.visited_[vertex.value] = owner_.round_;
+  }
+  [[nodiscard]] bool is_first(VertexId vertex) {
+    if (vertex.value < owner_.visited_.capacity() && owner_.visited_[vertex.value] == owner_.round_) return false;
+    note_visited(vertex);
     return true;
   }
   /// Every vertex of the cut around the dirty masters gets one copy per part of its star.
@@ -486,9 +557,11 @@ class Rebuild::Run {
     surface_.clear();
     ++owner_.round_;
     for (const std::uint32_t index : dirty_) {
-      if (!complex_[index].is_divided() && complex_[index].on == 0) continue;
+      if (!complex_[index].is_divided() && complex_[index].on == 0 && !settings_.keeps_pieces) continue;
       for (unsigned c = 0; c < 4; ++c) {
-        if (((unsigned{complex_[index].on} >> c) & 1U) != 0) divide_corner(index, complex_[index].vertices[c]);
+        const VertexId corner = complex_[index].vertices[c];
+        const bool is_apart = settings_.keeps_pieces && complex_.has_copies(corner);
+        if (((unsigned{complex_[index].on} >> c) & 1U) != 0 || is_apart) divide_corner(index, corner);
       }
       for (unsigned e = 0; e < 6; ++e) {
         if (complex_.edges()[complex_[index].edges[e]].split.is_valid()) divide_split_point(index, e);
@@ -498,18 +571,28 @@ class Rebuild::Run {
       }
       if (complex_[index].middle.is_valid()) divide_middle(index);
     }
+    for (const auto& [vertex, master] : apart_) {
+      const auto& corners = complex_[master].vertices;
+      if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) divide_corner(master, vertex);
+    }
     std::sort(surface_.begin(), surface_.end());
     surface_.erase(std::unique(surface_.begin(), surface_.end()), surface_.end());
   }
-  void divide(VertexId vertex, const StarParts::Home& home, bool makes_twins) {
-    result_.copied_vertices +=
-        owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, {settings_.tag, makes_twins});
-    note_surface_around(vertex);
+  /// Returns what the closed vertex is called now.
+  VertexId divide(VertexId vertex, const StarParts::Home& home, bool makes_twins, bool may_be_named) {
+    const bool keeps = settings_.keeps_pieces;
+    const StarParts::Settings settings{settings_.tag, makes_twins, keeps, keeps && may_be_named};
+    const StarParts::Division done =
+        owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, settings);
+    result_.copied_vertices += done.made;
+    if (done.closed != vertex) note_visited(done.closed);
+    note_surface_around(done.closed);
+    return done.closed;
   }
   /// Notes the boundary sides around a vertex where two fans of tets might touch along an edge, or a face of the cut
   /// that is not rebuilt might be separated no more: not at points of the cut inside the body.
   void note_surface_around(VertexId vertex) {
-    bool is_plain = !complex_.is_on(vertex) && !is_beside_closed_;
+    bool is_plain = !complex_.is_on(vertex) && !is_beside_closed_ && result_.crumbs_kept == 0 && !has_pieces_;
     for (const StarTet& tet : star_) is_plain &= has_plain_sides(tet);
     if (is_plain) return;
     for (const StarTet& tet : star_) {
@@ -530,7 +613,7 @@ class Rebuild::Run {
     if (!is_first(vertex)) return;
     gather(complex_.star(mesh_, master, vertex), [&](const Master& m) { return codes_of_corner(m, vertex); });
     divide(
-        vertex, [&](std::span<const StarTet> part) { return home_of_corner(vertex, part); }, false);
+        vertex, [&](std::span<const StarTet> part) { return home_of_corner(vertex, part); }, false, false);
   }
   /// The part in whose material the vertex stood keeps it.
   [[nodiscard]] VertexId home_of_corner(VertexId vertex, std::span<const StarTet> part) const {
@@ -544,13 +627,13 @@ class Rebuild::Run {
     ring_.clear();
     complex_.for_each_around(at, [&](std::uint32_t m) { ring_.push_back(m); });
     gather(ring_, [&, a = complex_.edges()[at].a](const Master& m) { return codes_of_split_point(m, at, a); });
-    divide(
+    complex_.edges()[at].split = divide(
         vertex,
         [&](std::span<const StarTet> part) {
           const unsigned half = half_of(part);
           return half < 2 ? complex_.edges()[at].halves[half] : VertexId();
         },
-        true);
+        true, true);
     note_halves(complex_.edges()[at]);
   }
   /// Which end of its edge a part of a split point's star contains: 0 for a, 1 for b, 2 for both or neither.
@@ -567,23 +650,23 @@ class Rebuild::Run {
       }
     }
   }
-  void divide_front_point(const FrontPoint& point) {
+  void divide_front_point(FrontPoint& point) {
     if (!is_first(point.vertex)) return;
     ring_.clear();
     for (const std::uint32_t master : point.masters) {
       if (master != Master::kNone) ring_.push_back(master);
     }
     gather(ring_, [&](const Master& m) { return codes_of_point(m, point.vertex); });
-    divide(
-        point.vertex, [&](std::span<const StarTet> part) { return home_of_corner(point.vertex, part); }, false);
+    point.vertex = divide(
+        point.vertex, [&](std::span<const StarTet> part) { return home_of_corner(point.vertex, part); }, false, true);
   }
   void divide_middle(std::uint32_t master) {
     if (!is_first(complex_[master].middle)) return;
     ring_.assign(1, master);
     gather(ring_, [](const Master&) { return Codes{SplitTemplate::kMiddle}; });
     const VertexId middle = complex_[master].middle;
-    divide(
-        middle, [&](std::span<const StarTet> part) { return home_of_corner(middle, part); }, false);
+    complex_[master].middle = divide(
+        middle, [&](std::span<const StarTet> part) { return home_of_corner(middle, part); }, false, true);
   }
 
   // --- after ---------------------------------------------------------------------------------------------------------
@@ -607,13 +690,19 @@ class Rebuild::Run {
     std::sort(closed.begin(), closed.end());
     const auto is_closed = [&](Side side) { return std::binary_search(closed.begin(), closed.end(), side); };
     std::size_t kept = 0;
+    result_.left_pinched = 0;
     for (const IncisionFace& face : incision_) {
       if (is_latent(face) || !(is_closed(face.a) || is_closed(face.b))) {
         incision_[kept++] = face;
         continue;
       }
-      close(face);
       for (const Side side : {face.a, face.b}) complex_[complex_.find(side.tet())].is_pinched = true;
+      if (would_join_pieces(face)) {
+        incision_[kept++] = face;
+        ++result_.left_pinched;
+      } else {
+        close(face);
+      }
     }
     bool has_changed = kept < incision_.size();
     incision_.resize(kept);
@@ -748,6 +837,12 @@ class Rebuild::Run {
   std::vector<Side> standing_;  // incision faces that were open before, by their first side; ascending
   SurfaceEdges& edges_;
   RebuildStatistics result_;
+  struct ApartVertex {
+    VertexId vertex;
+    std::uint32_t master;
+  };
+  std::vector<ApartVertex> apart_;  // of faces that are left open since two pieces meet there, with a master each
+  bool has_pieces_ = false;         // the material around the dirty masters is of more than one piece
   bool is_beside_closed_ = false;  // `star_`: beside faces of the cut that were left joined
 };
 

@@ -8,6 +8,7 @@
 #include "cut/crumbs.h"
 #include "cut/division.h"
 #include "cut/old_children.h"
+#include "cut/piece_finder.h"
 #include "cut/snapping.h"
 #include "cut/star_parts.h"
 #include "cut/surface_edges.h"
@@ -24,6 +25,8 @@ struct RebuildStatistics {
   std::uint64_t copied_vertices = 0;
   std::uint64_t crumbs_kept = 0;
   std::uint64_t latent_faces = 0;
+  std::uint64_t left_pinched = 0;  ///< incision faces beside edges along which two fans touch, left open since two
+                                   ///< pieces meet there: the sheet must be finished, which parts these edges
 };
 
 /// Makes the children of masters anew and separates them along the cut.
@@ -38,6 +41,8 @@ class Rebuild {
     std::uint32_t tag = 1;
     bool keeps_crumbs = true;
     double spacing = 0.0;        ///< the length of a typical edge: crumbs are judged by half of it at least
+    double thin = 0.0;           ///< pieces beside an older wall that are thinner than this are crumbs
+    bool keeps_pieces = false;   ///< joins no two pieces again, whatever the flags say: for bodies that move
     bool closes_pinched = true;  ///< leaves faces joined where two fans of tets would touch along an edge
   };
 
@@ -72,6 +77,10 @@ class Rebuild {
   std::vector<std::pair<std::array<VertexId, 3>, Side>> walls_;
   SurfaceEdges edges_;
   CrumbScratch crumbs_;
+  PieceFinder pieces_;
+  std::vector<TetId> seeds_;
+  ZeroedArray<std::uint32_t> piece_of_;  // by tet slot: 1 + the piece that its material was of before; else 0
+  std::vector<TetId> has_piece_;         // the tets for which that is not 0
   Transaction::Sizes sizes_;            // of the last run
   ZeroedArray<std::uint32_t> old_of_;   // by tet slot: the old child that holds the middle of a child
   ZeroedArray<std::uint32_t> visited_;  // by vertex slot: the round that divided its star

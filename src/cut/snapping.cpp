@@ -232,9 +232,9 @@ struct Candidate {
 /// It reaches less far for vertices that cannot be moved onto the sheet, since the wall then bends to them.
 constexpr double kBentReach = 0.5;
 /// A wall whose normal has this cosine with the sheet's lies along it; older walls are crooked at their fronts.
-constexpr double kAlong = 0.9, kAlongOlder = 0.5;
+constexpr double kAlong = 0.9, kAlongOlder = 0.8;
 /// Cuts make the edges around their walls shorter by this factor at most, for what counts as near an older wall.
-constexpr double kOlderScale = 2.0;
+constexpr double kOlderScale = 4.0;
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
 bool is_on_same_part(const OnVertex& on, const Vec3& place, const Vec3& normal) {
   return on.normal.dot(normal) > 0.3 && std::abs(on.normal.dot(place - on.target)) <= 0.3 * on.spacing;

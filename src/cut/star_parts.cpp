@@ -5,6 +5,13 @@
 
 namespace incise::inline v0 {
 
+namespace {
+
+/// Material stands where a vertex does within this share of a tet's size: the rounding of interpolation.
+constexpr double kSamePlace = 1e-9;
+
+}  // namespace
+
 void StarParts::find_parts(const TetMesh& mesh, std::vector<StarTet>& star) {
   for (std::uint32_t i = 0; i < star.size(); ++i) {
     index_of_tet_.ensure(std::size_t{star[i].tet.value} + 1);
@@ -52,23 +59,27 @@ void StarParts::keep_copies(const TetMesh& mesh, std::span<const StarTet> star) 
   }
 }
 
-/// A copy with the values that the part's side of the cut had there: from the old child that reaches least beyond
-/// itself.
-VertexId StarParts::make_copy(Transaction& transaction, const OldChildren& old, VertexId vertex,
-                              std::span<const StarTet> part) {
-  const TetMesh& mesh = transaction.mesh();
+/// Where a vertex of a part stands: in the old child that reaches least beyond itself; in none, `inside` is -1e300.
+MaterialPlace StarParts::place_of(const TetMesh& mesh, const OldChildren& old, VertexId vertex,
+                                  std::span<const StarTet> part) {
   MaterialPlace best;
   for (const StarTet& tet : part) {
     if (tet.old == kInvalidIndex) continue;
     const TetVertices& corners = old.vertices(tet.old);
-    if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) {
-      return transaction.copy_vertex(vertex);
-    }
+    if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) return {};  // there where it stands
     const MaterialPlace place = old.place_in(tet.old, mesh.rest(vertex));
     if (place.inside > best.inside) best = place;
   }
-  if (best.inside <= -1e300) return transaction.copy_vertex(vertex);
-  const VertexId copy = add_vertex_at(transaction, mesh.rest(vertex), best);
+  return best;
+}
+
+/// A copy with the values that the part's side of the cut had there.
+VertexId StarParts::make_copy(Transaction& transaction, const OldChildren& old, VertexId vertex,
+                              std::span<const StarTet> part) {
+  const TetMesh& mesh = transaction.mesh();
+  const MaterialPlace place = place_of(mesh, old, vertex, part);
+  if (place.inside <= -1e300) return transaction.copy_vertex(vertex);
+  const VertexId copy = add_vertex_at(transaction, mesh.rest(vertex), place);
   transaction.set_origin(copy, mesh.origin(vertex));
   return copy;
 }
@@ -108,21 +119,35 @@ void StarParts::set_shapes(Transaction& transaction, VertexId vertex, std::span<
   }
 }
 
-void StarParts::bury(Transaction& transaction, ClosedComplex& complex, VertexId vertex) {
+void StarParts::bury(Transaction& transaction, ClosedComplex& complex, VertexId vertex, VertexId closed) {
   if (complex.has_copies(vertex)) {
     for (const VertexId copy : complex.copies_of(vertex)) {
       if (!is_taken(copy)) transaction.remove_vertex(copy);
     }
     complex.drop_copies(vertex);
   }
+  if (closed != vertex) transaction.remove_vertex(vertex);
   for (const Part& part : parts_) {
-    if (part.copy != vertex) complex.add_copy(vertex, part.copy);
+    if (part.copy != closed) complex.add_copy(closed, part.copy);
   }
 }
 
-std::uint64_t StarParts::divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old,
-                                VertexId vertex, std::vector<StarTet>& star, const Home& home,
-                                const Settings& settings) {
+/// What a closed vertex that no part has taken is called from now on: as the first part's copy, or it takes its place.
+VertexId StarParts::name(Transaction& transaction, VertexId vertex, bool may_be_named) {
+  if (parts_.empty() || is_taken(vertex)) return vertex;
+  const TetMesh& mesh = transaction.mesh();
+  const VertexId kept = parts_.front().copy;
+  if (may_be_named) return kept;
+  if (mesh.current(kept) != mesh.current(vertex)) {
+    transaction.move(vertex, mesh.rest(vertex), {kept, kept, kept, kept}, {1.0, 0.0, 0.0, 0.0});
+  }
+  parts_.front().copy = vertex;
+  return vertex;
+}
+
+StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old,
+                                      VertexId vertex, std::vector<StarTet>& star, const Home& home,
+                                      const Settings& settings) {
   const TetMesh& mesh = transaction.mesh();
   find_parts(mesh, star);
   std::swap(star, sorted_);
@@ -133,28 +158,33 @@ std::uint64_t StarParts::divide(Transaction& transaction, ClosedComplex& complex
     const VertexId copy = home(tets_of(part));
     if (copy.is_valid() && !is_taken(copy)) part.copy = copy;
   }
-  std::uint64_t made = 0;
+  const auto stands_in = [&](const Part& part) {
+    if (settings.makes_twins || !settings.keeps_places) return true;
+    const MaterialPlace place = place_of(mesh, old, vertex, tets_of(part));
+    const double tolerance = kSamePlace * (mesh.rest(vertex) - mesh.rest(mesh.vertices(star[part.first].tet)[0])).norm();
+    return place.inside <= -1e300 || (place.current - mesh.current(vertex)).norm() <= tolerance;
+  };
+  for (Part& part : parts_) {
+    if (!part.copy.is_valid() && !is_taken(vertex) && stands_in(part)) part.copy = vertex;
+  }
+  Division done;
   for (Part& part : parts_) {
     if (part.copy.is_valid()) continue;
-    if (!is_taken(vertex)) {
+    if (!is_taken(vertex) && !settings.may_be_named) {
+      const MaterialPlace place = place_of(mesh, old, vertex, tets_of(part));
+      transaction.move(vertex, mesh.rest(vertex), place.basis, place.weights);
       part.copy = vertex;
       continue;
     }
     part.copy =
         settings.makes_twins ? transaction.copy_vertex(vertex) : make_copy(transaction, old, vertex, tets_of(part));
-    ++made;
+    ++done.made;
   }
-  if (!parts_.empty() && !is_taken(vertex)) {  // the closed vertex itself lives on, in place of one of its copies
-    const VertexId kept = parts_.front().copy;
-    if (mesh.current(kept) != mesh.current(vertex)) {
-      transaction.move(vertex, mesh.rest(vertex), {kept, kept, kept, kept}, {1.0, 0.0, 0.0, 0.0});
-    }
-    parts_.front().copy = vertex;
-  }
+  done.closed = name(transaction, vertex, settings.may_be_named);
   write_corners(transaction, star);
-  set_shapes(transaction, vertex, star, settings.tag);
-  bury(transaction, complex, vertex);
-  return made;
+  set_shapes(transaction, done.closed, star, settings.tag);
+  bury(transaction, complex, vertex, done.closed);
+  return done;
 }
 
 }  // namespace incise::inline v0

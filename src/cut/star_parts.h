@@ -30,15 +30,22 @@ class StarParts {
   ///
   /// A part that has tets from before keeps their copy. `home(tets of a part)` names the copy that a part made of new
   /// tets alone should have, if any. Copies beyond those start as the old child of one of their tets has it.
-  /// Copies that no part needs any more die. Returns how many copies were made. Cost: O(star).
-  /// With `makes_twins` they start as `vertex` stands instead. The shape bits of each part are set from its surfaces; a
-  /// star that stays whole beside walls of `tag` is at the front.
+  /// Copies that no part needs any more die. A closed vertex that no part needs takes the place of one of its copies;
+  /// with `keeps_places` no vertex goes over to material that stands elsewhere: with `may_be_named`, too, the closed
+  /// vertex goes by the name of that copy from then on. Cost: O(star).
+  /// With `makes_twins` copies start as `vertex` stands instead. The shape bits of each part are set from its surfaces;
+  /// a star that stays whole beside walls of `tag` is at the front.
   using Home = std::function<VertexId(std::span<const StarTet>)>;  // of what is captured, two pointers cost no memory
   struct Settings {
     std::uint32_t tag = 0;
     bool makes_twins = false;
+    bool keeps_places = false, may_be_named = false;
   };
-  std::uint64_t divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old, VertexId vertex,
+  struct Division {
+    std::uint64_t made = 0;  ///< copies
+    VertexId closed;         ///< the closed vertex, as it is called now
+  };
+  Division divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old, VertexId vertex,
                        std::vector<StarTet>& star, const Home& home, const Settings& settings);
 
  private:
@@ -49,10 +56,13 @@ class StarParts {
   void find_parts(const TetMesh& mesh, std::vector<StarTet>& star);
   void keep_copies(const TetMesh& mesh, std::span<const StarTet> star);
   [[nodiscard]] bool is_taken(VertexId copy) const;
+  [[nodiscard]] static MaterialPlace place_of(const TetMesh& mesh, const OldChildren& old, VertexId vertex,
+                                              std::span<const StarTet> part);
   VertexId make_copy(Transaction& transaction, const OldChildren& old, VertexId vertex, std::span<const StarTet> part);
+  VertexId name(Transaction& transaction, VertexId vertex, bool may_be_named);
   void write_corners(Transaction& transaction, std::span<const StarTet> star);
   void set_shapes(Transaction& transaction, VertexId vertex, std::span<const StarTet> star, std::uint32_t tag);
-  void bury(Transaction& transaction, ClosedComplex& complex, VertexId vertex);
+  void bury(Transaction& transaction, ClosedComplex& complex, VertexId vertex, VertexId closed);
 
   std::vector<Part> parts_;
   std::vector<std::uint32_t> queue_;

@@ -31,6 +31,7 @@ void StrokeCut::begin(std::uint32_t tag, double spacing) {
   forget();
   tag_ = tag;
   spacing_ = spacing;
+  keeps_pieces_ = false;
 }
 
 void StrokeCut::forget() {
@@ -39,6 +40,7 @@ void StrokeCut::forget() {
   walk_.clear();
   snapping_.coincident.clear();
   on_.clear();
+  must_finish_ = false;
 }
 
 Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> next, const FrontRules& rules,
@@ -176,7 +178,7 @@ void StrokeCut::place_front(const TetMesh& mesh, std::span<const std::uint32_t> 
   FrontRules rules = given;
   rules.spacing = spacing_;
   rules.beside = beside();
-  rules.older = snap() > 0 ? &older : nullptr;
+  rules.older = &older;
   update_front_points(mesh, sheet_, masters, rules, step_, complex_);
   while (true) {
     const std::vector<std::uint32_t> dirty = complex_.dirty();
@@ -202,7 +204,8 @@ void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, Cu
   const std::size_t tets = mesh.tet_count(), vertices = mesh.vertex_count();
   Transaction transaction(mesh);
   const RebuildStatistics done =
-      rebuild_.run(transaction, complex_, sheet_, {tag_, snap() > 0, spacing_, closes_pinched});
+      rebuild_.run(transaction, complex_, sheet_,
+                   {tag_, snap() > 0, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
   Step step = transaction.commit();
   statistics.created_tets += mesh.tet_count() - tets;
   statistics.new_vertices += mesh.vertex_count() - vertices;
@@ -212,21 +215,51 @@ void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, Cu
   statistics.incision_faces += static_cast<std::uint64_t>(opened / 2);
   statistics.crumbs_kept += done.crumbs_kept;
   statistics.latent_faces += done.latent_faces;
+  must_finish_ = done.left_pinched > 0;
   if (!step.is_empty()) journal.append(std::move(step));
 }
 
-std::vector<std::uint32_t> StrokeCut::recrossed_columns(const TetMesh& mesh, const Strip& strip) {
+/// For each crossing whether the divided masters around its edge are of more than one piece.
+std::vector<bool> StrokeCut::find_apart(const TetMesh& mesh, std::span<const StripCrossing> crossings) {
+  std::vector<TetId> seeds;
+  std::vector<std::size_t> ends;
+  for (const StripCrossing& crossing : crossings) {
+    if (crossing.count % 2 == 1) {
+      complex_.for_each_around(crossing.edge, [&](std::uint32_t m) {
+        if (!complex_[m].is_divided()) return;
+        const auto children = complex_.children(complex_[m]);
+        seeds.insert(seeds.end(), children.begin(), children.end());
+      });
+    }
+    ends.push_back(seeds.size());
+  }
+  std::vector<bool> is_apart(crossings.size(), false);
+  if (pieces_.find(mesh, seeds) < 2) return is_apart;
+  for (std::size_t k = 0, i = 0; k < crossings.size(); ++k) {
+    for (const std::size_t first = i; i < ends[k]; ++i) {
+      if (pieces_.piece_of(i) != pieces_.piece_of(first)) is_apart[k] = true;
+    }
+  }
+  return is_apart;
+}
+
+std::vector<StrokeCut::RecrossedColumn> StrokeCut::recrossed_columns(const TetMesh& mesh, const Strip& strip) {
   ++step_;
   met_ = &walk_.find(mesh, strip, surface_, complex_, step_);
   crossed_ = &crossings_.find(mesh, strip, *met_, complex_, step_);
-  std::vector<std::uint32_t> columns;
-  for (const StripCrossing& crossing : *crossed_) {
-    if (crossing.count % 2 == 1 && complex_.edges()[crossing.edge].is_crossed) {
-      columns.push_back(strip.surface.triangles[crossing.triangle].column);
-    }
+  const std::vector<bool> is_apart = find_apart(mesh, *crossed_);
+  std::vector<RecrossedColumn> columns;
+  for (std::size_t k = 0; k < crossed_->size(); ++k) {
+    const StripCrossing& crossing = (*crossed_)[k];
+    if (crossing.count % 2 == 0 || !(is_apart[k] || complex_.edges()[crossing.edge].is_crossed)) continue;
+    columns.push_back({strip.surface.triangles[crossing.triangle].column, is_apart[k]});
   }
-  std::sort(columns.begin(), columns.end());
-  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  std::sort(columns.begin(), columns.end(), [](const RecrossedColumn& a, const RecrossedColumn& b) {
+    return a.column != b.column ? a.column < b.column : a.is_apart > b.is_apart;
+  });
+  columns.erase(std::unique(columns.begin(), columns.end(),
+                            [](const RecrossedColumn& a, const RecrossedColumn& b) { return a.column == b.column; }),
+                columns.end());
   return columns;
 }
 

@@ -29,6 +29,9 @@ class StrokeCut {
  public:
   explicit StrokeCut(CutOptions options) : options_(options), complex_(templates_), rebuild_(templates_) {}
 
+  /// In a body that moves no step may join two pieces, whatever the blade does: at rest a sheet is finished before it
+  /// comes back to what it has cut through.
+  void keep_pieces(bool keeps_pieces) { keeps_pieces_ = keeps_pieces; }
   /// Starts afresh: the next strip is the first of a sheet. Walls get `tag`. `spacing`: the length of a typical edge.
   void begin(std::uint32_t tag, double spacing);
   /// Finds the mesh's surface ahead of the first touch. Cost: O(tets) once, then O(edits since).
@@ -39,12 +42,21 @@ class StrokeCut {
   /// Cost: O(tets that the strip meets).
   Status advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> strip, const FrontRules& rules,
                  CutStatistics& statistics, StageTimes& times);
-  /// The columns of a strip that would cross edges which the sheet has crossed before: there it would close the cut.
-  /// Adopts what the strip meets, and changes nothing else. Cost: as `advance` without the rebuild.
-  [[nodiscard]] std::vector<std::uint32_t> recrossed_columns(const TetMesh& mesh, const Strip& strip);
+  /// A column of a strip that would close the cut again.
+  struct RecrossedColumn {
+    std::uint32_t column;
+    bool is_apart;  ///< what it would join has come apart: two pieces
+  };
+  /// The columns of a strip that would cross edges which the sheet has crossed before, or between tets that have come
+  /// apart: there it would close the cut. Each once. Adopts what the strip meets, and changes nothing else. Cost: as
+  /// `advance` without the rebuild, and that of `PieceFinder`.
+  [[nodiscard]] std::vector<RecrossedColumn> recrossed_columns(const TetMesh& mesh, const Strip& strip);
   /// Whether a strip crosses an edge that the sheet has crossed elsewhere and is done with: the two would cancel there.
   /// Crossings nearer than `least_apart` of the edge are one. Adopts what the strip meets.
   [[nodiscard]] bool crosses_own_cut(const TetMesh& mesh, const Strip& strip, double least_apart);
+  /// Whether two fans of tets touch along an edge beside which two pieces meet, so that no face may be left joined
+  /// there: the sheet must be finished, which parts such edges.
+  [[nodiscard]] bool must_finish() const { return must_finish_; }
   /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
   void finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics, StageTimes& times);
   /// Forgets a sheet whose cut was taken back.
@@ -64,6 +76,7 @@ class StrokeCut {
   bool find_reached(const Strip& strip);
   [[nodiscard]] bool is_reached(std::uint32_t edge) const;
   void refresh_around(std::uint32_t edge);
+  [[nodiscard]] std::vector<bool> find_apart(const TetMesh& mesh, std::span<const StripCrossing> crossings);
   void place_front(const TetMesh& mesh, std::span<const std::uint32_t> masters, const FrontRules& given,
                    CutStatistics& statistics);
   void count_cut(CutStatistics& statistics);
@@ -91,10 +104,12 @@ class StrokeCut {
   std::vector<OnVertex> on_;  // chosen so far
   Rebuild rebuild_;
   StarWalker walker_;
+  PieceFinder pieces_;
   const std::vector<StripCrossing>* crossed_ = nullptr;  // of the current strip
   const std::vector<std::uint32_t>* met_ = nullptr;      // likewise
   std::vector<bool> reached_;  // by master: through faces, from where the current strip itself is
   double spacing_ = 0.0;
+  bool must_finish_ = false, keeps_pieces_ = false;
   std::uint32_t tag_ = 1, step_ = 0;
   std::uint32_t first_look_ = 0;  // the first of the steps that look at the current strip
 };

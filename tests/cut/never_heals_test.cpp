@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// What has come apart stays apart, whatever the blade does.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "cut/bodies.h"
+#include "cut/flagged_body.h"
+#include "cut/piece_finder.h"
+#include "cut/support.h"
+#include "incise/mesh/components.h"
+
+namespace incise::test {
+namespace {
+
+/// Vertices that live on, from two pieces, are not in one now.
+void expect_no_join(const TetMesh& before, const TetMesh& after) {
+  const Components was = find_components(before), is = find_components(after);
+  std::map<std::uint32_t, std::uint32_t> came_from;
+  after.for_each_tet([&](TetId tet) {
+    if (!before.is_live(tet) || before.generation(tet) != after.generation(tet)) return;
+    const auto [known, is_first] = came_from.try_emplace(is.label[tet.value], was.label[tet.value]);
+    EXPECT_EQ(known->second, was.label[tet.value]) << "tet " << tet.value;
+  });
+}
+
+void change_round_after_round(Random& random, std::uint64_t seed, double flag_share, double on_share) {
+  SCOPED_TRACE(testing::Message() << seed << " " << flag_share << " " << on_share);
+  FlaggedBody body(jittered_cube(3, seed));
+  Rebuild::Settings settings;
+  settings.keeps_pieces = true;
+  for (unsigned round = 0; round < 4 && !testing::Test::HasFailure(); ++round) {
+    SCOPED_TRACE(round);
+    body.toggle_some(random, round == 0 ? flag_share : 0.3 * flag_share);
+    body.put_some_on(random, round % 2 == 0 ? on_share : 0.0);
+    body.place_points(random, 0.3);
+    body.stand(random, 0.05);
+    const TetMesh before = body.mesh();
+    const RebuildStatistics done = body.rebuild(settings);
+    expect_no_join(before, body.mesh());
+    ValidityReport report = validate(body.mesh(), ValidateLevel::kGeometry);
+    if (done.left_pinched > 0) continue;  // the sheet is to be finished here, which parts such edges
+    EXPECT_TRUE(report.ok) << describe(report);
+  }
+}
+
+TEST(NeverHeals, whatever_edges_are_crossed_again) {
+  Random random(8);
+  for (const double flag_share : {0.05, 0.2, 0.5, 0.8, 1.0}) {
+    for (std::uint64_t seed = 40; seed < 60; ++seed) change_round_after_round(random, seed, flag_share, 0.0);
+  }
+}
+
+TEST(NeverHeals, beside_vertices_that_take_part_in_the_cut) {
+  Random random(9);
+  for (const double flag_share : {0.05, 0.2, 0.5, 0.8, 1.0}) {
+    for (std::uint64_t seed = 40; seed < 60; ++seed) change_round_after_round(random, seed, flag_share, 0.2);
+  }
+}
+
+TEST(PieceFinder, agrees_with_the_components_of_the_whole) {
+  Random random(10);
+  for (std::uint64_t seed = 70; seed < 80; ++seed) {
+    FlaggedBody body(jittered_cube(4, seed));
+    body.toggle_some(random, 0.5);
+    body.rebuild();
+    const Components pieces = find_components(body.mesh());
+    std::vector<TetId> seeds;
+    body.mesh().for_each_tet([&](TetId tet) {
+      if (random.real(0, 1) < 0.1) seeds.push_back(tet);
+    });
+    PieceFinder finder;
+    for (unsigned round = 0; round < 2; ++round) {  // it keeps nothing
+      std::map<std::uint32_t, std::uint32_t> label_of;
+      const std::uint32_t count = finder.find(body.mesh(), seeds);
+      for (std::size_t i = 0; i < seeds.size(); ++i) {
+        const auto [known, is_first] = label_of.try_emplace(finder.piece_of(i), pieces.label[seeds[i].value]);
+        EXPECT_EQ(known->second, pieces.label[seeds[i].value]);
+      }
+      EXPECT_EQ(label_of.size(), count);
+    }
+  }
+}
+
+TEST(PieceFinder, finds_no_piece_of_nothing) {
+  PieceFinder finder;
+  EXPECT_EQ(finder.find(build(kuhn_cube(1)), {}), 0U);
+}
+
+}  // namespace
+}  // namespace incise::test
