@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cut/twist.h"
 #include "incise/geom/closest.h"
 
 namespace incise::inline v0 {
@@ -235,6 +236,7 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
   is_swept_ = std::move(is_swept);
   front_ = std::move(refined);
   ways_.assign(front_.size(), Vec3::Zero());
+  last_ = divided(last_, shares);
   if (is_first_strip_) {  // nothing was swept yet: there is no seam
     first_ = front_;
     seams_ = {};

@@ -14,6 +14,7 @@
 #include "cut/paper_cut.h"
 #include "cut/stroke_cut.h"
 #include "cut/sweep.h"
+#include "cut/twist.h"
 
 namespace incise::inline v0 {
 
@@ -30,6 +31,8 @@ constexpr double kWeld = 0.08;
 /// It reaches on so many spacings along that cut: further than fronts lie off their blades; or through its wall, where
 /// it meets that at an angle.
 constexpr double kReachOn = 0.3, kReachThrough = 0.12;
+/// What a blade sweeps while it turns is made of triangles that lie within so many spacings of it.
+constexpr double kTwist = 0.1;
 /// All of this way lies in the older cut or outside the body: asked at these shares of it, the furthest first.
 constexpr std::array kReachSamples = {1.0, 0.5, 0.1, 0.25, 0.75};
 /// What lies at most so many spacings beyond the rim of an older cut lies in it: rounding, no more.
@@ -104,6 +107,7 @@ class Cutter::Pipeline {
     stroke_cut_.begin(tag, spacing_);
     stroke_cut_.prepare(mesh, journal);
     last_row_.assign(row.begin(), row.end());
+    edge_ = EdgeDivision(row.size());
     is_in_material_ = has_moved;
     if (!has_moved) {
       motion_.begin(row, spacing_);
@@ -119,12 +123,13 @@ class Cutter::Pipeline {
       if (has_moved && !is_in_material_) {
         enter_material(mesh);
       }
-      const std::vector<Vec3> before = std::exchange(last_row_, {row.begin(), row.end()});
+      if (!is_in_material_) divide_edge(row);
+      const std::vector<Vec3> before = std::exchange(last_row_, edge_.divided(row));
       if (is_in_material_) {
         return step_in_material(mesh, journal, before, direction, times);
       }
-      return follow(mesh, journal, motion_.advance(row, stroke_cut_.sheet(), touches(mesh), surroundings(mesh), false),
-                    times);
+      return follow(mesh, journal,
+                    motion_.advance(last_row_, stroke_cut_.sheet(), touches(mesh), surroundings(mesh), false), times);
     });
   }
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times) {
@@ -180,6 +185,13 @@ class Cutter::Pipeline {
     is_in_material_ = true;
     material_.take_over(mesh, stroke_cut_.surface(), last_row_, motion_.front(), spacing_, stroke_cut_.complex());
     motion_.refine(material_.shares());
+  }
+  /// Divides the blade's edge where it turns on its way to a row.
+  void divide_edge(std::span<const Vec3> row) {
+    const auto parts = edge_.divide(last_row_, edge_.divided(row), kTwist * spacing_);
+    if (parts.empty()) return;
+    motion_.refine(parts);
+    last_row_ = divided(last_row_, parts);
   }
   /// From where the blade was to `last_row_`, in parts of at most an element.
   Status step_in_material(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& before, const Vec3& direction,
@@ -331,7 +343,8 @@ class Cutter::Pipeline {
   Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
     is_in_material_ = false;
     const double spacing = spacing_ = typical_spacing(mesh);
-    const SweptSurface surface = sweep(stroke, kSlitShare * spacing);
+    const Stroke divided = is_paper() ? stroke : with_divided_edge(stroke, kTwist * spacing);
+    const SweptSurface surface = sweep(divided, kSlitShare * spacing);
     for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
       Status status = is_paper() ? paper_cut_.cut(mesh, journal, Sheet(surface, part), tag, statistics_, times)
                                  : cut_strip(mesh, journal, part_of(surface, part), tag, times);
@@ -362,7 +375,8 @@ class Cutter::Pipeline {
   BladeMotion motion_;
   SweptTriangles swept_;
   MaterialBlade material_;
-  std::vector<Vec3> last_row_;
+  EdgeDivision edge_;
+  std::vector<Vec3> last_row_;  // divided
   double spacing_ = 1.0;
   bool is_in_material_ = false;
   std::function<void()> between_sheets_;

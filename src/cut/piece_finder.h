@@ -36,10 +36,10 @@ class PieceFinder {
   void forget();
 
   std::vector<Flood> floods_;
-  std::uint32_t flood_count_ = 0;        // of those in use
-  std::vector<std::uint32_t> open_;      // roots that have more to look at
+  std::uint32_t flood_count_ = 0;    // of those in use
+  std::vector<std::uint32_t> open_;  // roots that have more to look at
   std::vector<std::uint32_t> pieces_;
-  std::vector<std::uint32_t> seen_as_;   // by flood: its piece
+  std::vector<std::uint32_t> seen_as_;  // by flood: its piece
   std::vector<TetId> touched_;
   ZeroedArray<std::uint32_t> flood_of_;  // by tet slot: 1 + flood; all zero between calls
 };

@@ -582,8 +582,7 @@ class Rebuild::Run {
   VertexId divide(VertexId vertex, const StarParts::Home& home, bool makes_twins, bool may_be_named) {
     const bool keeps = settings_.keeps_pieces;
     const StarParts::Settings settings{settings_.tag, makes_twins, keeps, keeps && may_be_named};
-    const StarParts::Division done =
-        owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, settings);
+    const StarParts::Division done = owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, settings);
     result_.copied_vertices += done.made;
     if (done.closed != vertex) note_visited(done.closed);
     note_surface_around(done.closed);
@@ -843,7 +842,7 @@ class Rebuild::Run {
   };
   std::vector<ApartVertex> apart_;  // of faces that are left open since two pieces meet there, with a master each
   bool has_pieces_ = false;         // the material around the dirty masters is of more than one piece
-  bool is_beside_closed_ = false;  // `star_`: beside faces of the cut that were left joined
+  bool is_beside_closed_ = false;   // `star_`: beside faces of the cut that were left joined
 };
 
 RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,

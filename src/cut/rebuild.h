@@ -81,9 +81,9 @@ class Rebuild {
   std::vector<TetId> seeds_;
   ZeroedArray<std::uint32_t> piece_of_;  // by tet slot: 1 + the piece that its material was of before; else 0
   std::vector<TetId> has_piece_;         // the tets for which that is not 0
-  Transaction::Sizes sizes_;            // of the last run
-  ZeroedArray<std::uint32_t> old_of_;   // by tet slot: the old child that holds the middle of a child
-  ZeroedArray<std::uint32_t> visited_;  // by vertex slot: the round that divided its star
+  Transaction::Sizes sizes_;             // of the last run
+  ZeroedArray<std::uint32_t> old_of_;    // by tet slot: the old child that holds the middle of a child
+  ZeroedArray<std::uint32_t> visited_;   // by vertex slot: the round that divided its star
   std::uint32_t round_ = 0;
 };
 

@@ -161,7 +161,8 @@ StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& c
   const auto stands_in = [&](const Part& part) {
     if (settings.makes_twins || !settings.keeps_places) return true;
     const MaterialPlace place = place_of(mesh, old, vertex, tets_of(part));
-    const double tolerance = kSamePlace * (mesh.rest(vertex) - mesh.rest(mesh.vertices(star[part.first].tet)[0])).norm();
+    const double tolerance =
+        kSamePlace * (mesh.rest(vertex) - mesh.rest(mesh.vertices(star[part.first].tet)[0])).norm();
     return place.inside <= -1e300 || (place.current - mesh.current(vertex)).norm() <= tolerance;
   };
   for (Part& part : parts_) {

@@ -46,7 +46,7 @@ class StarParts {
     VertexId closed;         ///< the closed vertex, as it is called now
   };
   Division divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old, VertexId vertex,
-                       std::vector<StarTet>& star, const Home& home, const Settings& settings);
+                  std::vector<StarTet>& star, const Home& home, const Settings& settings);
 
  private:
   struct Part {

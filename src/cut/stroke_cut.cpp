@@ -22,6 +22,8 @@ constexpr double kGrazeShare = 0.02;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
 constexpr double kFinalMargin = 0.04;
+/// A chord that stays this share of its length away from the sheet is as good as on it.
+constexpr double kChordShare = 0.1;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
@@ -203,9 +205,8 @@ void StrokeCut::count_cut(CutStatistics& statistics) {
 void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, CutStatistics& statistics) {
   const std::size_t tets = mesh.tet_count(), vertices = mesh.vertex_count();
   Transaction transaction(mesh);
-  const RebuildStatistics done =
-      rebuild_.run(transaction, complex_, sheet_,
-                   {tag_, snap() > 0, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
+  const RebuildStatistics done = rebuild_.run(
+      transaction, complex_, sheet_, {tag_, snap() > 0, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
   Step step = transaction.commit();
   statistics.created_tets += mesh.tet_count() - tets;
   statistics.new_vertices += mesh.vertex_count() - vertices;
@@ -275,8 +276,21 @@ bool StrokeCut::crosses_own_cut(const TetMesh& mesh, const Strip& strip, double 
     }
     bool is_done = true;
     complex_.for_each_around(crossing.edge, [&](std::uint32_t m) { is_done &= !has_odd_face(complex_[m].flagged); });
-    return is_done;
+    return is_done && !is_graze(mesh, strip, crossing);
   });
+}
+
+/// Whether an edge that the sheet has crossed before leaves it and enters it again from the same side, or stays close
+/// to it in between: the two belong to one smooth part, and the cut follows the chord, as within one strip.
+bool StrokeCut::is_graze(const TetMesh& mesh, const Strip& strip, const StripCrossing& crossing) const {
+  const ClosedEdge& edge = complex_.edges()[crossing.edge];
+  const Vec3 place = mesh.rest(edge.a) + crossing.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
+  const Vec3 normal = strip.sheet.normal(crossing.triangle), chord = place - edge.position;
+  if (!(normal.dot(edge.normal) > 0)) return false;
+  if ((chord.dot(normal) > 0) != (chord.dot(edge.normal) > 0)) return true;
+  const double reach = kChordShare * chord.norm();
+  const Vec3 middle = edge.position + 0.5 * chord;
+  return sheet_.closest(middle, reach).is_valid() || strip.sheet.tree().closest(middle, reach).is_valid();
 }
 
 bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const {

@@ -75,6 +75,7 @@ class StrokeCut {
   void flag(const TetMesh& mesh, const Strip& strip);
   bool find_reached(const Strip& strip);
   [[nodiscard]] bool is_reached(std::uint32_t edge) const;
+  [[nodiscard]] bool is_graze(const TetMesh& mesh, const Strip& strip, const StripCrossing& crossing) const;
   void refresh_around(std::uint32_t edge);
   [[nodiscard]] std::vector<bool> find_apart(const TetMesh& mesh, std::span<const StripCrossing> crossings);
   void place_front(const TetMesh& mesh, std::span<const std::uint32_t> masters, const FrontRules& given,

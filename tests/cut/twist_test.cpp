@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// A blade that turns while it moves sweeps a smooth surface, not ridges.
+#include "cut/twist.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cut/sweep.h"
+
+namespace incise::test {
+namespace {
+
+using Row = std::vector<Vec3>;
+
+/// A straight edge of length 2 along a line at some angle, at some height.
+Row turned(double angle, double height) {
+  const Vec3 along(std::cos(angle), std::sin(angle), 0);
+  return {Vec3(0, 0, height) - along, Vec3(0, 0, height) + along};
+}
+
+/// A screw: one turn by `turn` over a unit of height.
+Stroke screw(double turn, unsigned steps) {
+  Stroke stroke;
+  for (unsigned i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    stroke.times.push_back(t);
+    stroke.edges.push_back(turned(turn * t, t));
+  }
+  return stroke;
+}
+
+/// The least cosine between the normals of triangles of a sweep that share an edge.
+double sharpest_fold(const SweptSurface& surface) {
+  double least = 1.0;
+  const auto normal = [&](const SweptTriangle& t) {
+    const Vec3& a = surface.points[t.points[0]].position;
+    return (surface.points[t.points[1]].position - a).cross(surface.points[t.points[2]].position - a).normalized();
+  };
+  for (const SweptTriangle& t : surface.triangles) {
+    for (const SweptTriangle& u : surface.triangles) {
+      unsigned shared = 0;
+      for (const std::uint32_t p : t.points) shared += std::count(u.points.begin(), u.points.end(), p) > 0 ? 1U : 0U;
+      if (shared == 2) least = std::min(least, normal(t).dot(normal(u)));
+    }
+  }
+  return least;
+}
+
+TEST(EdgeDivision, leaves_an_edge_alone_that_sweeps_a_plane) {
+  EdgeDivision division(3);
+  const Row from = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(3, 0, 0)};
+  const Row to = {Vec3(0, 1, 0), Vec3(1.5, 2, 0), Vec3(2, 5, 0)};  // it turns and shrinks, but in its plane
+  EXPECT_TRUE(division.divide(from, to, 1e-9).empty());
+  EXPECT_EQ(division.divided(to), to);
+}
+
+TEST(EdgeDivision, tells_how_each_segment_is_divided) {
+  EdgeDivision division(2);
+  const auto parts = division.divide(turned(0, 0), turned(0.5, 0.2), 0.01);
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_GT(parts[0].size(), 2U);
+  EXPECT_EQ(parts[0].back(), 1.0);
+  const Row row = division.divided(turned(0.5, 0.2));
+  EXPECT_EQ(row, divided(turned(0.5, 0.2), parts));
+  EXPECT_EQ(row.size(), parts[0].size() + 1);
+  EXPECT_EQ(row.back(), turned(0.5, 0.2).back());
+}
+
+TEST(EdgeDivision, divides_what_is_divided_and_no_more_than_it_must) {
+  EdgeDivision division(2);
+  division.divide(turned(0, 0), turned(0.3, 0.2), 0.01);
+  const Row from = division.divided(turned(0.3, 0.2)), to = division.divided(turned(0.6, 0.4));
+  EXPECT_TRUE(division.divide(from, to, 0.01).empty());  // the same turn again
+  const auto parts = division.divide(from, to, 0.001);
+  ASSERT_EQ(parts.size(), from.size() - 1);
+  EXPECT_EQ(division.divided(turned(0.6, 0.4)).size(), divided(from, parts).size());
+}
+
+TEST(EdgeDivision, has_a_greatest_number_of_parts) {
+  EdgeDivision division(2);
+  const auto parts = division.divide(turned(0, 0), turned(1.5, 0.2), 1e-12);
+  EXPECT_EQ(parts[0].size(), static_cast<std::size_t>(EdgeDivision::kMostParts));
+}
+
+TEST(EdgeDivision, makes_a_screw_smooth_that_folds_however_short_its_steps_are) {
+  for (const unsigned steps : {5U, 10U, 20U}) {
+    EXPECT_LT(sharpest_fold(sweep(screw(3.0, steps))), 0.0) << steps;
+    EXPECT_GT(sharpest_fold(sweep(with_divided_edge(screw(3.0, steps), 0.002))), 0.8) << steps;
+  }
+}
+
+}  // namespace
+}  // namespace incise::test
