@@ -233,6 +233,8 @@ struct Candidate {
 constexpr double kBentReach = 0.5;
 /// A wall whose normal has this cosine with the sheet's lies along it; older walls are crooked at their fronts.
 constexpr double kAlong = 0.9, kAlongOlder = 0.8;
+/// Older walls attract within this share of the spacing at least, whatever the snapping distance.
+constexpr double kLeastOlderReach = 0.02;
 /// Cuts make the edges around their walls shorter by this factor at most, for what counts as near an older wall.
 constexpr double kOlderScale = 4.0;
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
@@ -309,14 +311,14 @@ class CloseVertices {
     const VertexId v = noted.vertex;
     const double snap = noted.has_odd_face ? 0.0 : snap_;
     const bool is_on_wall = (mesh_.shape_of(v) & shape::kWall) != 0;
-    const double share = std::max(kCoincident, is_on_wall ? kOlderScale * snap_ : snap);
+    const double share = std::max(kCoincident, is_on_wall ? kOlderScale * older_reach() : snap);
     const SheetPlace hit = sheet_.closest(mesh_.rest(v), share * std::sqrt(noted.longest2));
     if (!hit.is_valid()) return;
     const std::vector<std::uint32_t>& star = complex_.star(mesh_, noted.master, v);
     const double spacing = mean_edge_length(mesh_, complex_, v, star, neighbours_);
     const OnVertex on{v, spacing, std::sqrt(hit.distance2), hit.point, hit.normal};
     const bool is_older_cut =
-        is_on_wall && on.distance <= snap_ * uncut_spacing(spacing) && lies_along(on, star, 1, kAlongOlder);
+        is_on_wall && on.distance <= older_reach() * uncut_spacing(spacing) && lies_along(on, star, 1, kAlongOlder);
     const bool is_coincident = is_older_cut || on.distance <= kCoincident * spacing;
     const bool may_take_part =
         is_older_cut || (is_coincident ? !waits_for_front(on, star)
@@ -325,6 +327,9 @@ class CloseVertices {
     close_.push_back({on, noted.master, is_coincident});
     noted_[i].close = static_cast<std::uint32_t>(close_.size());
   }
+  /// How far older walls attract, as a share of that spacing: also where nothing else snaps, as far as one cut may miss
+  /// itself.
+  [[nodiscard]] double older_reach() const { return std::max(snap_, kLeastOlderReach); }
   /// What the spacing at a vertex may have been before cuts made its edges shorter: an older wall has bent by as much.
   [[nodiscard]] double uncut_spacing(double spacing) const {
     return std::max(spacing, std::min(rules_.spacing, kOlderScale * spacing));
