@@ -369,9 +369,7 @@ class Rebuild::Run {
     const Link wall = Link::boundary(settings_.tag);
     const bool is_incision = is_crossed || were_apart(a.tet(), b.tet());
     if (is_incision && !is_crossed) note_apart(a);
-    if (is_incision && mesh_.link(a) == wall && mesh_.link(b) == wall) {
-      standing_.insert(std::upper_bound(standing_.begin(), standing_.end(), a), a);
-    }
+    if (is_incision && mesh_.link(a) == wall && mesh_.link(b) == wall) standing_.push_back(a);
     set_link(a, is_incision ? Link::boundary(settings_.tag) : Link(b));
     set_link(b, is_incision ? Link::boundary(settings_.tag) : Link(a));
     if (is_incision) incision_.push_back({a, b});
@@ -458,6 +456,7 @@ class Rebuild::Run {
   // --- separation ----------------------------------------------------------------------------------------------------
 
   void keep_crumbs() {
+    std::sort(standing_.begin(), standing_.end());
     if (!settings_.keeps_crumbs) return;
     CrumbRules rules;
     rules.limit = [&](TetId tet) {
@@ -719,6 +718,7 @@ class Rebuild::Run {
     complex_[index].is_kept = true;
     note_kept(ranges_.back());
     link(complex_[index].entry);
+    std::sort(standing_.begin(), standing_.end());
     return true;
   }
   /// The edges of the noted boundary sides whose vertices were both looked at in this round, or one of them.

@@ -233,8 +233,9 @@ struct Candidate {
 constexpr double kBentReach = 0.5;
 /// A wall whose normal has this cosine with the sheet's lies along it; older walls are crooked at their fronts.
 constexpr double kAlong = 0.9, kAlongOlder = 0.8;
-/// Older walls attract within this share of the spacing at least, whatever the snapping distance.
-constexpr double kLeastOlderReach = 0.02;
+/// Older walls attract within this share of the spacing at least, whatever the snapping distance: without snapping
+/// those that the sheet goes on from, at less than 8 degrees, since where planes cross the pieces are to be exact.
+constexpr double kLeastOlderReach = 0.02, kAlongExactly = 0.99;
 /// Cuts make the edges around their walls shorter by this factor at most, for what counts as near an older wall.
 constexpr double kOlderScale = 4.0;
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
@@ -317,8 +318,8 @@ class CloseVertices {
     const std::vector<std::uint32_t>& star = complex_.star(mesh_, noted.master, v);
     const double spacing = mean_edge_length(mesh_, complex_, v, star, neighbours_);
     const OnVertex on{v, spacing, std::sqrt(hit.distance2), hit.point, hit.normal};
-    const bool is_older_cut =
-        is_on_wall && on.distance <= older_reach() * uncut_spacing(spacing) && lies_along(on, star, 1, kAlongOlder);
+    const bool is_older_cut = is_on_wall && on.distance <= older_reach() * uncut_spacing(spacing) &&
+                              lies_along(on, star, 1, snap_ > 0 ? kAlongOlder : kAlongExactly);
     const bool is_coincident = is_older_cut || on.distance <= kCoincident * spacing;
     const bool may_take_part =
         is_older_cut || (is_coincident ? !waits_for_front(on, star)
