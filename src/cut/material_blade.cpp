@@ -6,6 +6,7 @@
 
 #include "cut/contact_walk.h"
 #include "cut/far_blade.h"
+#include "cut/twist.h"
 #include "incise/geom/closest.h"
 #include "incise/geom/quality.h"
 
@@ -141,21 +142,12 @@ void MaterialBlade::set_shares(const TetMesh& mesh, std::span<const Vec3> row) {
   }
 }
 
-std::vector<Vec3> MaterialBlade::refined(std::span<const Vec3> row) const {
-  std::vector<Vec3> points = {row.front()};
-  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
-    for (const double t : shares_[c])
-      points.push_back(t == 1.0 ? row[c + 1] : Vec3(row[c] + t * (row[c + 1] - row[c])));
-  }
-  return points;
-}
-
 void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std::span<const Vec3> row, double spacing,
                           ClosedComplex& complex) {
   spacing_ = spacing;
   course_ = Vec3::Zero();
   set_shares(mesh, row);
-  const std::vector<Vec3> places = refined(row);
+  const std::vector<Vec3> places = divided(row, shares_);
   points_.assign(places.size(), {});
   anchors_.resize(places.size());
   // The surface as it stands, once: the blade may come from anywhere.
@@ -303,7 +295,7 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
 
 void MaterialBlade::locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex,
                            std::span<const Vec3> row, const Vec3& direction) {
-  const std::vector<Vec3> places = refined(row);
+  const std::vector<Vec3> places = divided(row, shares_);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];
     point.world = places[i];
@@ -383,8 +375,8 @@ void MaterialBlade::take_over(const TetMesh& mesh, const SurfaceIndex& surface, 
   spacing_ = spacing;
   course_ = Vec3::Zero();
   set_shares(mesh, row);
-  anchors_ = refined(front);
-  const std::vector<Vec3> places = refined(row);
+  anchors_ = divided(front, shares_);
+  const std::vector<Vec3> places = divided(row, shares_);
   points_.assign(places.size(), {});
   for (std::size_t i = 0; i < points_.size(); ++i) {
     points_[i].world = places[i];

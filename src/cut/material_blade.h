@@ -65,7 +65,6 @@ class MaterialBlade {
     bool is_accepted = false;
   };
 
-  [[nodiscard]] std::vector<Vec3> refined(std::span<const Vec3> row) const;
   void set_shares(const TetMesh& mesh, std::span<const Vec3> row);
   void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);

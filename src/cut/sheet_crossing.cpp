@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t kMaxSignTable = std::size_t{1} << 25U;
 constexpr std::int8_t kUnknown = 2;
-/// A chord that stays this share of its length away from a surface is as good as on it.
-constexpr double kChordShare = 0.1;
 
 bool passes_through(const SosPoint& p, const SosPoint& q, const Sheet& sheet, std::uint32_t triangle) {
   const SosPoint& a = sheet.point(triangle, 0);
@@ -90,14 +88,9 @@ SheetCrossings find_crossings(const TetMesh& mesh, const Sheet& sheet, SideSigns
 namespace detail {
 
 bool is_graze(const Sheet& sheet, const Vec3& from, std::uint32_t first, const Vec3& to, std::uint32_t second) {
-  const Vec3 chord = to - from, n = sheet.normal(first), m = sheet.normal(second);
-  if (!(n.dot(m) > 0)) {
-    return false;
-  }
-  if ((chord.dot(n) > 0) != (chord.dot(m) > 0)) {
-    return true;
-  }
-  return sheet.tree().closest(0.5 * (from + to), kChordShare * chord.norm()).is_valid();
+  return incise::is_graze(from, sheet.normal(first), to, sheet.normal(second), [&](const Vec3& place, double reach) {
+    return sheet.tree().closest(place, reach).is_valid();
+  });
 }
 
 }  // namespace detail

@@ -50,10 +50,21 @@ template <class Coincident>
 std::optional<double> find_between(const TetMesh& mesh, const Sheet& sheet, VertexId a, VertexId b,
                                    const SheetCrossings& crossings, double gap, Coincident&& coincident);
 
+/// Whether the piece of an edge between two crossings, with the sheet's normals there (any length), is a chord of one
+/// smooth part of the sheet: it leaves and enters it again from the same side, or stays close to it all along, as
+/// `is_near(place, distance)` tells.
+template <class IsNear>
+bool is_graze(const Vec3& from, const Vec3& normal_from, const Vec3& to, const Vec3& normal_to, IsNear&& is_near) {
+  constexpr double kChordShare = 0.1;  // a chord that stays this share of its length away is as good as on the sheet
+  const Vec3 chord = to - from;
+  if (!(normal_from.dot(normal_to) > 0)) return false;
+  if ((chord.dot(normal_from) > 0) != (chord.dot(normal_to) > 0)) return true;
+  return is_near(Vec3(0.5 * (from + to)), kChordShare * chord.norm());
+}
+
 namespace detail {
 
-/// Whether the piece of an edge between two crossings is a chord of one smooth part of the sheet: it leaves and enters
-/// it again from the same side, or stays close to it all along.
+/// The same for two triangles of one sheet.
 bool is_graze(const Sheet& sheet, const Vec3& from, std::uint32_t first, const Vec3& to, std::uint32_t second);
 
 }  // namespace detail

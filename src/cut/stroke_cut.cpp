@@ -22,8 +22,6 @@ constexpr double kGrazeShare = 0.02;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
 constexpr double kFinalMargin = 0.04;
-/// A chord that stays this share of its length away from the sheet is as good as on it.
-constexpr double kChordShare = 0.1;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
@@ -280,17 +278,15 @@ bool StrokeCut::crosses_own_cut(const TetMesh& mesh, const Strip& strip, double 
   });
 }
 
-/// Whether an edge that the sheet has crossed before leaves it and enters it again from the same side, or stays close
-/// to it in between: the two belong to one smooth part, and the cut follows the chord, as within one strip.
+/// Whether two crossings of an edge, by the sheet so far and by a strip, belong to one smooth part: the cut follows the
+/// chord, as within one strip.
 bool StrokeCut::is_graze(const TetMesh& mesh, const Strip& strip, const StripCrossing& crossing) const {
   const ClosedEdge& edge = complex_.edges()[crossing.edge];
   const Vec3 place = mesh.rest(edge.a) + crossing.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
-  const Vec3 normal = strip.sheet.normal(crossing.triangle), chord = place - edge.position;
-  if (!(normal.dot(edge.normal) > 0)) return false;
-  if ((chord.dot(normal) > 0) != (chord.dot(edge.normal) > 0)) return true;
-  const double reach = kChordShare * chord.norm();
-  const Vec3 middle = edge.position + 0.5 * chord;
-  return sheet_.closest(middle, reach).is_valid() || strip.sheet.tree().closest(middle, reach).is_valid();
+  return incise::is_graze(
+      edge.position, edge.normal, place, strip.sheet.normal(crossing.triangle), [&](const Vec3& middle, double reach) {
+        return sheet_.closest(middle, reach).is_valid() || strip.sheet.tree().closest(middle, reach).is_valid();
+      });
 }
 
 bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const {
