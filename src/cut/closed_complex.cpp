@@ -7,25 +7,16 @@
 namespace incise::inline v0 {
 
 void ClosedComplex::clear() {
-  for (const Master& master : masters_) {
-    for (const VertexId vertex : master.vertices) master_at_[vertex.value] = 0;
-    if (master.split == nullptr) continue;  // released
-    for (const TetId child : children(master)) master_of_[child.value] = 0;
-  }
-  for (std::uint32_t i = 0; i < copied_.size(); ++i) {
-    if (copied_[i].is_valid()) drop_copies(copied_[i]);
-  }
-  for (const VertexId vertex : on_) is_on_[vertex.value] = 0;
-  for (const ClosedEdge& edge : edges_.edges()) {
-    if (edge.is_flagged()) count_flag(edge, false);
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (masters_[i].split != nullptr) release(i);
   }
   masters_.clear();
+  free_masters_.clear();
   children_.clear();
   for (auto& blocks : free_blocks_) blocks.clear();
   points_.clear();
   free_points_.clear();
   edges_.clear();
-  on_.clear();
   dirty_.clear();
   retired_.clear();
   scope_ = {};
@@ -36,7 +27,12 @@ std::uint32_t ClosedComplex::adopt(const TetMesh& mesh, TetId tet) {
   if (const std::uint32_t known = find(tet); known != Master::kNone) {
     return known;
   }
-  const auto index = static_cast<std::uint32_t>(masters_.size());
+  if (free_masters_.empty()) {
+    free_masters_.push_back(size());
+    masters_.push_back({});
+  }
+  const std::uint32_t index = free_masters_.back();
+  free_masters_.pop_back();
   Master master;
   for (unsigned c = 0; c < 4; ++c) master.vertices[c] = closed(mesh.vertices(tet)[c]);
   master.behind.fill(Master::kNone);
@@ -53,12 +49,14 @@ std::uint32_t ClosedComplex::adopt(const TetMesh& mesh, TetId tet) {
   for (unsigned c = 0; c < 4; ++c) {
     master.on |= static_cast<std::uint8_t>(static_cast<unsigned>(is_on(master.vertices[c])) << c);
   }
-  master.first_child = static_cast<std::uint32_t>(children_.size());
-  children_.push_back(tet);
-  masters_.push_back(master);
+  master.first_child = take_block(1);
+  children_[master.first_child] = tet;
+  masters_[index] = master;
   for (const VertexId vertex : master.vertices) {
     master_at_.ensure(std::size_t{vertex.value} + 1);
     master_at_[vertex.value] = index + 1;
+    count_at_.ensure(std::size_t{vertex.value} + 1);
+    ++count_at_[vertex.value];
   }
   master_of_.ensure(std::size_t{tet.value} + 1);
   master_of_[tet.value] = index + 1;
@@ -74,6 +72,7 @@ void ClosedComplex::link(std::uint32_t master, unsigned side, const TetMesh& mes
   const std::uint32_t other = find(behind.side().tet());
   if (other == Master::kNone) return;
   const unsigned other_side = side_with(masters_[other], mesh, behind.side());
+  if (masters_[other].split->outer[other_side].size() != 1) return;  // a part of a side whose other master was let go
   masters_[master].behind[side] = other;
   masters_[other].behind[other_side] = master;
 }
@@ -95,7 +94,62 @@ void ClosedComplex::release(std::uint32_t index) {
     std::replace(masters_[other].behind.begin(), masters_[other].behind.end(), index, Master::kNone);
   }
   for (const TetId child : children(master)) master_of_[child.value] = 0;
+  free_blocks_[master.split->children.size()].push_back(master.first_child);
+  for (unsigned s = 0; s < 4; ++s) unlink_point(index, s);
+  if (master.middle.is_valid()) drop_copies(master.middle);
+  for (unsigned e = 0; e < 6; ++e) unlink_edge(index, e);
+  for (unsigned c = 0; c < 4; ++c) unlink_vertex(index, c);
   master.split = nullptr;
+  free_masters_.push_back(index);
+}
+
+/// A front point that no master has any more is a vertex like others.
+void ClosedComplex::unlink_point(std::uint32_t index, unsigned side) {
+  const std::uint32_t at = masters_[index].points[side];
+  if (at == Master::kNone) return;
+  FrontPoint& point = points_[at];
+  std::replace(point.masters.begin(), point.masters.end(), index, Master::kNone);
+  if (point.masters[0] != Master::kNone || point.masters[1] != Master::kNone) return;
+  if (point.vertex.is_valid()) drop_copies(point.vertex);
+  point = {};
+  free_points_.push_back(at);
+}
+
+void ClosedComplex::unlink_edge(std::uint32_t index, unsigned e) {
+  const std::uint32_t at = masters_[index].edges[e];
+  ClosedEdge& edge = edges_[at];
+  std::uint32_t* use = &edge.first_use;
+  while (*use != index * 6 + e) use = &masters_[*use / 6].next_use[*use % 6];
+  *use = masters_[index].next_use[e];
+  if (edge.first_use != kInvalidIndex) return;
+  if (edge.split.is_valid()) drop_copies(edge.split);
+  if (edge.is_flagged()) count_flag(edge, false);
+  edges_.erase(at);
+}
+
+void ClosedComplex::unlink_vertex(std::uint32_t index, unsigned corner) {
+  const VertexId vertex = masters_[index].vertices[corner];
+  if (master_at_[vertex.value] == index + 1) master_at_[vertex.value] = 0;
+  if (--count_at_[vertex.value] > 0) {
+    if (is_settled(vertex)) is_settled_[vertex.value] = kHalfBaked;
+    return;
+  }
+  drop_copies(vertex);
+  if (is_on(vertex)) is_on_[vertex.value] = 0;
+  if (is_settled(vertex)) is_settled_[vertex.value] = 0;
+}
+
+/// Room for so many children.
+std::uint32_t ClosedComplex::take_block(std::size_t count) {
+  auto& blocks = free_blocks_[count];
+  if (blocks.empty()) {
+    const auto first = static_cast<std::uint32_t>(children_.size());
+    for (std::size_t i = 0; i < count; ++i) children_.push_back({});
+    return first;
+  }
+  const std::uint32_t first = blocks.back();
+  blocks.pop_back();
+  return first;
 }
 
 void ClosedComplex::set_children(std::uint32_t index, const SplitTemplate& split, std::span<const TetId> tets) {
@@ -103,14 +157,7 @@ void ClosedComplex::set_children(std::uint32_t index, const SplitTemplate& split
   for (const TetId child : children(master)) master_of_[child.value] = 0;
   if (master.split->children.size() != tets.size()) {
     free_blocks_[master.split->children.size()].push_back(master.first_child);
-    auto& blocks = free_blocks_[tets.size()];
-    if (blocks.empty()) {
-      master.first_child = static_cast<std::uint32_t>(children_.size());
-      for (std::size_t i = 0; i < tets.size(); ++i) children_.push_back({});
-    } else {
-      master.first_child = blocks.back();
-      blocks.pop_back();
-    }
+    master.first_child = take_block(tets.size());
   }
   master.split = &split;
   for (std::size_t i = 0; i < tets.size(); ++i) {
@@ -203,7 +250,11 @@ void ClosedComplex::drop_copies(VertexId vertex) {
 void ClosedComplex::set_on(VertexId vertex) {
   is_on_.ensure(std::size_t{vertex.value} + 1);
   is_on_[vertex.value] = 1;
-  on_.push_back(vertex);
+}
+
+void ClosedComplex::settle(VertexId vertex) {
+  is_settled_.ensure(std::size_t{vertex.value} + 1);
+  is_settled_[vertex.value] = std::max<std::uint8_t>(is_settled_[vertex.value], 1);
 }
 
 const std::vector<std::uint32_t>& ClosedComplex::star(const TetMesh& mesh, std::uint32_t master, VertexId vertex) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -38,6 +39,7 @@ struct FrontPoint {
   VertexId vertex;                  ///< once made
   std::uint32_t tested = 0;         ///< the step that last looked at it
   bool is_explained = false;        ///< pierced, not guessed
+  bool is_final = false;            ///< the blade has gone: it stays where it is
   std::array<std::uint32_t, 2> masters{kInvalidIndex, kInvalidIndex};  ///< on either side of the face
 };
 
@@ -67,6 +69,8 @@ struct Master {
   bool is_cut = false;                    ///< the blade has crossed an edge of it
   bool has_latent_faces = false;          ///< incision faces that nothing separates, left joined
   bool is_pinched = false;                ///< has incision faces that were left joined beside an edge
+  bool is_behind = false;                 ///< the blade's front has left it behind
+  bool is_settled = false;                ///< nothing about it changes any more, nor about its vertices
 
   [[nodiscard]] bool is_divided() const { return split->children.size() > 1; }
 };
@@ -77,7 +81,8 @@ struct Master {
 /// at first itself. A closed vertex is one whose copies count as one: the mesh's own vertices before the stroke, split
 /// points of edges and front points. The blade's doings are kept on the edges of masters, where neighbours agree by
 /// construction; children are made from them. Whatever the mesh does physically, this complex stays closed.
-/// Lives as long as one stroke stays clear of itself; `clear` forgets it, and children become ordinary tets.
+/// It is a band around the blade's front: behind it masters are settled, then let go one by one, and their children
+/// become ordinary tets, which no rule of the cut knows how to join again. `clear` lets go of all.
 class ClosedComplex {
  public:
   /// `templates` must outlive the complex.
@@ -92,10 +97,14 @@ class ClosedComplex {
   }
   /// The master of a live tet; where there is none, the tet becomes one.
   std::uint32_t adopt(const TetMesh& mesh, TetId tet);
-  /// Lets go of a master that is whole.
+  /// Lets go of a master: its children become ordinary tets. A vertex, an edge or a front point that no other master
+  /// has is forgotten with it: its copies are vertices of their own. Its index is used again. Cost: O(1).
   void release(std::uint32_t master);
 
+  /// One past the greatest index of a master; those let go have no `split`.
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(masters_.size()); }
+  /// How many there are.
+  [[nodiscard]] std::size_t master_count() const { return masters_.size() - free_masters_.size(); }
   Master& operator[](std::uint32_t index) { return masters_[index]; }
   const Master& operator[](std::uint32_t index) const { return masters_[index]; }
   [[nodiscard]] std::span<const TetId> children(const Master& master) const {
@@ -173,6 +182,23 @@ class ClosedComplex {
     return index < masters_.size() && masters_[index].split != nullptr ? index : Master::kNone;
   }
 
+  /// Notes that nothing about a closed vertex changes any more: it has landed, and tets around it may have been let go.
+  /// No strip of this sheet may pass through a tet that has it.
+  void settle(VertexId vertex);
+  [[nodiscard]] bool is_settled(VertexId vertex) const {
+    return vertex.value < is_settled_.capacity() && is_settled_[vertex.value] != 0;
+  }
+  /// Whether a master has a vertex around which others were let go: it cannot be made anew any more.
+  [[nodiscard]] bool is_half_baked(std::uint32_t master) const {
+    const auto& v = masters_[master].vertices;
+    return std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return is_settled(vertex) && is_settled_[vertex.value] == kHalfBaked; });
+  }
+  /// Whether a live tet has a settled vertex.
+  [[nodiscard]] bool is_at_settled(const TetMesh& mesh, TetId tet) const {
+    const TetVertices& v = mesh.vertices(tet);
+    return is_settled(closed(v[0])) || is_settled(closed(v[1])) || is_settled(closed(v[2])) || is_settled(closed(v[3]));
+  }
+
   [[nodiscard]] bool is_on(VertexId vertex) const {
     return vertex.value < is_on_.capacity() && is_on_[vertex.value] != 0;
   }
@@ -197,6 +223,10 @@ class ClosedComplex {
 
  private:
   void flood_star(const TetMesh& mesh, VertexId vertex, std::size_t from);
+  void unlink_edge(std::uint32_t master, unsigned e);
+  void unlink_point(std::uint32_t master, unsigned side);
+  void unlink_vertex(std::uint32_t master, unsigned corner);
+  std::uint32_t take_block(std::size_t count);
   void count_flag(const ClosedEdge& edge, bool is_flagged);
   void link(std::uint32_t master, unsigned side, const TetMesh& mesh);
   [[nodiscard]] unsigned side_with(const Master& master, const TetMesh& mesh, Side facet) const;
@@ -216,8 +246,12 @@ class ClosedComplex {
   std::vector<std::uint32_t> free_lists_;
   ZeroedArray<std::uint32_t> flagged_at_;  // by vertex slot
   ZeroedArray<std::uint32_t> master_at_;   // by vertex slot: 1 + the master adopted last that has it
+  ZeroedArray<std::uint32_t> count_at_;    // by vertex slot: the masters that have it
+  static constexpr std::uint8_t kHalfBaked = 2;
   ZeroedArray<std::uint8_t> is_on_;
-  std::vector<VertexId> on_, retired_;
+  ZeroedArray<std::uint8_t> is_settled_;  // by vertex slot: 1, or kHalfBaked
+  std::vector<std::uint32_t> free_masters_;
+  std::vector<VertexId> retired_;
   std::vector<std::uint32_t> star_, dirty_;
   std::span<const std::uint32_t> scope_;
   std::uint32_t mark_ = 0;

@@ -179,6 +179,11 @@ void ContactWalk::visit(std::uint32_t master) {
   const std::array<Vec3, 4> corners = {mesh_->rest(m.vertices[0]), mesh_->rest(m.vertices[1]),
                                        mesh_->rest(m.vertices[2]), mesh_->rest(m.vertices[3])};
   if (meets(corners)) {
+    if (m.is_settled) {
+      m.missed = step_;
+      left_behind_.push_back(m.vertices);
+      return;
+    }
     m.seen = step_;
     if (m.first_met == 0) m.first_met = step_;
     met_.push_back(master);
@@ -196,6 +201,11 @@ void ContactWalk::visit(const TetMesh& mesh, TetId tet) {
   if (rejected_[tet.value] == walk_) return;
   const TetVertices& v = mesh.vertices(tet);
   if (meets({mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])})) {
+    if (complex_->is_at_settled(mesh, tet)) {
+      rejected_[tet.value] = walk_;
+      left_behind_.push_back(v);
+      return;
+    }
     const std::uint32_t master = complex_->adopt(mesh, tet);
     (*complex_)[master].seen = (*complex_)[master].first_met = step_;
     met_.push_back(master);
@@ -240,6 +250,7 @@ const std::vector<std::uint32_t>& ContactWalk::find(const TetMesh& mesh, const S
   mesh_ = &mesh;
   step_ = step;
   ++walk_;
+  left_behind_.clear();
   prepare(strip);
   std::swap(met_, last_);
   met_.clear();
@@ -271,6 +282,13 @@ void ContactWalk::keep_front(const TetMesh& mesh, const ClosedComplex& complex, 
     return true;
   };
   std::erase_if(front_, is_left);
+}
+
+void ContactWalk::forget_released(const ClosedComplex& complex) {
+  const auto is_released = [&](std::uint32_t index) { return complex[index].split == nullptr; };
+  std::erase_if(front_, is_released);
+  std::erase_if(met_, is_released);
+  std::erase_if(last_, is_released);
 }
 
 }  // namespace incise::inline v0

@@ -22,6 +22,7 @@ class ContactWalk {
  public:
   void clear() {
     met_.clear();
+    last_.clear();
     front_.clear();
   }
   /// The masters that the strip meets, each once, in the order of the walk; tets that were none yet become masters.
@@ -32,6 +33,11 @@ class ContactWalk {
   /// Notes where the front lies now, `row`, among the masters met last and where it lay before: the next strip is
   /// looked for from there, wherever along the blade it begins. Cost: O(masters · segments).
   void keep_front(const TetMesh& mesh, const ClosedComplex& complex, std::span<const SosPoint> row);
+  /// The vertices of what the strip looked for last may pass through and the blade has left: settled masters, and tets
+  /// beside them that are none. They are not among the masters met.
+  [[nodiscard]] const std::vector<TetVertices>& left_behind() const { return left_behind_; }
+  /// Forgets masters that were let go.
+  void forget_released(const ClosedComplex& complex);
 
  private:
   void visit(std::uint32_t master);
@@ -63,6 +69,7 @@ class ContactWalk {
   std::vector<std::uint32_t> front_;       // masters that the blade's front may lie in
   ZeroedArray<std::uint32_t> rejected_;    // by tet slot: the walk that turned it down
   ZeroedArray<std::uint32_t> found_near_;  // by tet slot: the walk that had it in `near_`
+  std::vector<TetVertices> left_behind_;
   std::uint32_t walk_ = 0;
 };
 

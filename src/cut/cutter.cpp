@@ -145,6 +145,7 @@ class Cutter::Pipeline {
   }
   void forget() { stroke_cut_.forget(); }
   void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
+  [[nodiscard]] bool is_busy(TetId tet) const { return stroke_cut_.complex().find(tet) != Master::kNone; }
   [[nodiscard]] const SweptTriangles& swept() const { return swept_; }
 
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
@@ -303,18 +304,30 @@ class Cutter::Pipeline {
   /// new sheet, to which the one so far is an older cut.
   Status follow(TetMesh& mesh, Journal& journal, BladeMotion::Move move, StageTimes& times) {
     if (move.strip == nullptr) return {};
-    if (move.starts_anew || (!is_in_material_ && stroke_cut_.crosses_own_cut(mesh, *move.strip, kApart))) {
+    if (move.starts_anew || comes_back(mesh, *move.strip)) {
       finish_sheet(mesh, journal, times);
       stroke_cut_.begin(tag_, spacing_);
       if (between_sheets_) between_sheets_();
       stroke_cut_.prepare(mesh, journal);
+      if (is_in_material_) material_.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
       move.strip = motion_.lay_anew(surroundings(mesh));
     }
     note_swept(move.strip->surface);
     stroke_cut_.keep_pieces(is_in_material_);
     Status status = stroke_cut_.advance(mesh, journal, std::move(move.strip), rules(), statistics_, times);
-    if (status && stroke_cut_.must_finish()) go_on_from_front(mesh, journal, times);
+    if (!status) return status;
+    if (stroke_cut_.must_finish()) {
+      go_on_from_front(mesh, journal, times);
+    } else {
+      const auto pinned = is_in_material_ ? material_.masters() : std::vector<std::uint32_t>();
+      stroke_cut_.bake(mesh, journal, rules(), pinned, statistics_, times);
+    }
     return status;
+  }
+  /// Whether a strip comes back to what the sheet is done with.
+  bool comes_back(const TetMesh& mesh, const Strip& strip) {
+    if (!is_in_material_ && stroke_cut_.crosses_own_cut(mesh, strip, kApart)) return true;
+    return stroke_cut_.comes_back(mesh, strip);
   }
   /// Finishes the sheet where it is; the next one goes on from there.
   void go_on_from_front(TetMesh& mesh, Journal& journal, StageTimes& times) {
@@ -410,6 +423,9 @@ void Cutter::forget() {
 }
 void Cutter::call_between_sheets(std::function<void()> between_sheets) {
   pipeline_->call_between_sheets(std::move(between_sheets));
+}
+bool Cutter::is_busy(TetId tet) const {
+  return pipeline_->is_busy(tet);
 }
 const SweptTriangles& Cutter::swept() const {
   return pipeline_->swept();

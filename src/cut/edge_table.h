@@ -31,10 +31,17 @@ template <class Edge>
 class BasicEdgeTable {
  public:
   void clear() {
-    for (std::uint32_t i = size(); i-- > 0;) {  // last added first, so that no search passes a gap
-      slots_[slot_of(edges_[i].a, edges_[i].b)] = 0;
+    for (std::uint32_t i = size(); i-- > 0;) {
+      if (edges_[i].a.is_valid()) close_gap(slot_of(edges_[i].a, edges_[i].b));
     }
     edges_.clear();
+    free_.clear();
+  }
+  /// Takes an edge out; its index is used again.
+  void erase(std::uint32_t index) {
+    close_gap(slot_of(edges_[index].a, edges_[index].b));
+    edges_[index] = Edge();
+    free_.push_back(index);
   }
   /// The index of the edge, added where it is new.
   std::uint32_t find_or_add(VertexId a, VertexId b) {
@@ -49,14 +56,14 @@ class BasicEdgeTable {
       Edge edge;
       edge.a = a;
       edge.b = b;
-      edges_.push_back(edge);
-      slot = size();
+      slot = add(edge) + 1;
     }
     return slot - 1;
   }
   Edge& operator[](std::uint32_t index) { return edges_[index]; }
   const Edge& operator[](std::uint32_t index) const { return edges_[index]; }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(edges_.size()); }
+  /// Those taken out have no valid ends.
   [[nodiscard]] GrowArray<Edge>& edges() { return edges_; }
   [[nodiscard]] const GrowArray<Edge>& edges() const { return edges_; }
 
@@ -76,10 +83,33 @@ class BasicEdgeTable {
     }
     return i;
   }
+  std::uint32_t add(const Edge& edge) {
+    if (free_.empty()) {
+      edges_.push_back(edge);
+      return size() - 1;
+    }
+    const std::uint32_t index = free_.back();
+    free_.pop_back();
+    edges_[index] = edge;
+    return index;
+  }
+  /// Empties a slot, and moves those behind it up, so that no search ends before its edge.
+  void close_gap(std::size_t gap) {
+    const std::size_t mask = slots_.size() - 1;
+    slots_[gap] = 0;
+    for (std::size_t i = (gap + 1) & mask; slots_[i] != 0; i = (i + 1) & mask) {
+      const Edge& edge = edges_[slots_[i] - 1];
+      const std::size_t home = hash_of(edge.a, edge.b) & mask;
+      if (((i - home) & mask) < ((i - gap) & mask)) continue;
+      slots_[gap] = std::exchange(slots_[i], 0U);
+      gap = i;
+    }
+  }
   void rehash(std::size_t capacity) {
     slots_.assign(capacity, 0U);
     const std::size_t mask = capacity - 1;
     for (std::uint32_t index = 0; index < size(); ++index) {
+      if (!edges_[index].a.is_valid()) continue;
       std::size_t i = hash_of(edges_[index].a, edges_[index].b) & mask;
       while (slots_[i] != 0) {
         i = (i + 1) & mask;
@@ -90,6 +120,7 @@ class BasicEdgeTable {
 
   GrowArray<Edge> edges_;
   std::vector<std::uint32_t> slots_;  // 0 empty, 1 + index
+  std::vector<std::uint32_t> free_;   // indices of edges that were taken out
 };
 
 using EdgeTable = BasicEdgeTable<CutEdge>;

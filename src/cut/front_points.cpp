@@ -224,7 +224,7 @@ class PointUpdate {
   }
   void refresh(std::uint32_t at, std::uint32_t master, unsigned side) {
     FrontPoint& point = complex_.point(at);
-    if (point.tested == step_) return;
+    if (point.tested == step_ || point.is_final) return;
     point.tested = step_;
     const Face face = face_of(complex_[master], side);
     const End end = end_in(complex_[master], side, face);
@@ -342,12 +342,14 @@ Vec3 back_on_sheet(const TetMesh& mesh, const OwnSheet& sheet, const Face& face,
 
 }  // namespace
 
-void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, double margin, ClosedComplex& complex) {
-  for (std::uint32_t index = 0; index < complex.size(); ++index) {
-    if (complex[index].split == nullptr) continue;
+void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, const Wake& wake, double margin,
+                        ClosedComplex& complex) {
+  const auto is_near = [&](VertexId v) { return wake.is_near(v); };
+  for (const std::uint32_t index : wake.settling()) {
     for (const std::uint32_t at : complex[index].points) {
-      if (at == Master::kNone) continue;
+      if (at == Master::kNone || complex.point(at).is_final) continue;
       FrontPoint& point = complex.point(at);
+      if (std::any_of(point.face.begin(), point.face.end(), is_near)) continue;
       if (blend(mesh, point.face, point.weights) != point.pierced) {  // a vertex of the face has moved
         point.pierced = back_on_sheet(mesh, sheet, point.face, point.pierced);
         point.weights = normalised(weights_of(mesh, point.face, point.pierced));
@@ -355,7 +357,11 @@ void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, double margi
       const std::array<double, 3> weights = slid(point.weights, point.slide, margin, kMostSlide);
       const Vec3 place = blend(mesh, point.face, kept_off(normalised(weights), kLeastMargin));
       if (place != point.position) point.position = place;
-      if (!point.vertex.is_valid() || mesh.rest(point.vertex) != place) complex.mark_dirty(index);
+      point.is_final = true;
+      if (point.vertex.is_valid() && mesh.rest(point.vertex) == place) continue;
+      for (const std::uint32_t master : point.masters) {
+        if (master != Master::kNone) complex.mark_dirty(master);
+      }
     }
   }
 }

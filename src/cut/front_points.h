@@ -7,6 +7,7 @@
 #include "cut/closed_complex.h"
 #include "cut/older_walls.h"
 #include "cut/strip.h"
+#include "cut/wake.h"
 
 namespace incise::inline v0 {
 
@@ -33,10 +34,12 @@ struct FrontRules {
 std::uint64_t update_front_points(const TetMesh& mesh, const OwnSheet& sheet, std::span<const std::uint32_t> masters,
                                   const FrontRules& rules, std::uint32_t step, ClosedComplex& complex);
 
-/// Gives all front points another margin, to which they slide along the line in which the sheet passes through their
-/// face, so that they stay on the sheet; and puts them back on it where vertices of the face have moved.
-/// Marks what moves as dirty. Cost: O(masters), with a search of the sheet for each point.
-void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, double margin, ClosedComplex& complex);
+/// Gives the front points of masters that settle another margin, to which they slide along the line in which the sheet
+/// passes through their face, so that they stay on the sheet; and puts them back on it where vertices of the face have
+/// moved. From then on they are final. Marks what moves as dirty. Cost: O(settling masters), with a search of the sheet
+/// for each point.
+void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, const Wake& wake, double margin,
+                        ClosedComplex& complex);
 
 /// How far an older wall may pass beside a place of the sheet that counts as open already, as a share of the local
 /// edge, with snapping and without; and how far short of that place its rim may end.

@@ -407,6 +407,16 @@ void MaterialBlade::advance(const TetMesh& mesh, const SurfaceIndex& surface, Cl
   }
 }
 
+std::vector<std::uint32_t> MaterialBlade::masters() const {
+  std::vector<std::uint32_t> masters;
+  for (const Point& point : points_) {
+    if (point.master != Master::kNone) masters.push_back(point.master);
+  }
+  std::sort(masters.begin(), masters.end());
+  masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
+  return masters;
+}
+
 void MaterialBlade::find_masters(const TetMesh& mesh, const SurfaceIndex& surface, ClosedComplex& complex) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const TetId tet = incise::locate(mesh, surface, {anchors_[i], next_key_++});

@@ -47,6 +47,8 @@ class MaterialBlade {
   [[nodiscard]] double lead(std::size_t point) const { return points_[point].lead; }
   /// Takes the accepted points as the new front. Their tets become masters, so that the front is found again.
   void advance(const TetMesh& mesh, const SurfaceIndex& surface, ClosedComplex& complex);
+  /// The masters that hold the front, or did where a point has left the body: its place is told by them.
+  [[nodiscard]] std::vector<std::uint32_t> masters() const;
   /// Finds the masters of the front anew, after those before were let go.
   void find_masters(const TetMesh& mesh, const SurfaceIndex& surface, ClosedComplex& complex);
 

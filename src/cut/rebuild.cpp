@@ -710,7 +710,8 @@ class Rebuild::Run {
   /// Makes the incision of the master that a wall belongs to part of the rebuild, where it was not: its children stay.
   bool take_in(Side side) {
     const std::uint32_t index = complex_.find(side.tet());
-    if (mesh_.link(side) != Link::boundary(settings_.tag) || index == Master::kNone || complex_[index].is_dirty) {
+    if (mesh_.link(side) != Link::boundary(settings_.tag) || index == Master::kNone || complex_[index].is_dirty ||
+        complex_.is_half_baked(index)) {
       return false;
     }
     complex_.mark_dirty(index);

@@ -293,7 +293,7 @@ class CloseVertices {
     const bool is_open = has_odd_face(master.flagged);
     for (unsigned c = 0; c < 4; ++c) {
       const VertexId v = master.vertices[c];
-      if (complex_.flagged_at(v) == 0 || complex_.is_on(v)) continue;
+      if (complex_.flagged_at(v) == 0 || complex_.is_on(v) || complex_.is_settled(v)) continue;
       std::uint32_t& at = scratch_.index_of_vertex[v.value];
       if (at == 0) {
         noted_.push_back({v, index});

@@ -22,6 +22,9 @@ constexpr double kGrazeShare = 0.02;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
 constexpr double kFinalMargin = 0.04;
+/// What lies further behind the front than so many spacings is settled: less than that, and a blade that trembles would
+/// come back to it.
+constexpr double kBand = 0.5;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
@@ -278,6 +281,26 @@ bool StrokeCut::crosses_own_cut(const TetMesh& mesh, const Strip& strip, double 
   });
 }
 
+bool StrokeCut::comes_back(const TetMesh& mesh, const Strip& strip) {
+  if (sheet_.strips().empty()) return false;
+  const auto is_left = [&](const StripCrossing& crossing) {
+    const ClosedEdge& edge = complex_.edges()[crossing.edge];
+    if (crossing.count % 2 == 0) return false;
+    bool touches = complex_.is_settled(edge.a) || complex_.is_settled(edge.b);
+    complex_.for_each_around(crossing.edge, [&](std::uint32_t m) { touches |= complex_.is_half_baked(m); });
+    return touches;
+  };
+  if (std::any_of(crossed_->begin(), crossed_->end(), is_left)) return true;
+  left_sides_.begin(mesh, strip.sheet);
+  const auto is_crossed = [&](const TetVertices& v) {
+    return std::any_of(kEdgeCorners.begin(), kEdgeCorners.end(), [&](const auto& corners) {
+      const VertexId a = v[corners[0]], b = v[corners[1]];
+      return find_crossings(mesh, strip.sheet, left_sides_, std::min(a, b), std::max(a, b)).is_odd();
+    });
+  };
+  return std::any_of(walk_.left_behind().begin(), walk_.left_behind().end(), is_crossed);
+}
+
 /// Whether two crossings of an edge, by the sheet so far and by a strip, belong to one smooth part: the cut follows the
 /// chord, as within one strip.
 bool StrokeCut::is_graze(const TetMesh& mesh, const Strip& strip, const StripCrossing& crossing) const {
@@ -326,14 +349,14 @@ void StrokeCut::let_go_of_older_cut(const TetMesh& mesh) {
       if (needs_split(master, e) && complex_.edges()[master.edges[e]].is_crossed) waiting.push_back(master.edges[e]);
     }
   };
-  for (std::uint32_t i = 0; i < complex_.size(); ++i) {
-    if (complex_[i].split != nullptr && has_odd_face(complex_[i].flagged)) wait(complex_[i]);
+  for (const std::uint32_t i : wake_.settling()) {
+    if (has_odd_face(complex_[i].flagged)) wait(complex_[i]);
   }
   for (std::size_t i = 0; i < waiting.size(); ++i) {
     const ClosedEdge& edge = complex_.edges()[waiting[i]];
     const double length = (mesh.rest(edge.b) - mesh.rest(edge.a)).norm();
     const double scale = std::max(length, kLeastScale * spacing_);
-    if (!edge.is_flagged() || !is_at_border(waiting[i]) ||
+    if (!edge.is_flagged() || !may_let_go(waiting[i]) || !is_at_border(waiting[i]) ||
         !older.pass(edge.position, edge.normal, beside() * scale, kBeyondRim * scale)) {
       continue;
     }
@@ -341,6 +364,13 @@ void StrokeCut::let_go_of_older_cut(const TetMesh& mesh) {
     refresh_around(waiting[i]);
     complex_.for_each_around(waiting[i], [&](std::uint32_t master) { wait(complex_[master]); });
   }
+}
+
+/// Whether the tets around an edge are being settled: all, and now.
+bool StrokeCut::may_let_go(std::uint32_t edge) const {
+  bool is_settled = wake_.is_near(complex_.edges()[edge].a) || wake_.is_near(complex_.edges()[edge].b);
+  complex_.for_each_around(edge, [&](std::uint32_t m) { is_settled |= complex_[m].is_settled; });
+  return !is_settled;
 }
 
 /// Whether the cut ends in a face that has a certain edge.
@@ -365,15 +395,32 @@ void StrokeCut::settle_front(const TetMesh& mesh, const FrontRules& rules, CutSt
   place_front(mesh, changed, rules, statistics);
 }
 
-void StrokeCut::finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics,
-                       StageTimes& times) {
-  const StageZone zone(times, Stage::kSeparate);
+/// What the sheet does to these masters is known: their vertices land, and their front points move to their last place.
+void StrokeCut::settle(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics) {
   settle_front(mesh, rules, statistics);
   if (!complex_.dirty().empty()) rebuild(mesh, journal, true, statistics);
   land(mesh, journal, statistics);
-  place_front_points(mesh, sheet_, kFinalMargin, complex_);
+  place_front_points(mesh, sheet_, wake_, kFinalMargin, complex_);
   if (!complex_.dirty().empty()) rebuild(mesh, journal, true, statistics);
   if (make_idle_cones_whole(mesh)) rebuild(mesh, journal, true, statistics);
+}
+
+void StrokeCut::bake(TetMesh& mesh, Journal& journal, const FrontRules& rules, std::span<const std::uint32_t> pinned,
+                     CutStatistics& statistics, StageTimes& times) {
+  const StageZone zone(times, Stage::kSeparate);
+  wake_.find(mesh, complex_, sheet_.strips().back()->row, kBand * spacing_, pinned);
+  if (wake_.settling().empty()) return;
+  settle(mesh, journal, rules, statistics);
+  if (wake_.let_go(complex_) == 0) return;
+  walk_.forget_released(complex_);
+  std::erase_if(snapping_.coincident, [&](VertexId v) { return !complex_.is_on(v); });
+}
+
+void StrokeCut::finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics,
+                       StageTimes& times) {
+  const StageZone zone(times, Stage::kSeparate);
+  wake_.find(mesh, complex_, {}, 0.0, {});
+  settle(mesh, journal, rules, statistics);
   for (std::uint32_t i = 0; i < complex_.size(); ++i) {
     if (complex_[i].split != nullptr && (complex_[i].is_pinched || complex_[i].has_latent_faces))
       complex_.mark_dirty(i);
@@ -396,12 +443,17 @@ bool StrokeCut::is_idle_cone(const TetMesh& mesh, const Master& master) const {
 /// Takes the front points out of sides between masters in which nothing came open. Returns whether there were any.
 bool StrokeCut::make_idle_cones_whole(const TetMesh& mesh) {
   std::vector<std::uint32_t> needless;
-  for (std::uint32_t i = 0; i < complex_.size(); ++i) {
-    if (complex_[i].split == nullptr || !is_idle_cone(mesh, complex_[i])) continue;
+  const auto has_near = [&](const Master& master) {
+    return std::any_of(master.vertices.begin(), master.vertices.end(), [&](VertexId v) { return wake_.is_near(v); });
+  };
+  const auto is_idle = [&](std::uint32_t index) {
+    return index == Master::kNone || (!has_near(complex_[index]) && is_idle_cone(mesh, complex_[index]));
+  };
+  for (const std::uint32_t i : wake_.settling()) {
+    if (!is_idle(i)) continue;
     for (unsigned s = 0; s < 4; ++s) {
-      const std::uint32_t at = complex_[i].points[s], behind = complex_[i].behind[s];
-      if (at == Master::kNone || (behind != Master::kNone && !is_idle_cone(mesh, complex_[behind]))) continue;
-      needless.push_back(at);
+      const std::uint32_t at = complex_[i].points[s];
+      if (at != Master::kNone && is_idle(complex_[i].behind[s])) needless.push_back(at);
     }
   }
   std::sort(needless.begin(), needless.end());
@@ -415,10 +467,15 @@ bool StrokeCut::make_idle_cones_whole(const TetMesh& mesh) {
   return !needless.empty();
 }
 
-/// The vertices that took part in the cut move onto its sheet.
+/// The vertices that took part in the cut move onto its sheet, once nothing near them is open.
 void StrokeCut::land(TetMesh& mesh, Journal& journal, CutStatistics& statistics) {
+  const auto waits = [&](const OnVertex& on) { return wake_.is_near(on.vertex); };
+  const auto first = std::stable_partition(on_.begin(), on_.end(), waits);
+  if (first == on_.end()) return;
+  const std::vector<OnVertex> landing(first, on_.end());
+  on_.erase(first, on_.end());
   Transaction transaction(mesh, true);
-  statistics.bent_vertices += move_on_vertices(transaction, sheet_, snap(), on_, complex_);
+  statistics.bent_vertices += move_on_vertices(transaction, sheet_, snap(), landing, complex_);
   Step step = transaction.commit();
   if (!step.is_empty()) journal.append(std::move(step));
 }

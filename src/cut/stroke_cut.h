@@ -13,6 +13,7 @@
 #include "cut/strip.h"
 #include "cut/strip_crossing.h"
 #include "cut/surface_index.h"
+#include "cut/wake.h"
 #include "incise/core/profile.h"
 #include "incise/cut/options.h"
 #include "incise/mesh/journal.h"
@@ -42,6 +43,11 @@ class StrokeCut {
   /// Cost: O(tets that the strip meets).
   Status advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> strip, const FrontRules& rules,
                  CutStatistics& statistics, StageTimes& times);
+  /// Settles what the blade has left behind, and lets go of it as far as the cut can no longer see it: its tets are
+  /// ordinary ones from then on. `pinned`: masters that are kept all the same. Appends journal steps, as `finish` does
+  /// for what is left in the end. Cost: O(masters kept), and that of what is settled.
+  void bake(TetMesh& mesh, Journal& journal, const FrontRules& rules, std::span<const std::uint32_t> pinned,
+            CutStatistics& statistics, StageTimes& times);
   /// A column of a strip that would close the cut again.
   struct RecrossedColumn {
     std::uint32_t column;
@@ -54,6 +60,9 @@ class StrokeCut {
   /// Whether a strip crosses an edge that the sheet has crossed elsewhere and is done with: the two would cancel there.
   /// Crossings nearer than `least_apart` of the edge are one. Adopts what the strip meets.
   [[nodiscard]] bool crosses_own_cut(const TetMesh& mesh, const Strip& strip, double least_apart);
+  /// Whether the strip that was last looked at by one of the two above passes through what the blade has left: the sheet
+  /// must be finished first, and is an older cut to it.
+  [[nodiscard]] bool comes_back(const TetMesh& mesh, const Strip& strip);
   /// Whether two fans of tets touch along an edge beside which two pieces meet, so that no face may be left joined
   /// there: the sheet must be finished, which parts such edges.
   [[nodiscard]] bool must_finish() const { return must_finish_; }
@@ -85,6 +94,8 @@ class StrokeCut {
   void let_go_of_older_cut(const TetMesh& mesh);
   [[nodiscard]] bool is_idle_cone(const TetMesh& mesh, const Master& master) const;
   bool make_idle_cones_whole(const TetMesh& mesh);
+  void settle(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics);
+  [[nodiscard]] bool may_let_go(std::uint32_t edge) const;
   [[nodiscard]] bool is_at_border(std::uint32_t edge) const;
   void settle_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
   void choose_on(const TetMesh& mesh, std::span<const std::uint32_t> masters, const SnapRules& rules,
@@ -106,6 +117,8 @@ class StrokeCut {
   Rebuild rebuild_;
   StarWalker walker_;
   PieceFinder pieces_;
+  Wake wake_;
+  SideSigns left_sides_;
   const std::vector<StripCrossing>* crossed_ = nullptr;  // of the current strip
   const std::vector<std::uint32_t>* met_ = nullptr;      // likewise
   std::vector<bool> reached_;  // by master: through faces, from where the current strip itself is

@@ -82,6 +82,7 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   }
   report.cut = *cut;
   tell(options_.log, *cut);
+  maintainer_.begin_reference(report.stroke);
   take_up(swept_triangles(stroke), report.stroke, first_step);
   report.maintain = maintain(options_.maintain.work_units, report.times, {});
   report.step_ms.push_back(milliseconds_since(start));
@@ -141,6 +142,7 @@ Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
   open_.report.stroke = next_stroke();
   open_.first_step = journal_.position();
   open_.poses = {pose};
+  maintainer_.begin_reference(open_.report.stroke);
   if (!is_paper()) {
     cutter_.begin(mesh_, journal_, pose.edge, has_moved_, open_.report.stroke);
   }
@@ -165,25 +167,35 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   }
   const auto start = std::chrono::steady_clock::now();
   StepReport report;
-  maintain_between_sheets();
+  maintain_between_sheets(report.maintain, report.times);
   Result<CutStatistics> cut = cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
   if (!cut) {
     return abort_stroke(cut.error());
   }
   report.cut = *cut;
+  maintain_wake(busy(), report.maintain, report.times);
   open_.report.cut += *cut;
+  open_.report.maintain += report.maintain;
   open_.report.times += report.times;
   open_.report.step_ms.push_back(milliseconds_since(start));
   return report;
 }
 
 /// Where the blade comes back to what it cut, it must find the mesh in shape: what it crosses twice would be slivers.
-void Engine::maintain_between_sheets() {
-  cutter_.call_between_sheets([this] {
-    take_up(cutter_.swept(), open_.report.stroke, open_.first_step);
-    open_.report.maintain += maintain(options_.maintain.work_units, open_.report.times, {});
-    open_.first_step = journal_.position();
-  });
+void Engine::maintain_between_sheets(MaintainStatistics& sum, StageTimes& times) {
+  cutter_.call_between_sheets([&, this] { maintain_wake(busy(), sum, times); });
+}
+
+/// The band around the front of the stroke under way.
+IsLocked Engine::busy() const {
+  return [this](TetId tet) { return cutter_.is_busy(tet); };
+}
+
+/// Maintains what the stroke has cut so far, but for what is locked.
+void Engine::maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times) {
+  take_up(cutter_.swept(), open_.report.stroke, open_.first_step, is_locked);
+  sum += maintain(options_.maintain.work_units, times, {}, is_locked);
+  open_.first_step = journal_.position();
 }
 
 /// A step that failed leaves the stroke as it was before; what it had found out about the mesh is lost, so that the
@@ -205,8 +217,7 @@ Result<StrokeReport> Engine::end_stroke() {
   if (Status status = close_stroke(); !status) {
     return status.error();
   }
-  take_up(cutter_.swept(), open_.report.stroke, open_.first_step);
-  open_.report.maintain += maintain(options_.maintain.work_units, open_.report.times, {});
+  maintain_wake({}, open_.report.maintain, open_.report.times);
   operations_.back().end = journal_.position();
   tell(options_.log, open_.report.cut);
   return std::move(open_.report);
@@ -215,7 +226,7 @@ Result<StrokeReport> Engine::end_stroke() {
 /// The stroke becomes an operation, cut to where the blade was last.
 Status Engine::close_stroke() {
   is_in_stroke_ = false;
-  maintain_between_sheets();
+  maintain_between_sheets(open_.report.maintain, open_.report.times);
   Result<CutStatistics> cut = cutter_.end(mesh_, journal_, open_.report.times);
   push_operation(true);
   if (!cut) {
@@ -260,7 +271,8 @@ Status Engine::set_positions(std::span<const Vec3> positions) {
 }
 
 /// Hands the surroundings of a fresh cut to whoever maintains the mesh.
-void Engine::take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step) {
+void Engine::take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step,
+                     const IsLocked& is_locked) {
   if (!maintains()) {
     return;
   }
@@ -268,17 +280,18 @@ void Engine::take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t
     paper_first_step_ = std::min(paper_first_step_, first_step);
     return;
   }
-  maintainer_.set_reference(tag, TriangleTree(sweep.points, sweep.triangles));
-  maintainer_.take_up(mesh_, journal_, first_step);
+  maintainer_.extend_reference(tag, sweep.points, sweep.triangles);
+  maintainer_.take_up(mesh_, journal_, first_step, is_locked);
 }
 
 bool Engine::maintains() const {
   return (options_.maintain.merge || options_.maintain.improve) && !mesh_.folds_over_at_load();
 }
 
-MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop) {
+MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop,
+                                    const IsLocked& is_locked) {
   if (!is_paper()) {
-    return maintainer_.run(mesh_, journal_, work_units, times, should_stop);
+    return maintainer_.run(mesh_, journal_, work_units, times, should_stop, is_locked);
   }
   if (paper_first_step_ == kNothingWaits || work_units == 0) {
     return {};

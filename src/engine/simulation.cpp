@@ -76,10 +76,11 @@ Status check(const FrameInput& input) {
   return {};
 }
 
-/// The tets that the latest steps made; some may be gone again.
+/// The tets that the latest steps of cutting made; some may be gone again. Those of maintenance list their edits.
 std::vector<TetId> fresh_tets(const Journal& journal, std::size_t first_step) {
   std::vector<TetId> tets;
   for (std::size_t i = first_step; i < journal.position(); ++i) {
+    if (!journal.step(i).edits.empty()) continue;
     for (const ProducedTet& tet : journal.step(i).produced) tets.push_back(tet.id);
   }
   return tets;
@@ -266,8 +267,10 @@ Status Simulation::State::cut(const FrameInput& input, FrameReport& report) {
     return step.error();
   }
   report.cut = step->cut;
+  report.maintain = step->maintain;
   report.times += step->times;
   told.cut += step->cut;
+  told.maintain += step->maintain;
   told.times += step->times;
   if (!coupling.resists()) return {};
   const StageZone zone(report.times, Stage::kCollision);
@@ -285,6 +288,7 @@ Status Simulation::State::lift_blade(FrameReport& report) {
   report.cut = stroke->cut;
   report.cut -= told.cut;
   report.maintain = stroke->maintain;
+  report.maintain -= told.maintain;
   report.times += stroke->times;
   report.times -= told.times;
   return {};

@@ -27,14 +27,16 @@ double wall_share(const TetMesh& mesh, const TetVertices& vertices, const TetLin
 
 double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh& mesh, std::uint32_t stroke) {
   std::vector<const TetImage*> before;  // as they were before the first step that touched them
-  std::vector<TetId> touched;
+  std::vector<TetId> touched, made;  // by the steps themselves: these had no wall before them
   for (std::size_t i = first_step; i < journal.position(); ++i) {
     for (const TetImage& image : journal.step(i).before.tets) {
       before.push_back(&image);
       touched.push_back(image.id);
     }
-    for (const TetId id : journal.step(i).new_tets) touched.push_back(id);
+    const std::vector<TetId>& news = journal.step(i).new_tets;
+    made.insert(made.end(), news.begin(), news.end());
   }
+  touched.insert(touched.end(), made.begin(), made.end());
   const auto has_lower_id = [](const TetImage* a, const TetImage* b) { return a->id.value < b->id.value; };
   std::stable_sort(before.begin(), before.end(), has_lower_id);
   const auto has_same_id = [](const TetImage* a, const TetImage* b) { return a->id == b->id; };
@@ -47,13 +49,8 @@ double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh
   for (const TetId id : touched) {
     if (mesh.is_live(id)) growth += wall_share(mesh, mesh.vertices(id), mesh.links(id), stroke);
   }
-  const auto was_new = [&](TetId id) {  // made by the steps themselves: it had no wall before them
-    for (std::size_t i = first_step; i < journal.position(); ++i) {
-      const auto& made = journal.step(i).new_tets;
-      if (std::find(made.begin(), made.end(), id) != made.end()) return true;
-    }
-    return false;
-  };
+  std::sort(made.begin(), made.end(), is_lower);
+  const auto was_new = [&](TetId id) { return std::binary_search(made.begin(), made.end(), id, is_lower); };
   for (const TetImage* image : before) {
     if (image->vertices[0].is_valid() && !was_new(image->id)) {
       growth -= wall_share(mesh, image->vertices, image->links, stroke);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,6 +25,12 @@ struct Care {
   bool is_bad;                  ///< the tet in hand is bad: surfaces may give way more
   VertexId born;                ///< out: the vertex that the last accepted operation put in
   std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
+  const IsLocked* is_locked = nullptr;
+
+  /// Whether an operation may change all of some tets.
+  [[nodiscard]] bool may_change(std::span<const TetId> tets) const {
+    return is_locked == nullptr || !*is_locked || std::none_of(tets.begin(), tets.end(), std::cref(*is_locked));
+  }
 
   /// To be called with tets whose boundary an operation is about to judge or to change.
   void note(std::span<const TetId> tets) const { references.skin().note(mesh, tets); }

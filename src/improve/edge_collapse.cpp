@@ -125,6 +125,8 @@ void EdgeCollapser::begin(Care& care, VertexId from) {
   begun_ = from;
   has_before_ = false;
   star_ = care.walker.star(care.mesh, from);
+  is_held_ = !care.may_change(star_);
+  if (is_held_) return;
   surfaces_ = surfaces_at(care.mesh, from, star_);
   worst_ = worst_of(care, star_);
   longest_ = 0;
@@ -144,7 +146,7 @@ bool EdgeCollapser::try_collapse(Care& care, VertexId from, VertexId into) {
   begin(care, from);
   plan_.into = into;
   place_ = care.mesh.rest(into);
-  if (!may_merge(care) || !is_short_enough(care) || !improves(care)) {
+  if (is_held_ || !may_merge(care) || !is_short_enough(care) || !improves(care)) {
     return false;
   }
   if (is_curved() && !(keep_volume(care) && improves(care) && keeps_surfaces(care))) {
@@ -224,6 +226,9 @@ bool EdgeCollapser::keep_volume(const Care& care) {
     return std::abs(patches_[0].lost6 + patches_[1].lost6) <= kFrontVolume * longest_ * longest_ * longest_;
   }
   around_ = care.walker.star(care.mesh, plan_.into);
+  if (!care.may_change(around_)) {
+    return false;
+  }
   VertexSurfaces merged;
   std::array<double, 2> lost6{};
   for_each_face(care.mesh, star_, plan_.from, plan_.into, [&](std::uint32_t tag, Side side) {

@@ -57,6 +57,7 @@ class EdgeCollapser {
   VertexSurfaces surfaces_;
   double worst_ = 0;         // ratio in its star
   double longest_ = 0;       // edge of its
+  bool is_held_ = false;     // a tet around the vertex begun is locked
   bool has_before_ = false;  // the patches' pieces before, and their limits, are known
 
   std::vector<TetId> around_;  // the star of `into`

@@ -61,7 +61,7 @@ bool EdgeRemover::try_edge(Care& care, VertexId a, VertexId b, TetId seed) {
     return false;
   }
   find_edge_ring(care.mesh, a, b, seed, ring_);
-  if (!is_removable(care)) {
+  if (!is_removable(care) || !care.may_change(ring_.tets)) {
     return false;
   }
   const double before = worst_of(care, ring_.tets);
@@ -184,7 +184,7 @@ bool FaceRemover::try_face(Care& care, Side face) {
   const bool is_better = std::all_of(plan_.produced.begin(), plan_.produced.end(),
                                      [&](const NewTet& tet) { return inradius_ratio(mesh, tet.vertices) > bound; });
   const std::array<VertexId, 2> edge = {p, q};
-  if (!is_better || exists_elsewhere(care, edge, plan_.consumed) || !keeps_current(mesh, plan_)) {
+  if (!is_better || !care.may_change(plan_.consumed) || exists_elsewhere(care, edge, plan_.consumed) || !keeps_current(mesh, plan_)) {
     return false;
   }
   care.note(plan_.consumed);

@@ -53,6 +53,9 @@ bool VertexInserter::improve_at_edge(Care& care, TetId tet, VertexId a, VertexId
   if (ring_.is_closed || ring_.tets.empty() || !open_edge(care, a, b)) {
     return false;
   }
+  if (!care.may_change(ring_.tets)) {
+    return false;
+  }
   cavity_ = ring_.tets;
   place_ = 0.5 * (care.mesh.rest(a) + care.mesh.rest(b));
   return search(care);
@@ -170,7 +173,8 @@ bool VertexInserter::grow(Care& care) {
     const Link link = care.mesh.link(base.side);
     const bool may_grow = !link.is_boundary() &&
                           care.mesh.region(link.side().tet()) == care.mesh.region(base.side.tet()) &&
-                          !care.mesh.is_flat_at_load(link.side().tet()) && !is_pinched(care.mesh, base.side);
+                          !care.mesh.is_flat_at_load(link.side().tet()) && !is_pinched(care.mesh, base.side) &&
+                          care.may_change(std::array{link.side().tet()});
     if (may_grow && (worst == nullptr || base.ratio < worst->ratio)) {
       worst = &base;
     }

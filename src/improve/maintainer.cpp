@@ -61,29 +61,30 @@ class Maintainer::Queue {
  public:
   explicit Queue(MaintainOptions options) : options_(options) {}
 
-  void set_reference(std::uint32_t stroke, TriangleTree sweep) { references_.set(stroke, std::move(sweep)); }
+  References& references() { return references_; }
 
-  void take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step) {
-    if (heap_.empty()) {
+  void take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step, const IsLocked& is_locked) {
+    if (!has_work()) {
       ++epoch_;
     }
-    std::vector<VertexId> touched;
-    std::vector<OpenedFace> opened;
     for (std::size_t i = first_step; i < journal.position(); ++i) {
       const Step& step = journal.step(i);
-      std::copy_if(step.opened.begin(), step.opened.end(), std::back_inserter(opened), [&](const OpenedFace& face) {
-        return is_wall(mesh, face.a, face.tag) && is_wall(mesh, face.b, face.tag);
-      });
-      for (const BornVertex& v : step.born) touched.push_back(v.id);
-      for (const MovedVertex& v : step.moved) touched.push_back(v.id);
-      for (const CopiedVertex& v : step.copied) touched.insert(touched.end(), {v.id, v.source});
+      opened_.insert(opened_.end(), step.opened.begin(), step.opened.end());
+      for (const BornVertex& v : step.born) touched_.push_back(v.id);
+      for (const MovedVertex& v : step.moved) touched_.push_back(v.id);
+      for (const CopiedVertex& v : step.copied) touched_.insert(touched_.end(), {v.id, v.source});
     }
+    const std::vector<VertexId> touched = take_touched(mesh, is_locked);
+    const std::vector<OpenedFace> opened = take_opened(mesh, is_locked);
     references_.measure(mesh, opened);
+    take_held(mesh);
     std::vector<VertexId> ring;
     for (const VertexId v : touched) {
       add_with_neighbours(mesh, v, ring);
     }
-    is_at_seam_ = !opened.empty() && add_older_seam(mesh, opened.front().tag, ring);
+    if (!opened.empty()) tag_ = opened.front().tag;
+    for (const VertexId v : ring) taken_.push_back({v, mesh.generation(v)});
+    if (!is_locked) look_for_seam(mesh, ring);
     push_stars(mesh, ring);
     for (const VertexId v : ring) {
       if (!mesh.origin(v).is_valid()) crowd_.push_back({v, mesh.generation(v)});
@@ -98,13 +99,14 @@ class Maintainer::Queue {
   }
 
   MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
-                         const ShouldStop& should_stop) {
+                         const ShouldStop& should_stop, const IsLocked& is_locked) {
     statistics_ = {};
+    is_locked_ = &is_locked;
     work_units_ = work_units;
     should_stop_ = &should_stop;
     const std::size_t tets_before = mesh.tet_count();
-    if (has_work()) references_.skin().follow(mesh, journal);
-    while (has_work() && has_budget()) {
+    if (is_due()) references_.skin().follow(mesh, journal);
+    while (is_due() && has_budget()) {
       run_step(mesh, journal, times);
       references_.skin().skip(journal);
     }
@@ -112,15 +114,67 @@ class Maintainer::Queue {
     statistics_.created_tets = static_cast<std::int64_t>(mesh.tet_count()) - static_cast<std::int64_t>(tets_before);
     return statistics_;
   }
-  [[nodiscard]] bool has_work() const { return !heap_.empty() || !crowd_.empty(); }
+  [[nodiscard]] bool has_work() const { return is_due() || !touched_.empty() || !held_.empty() || !held_crowd_.empty(); }
   void forget(std::size_t position) {
     references_.skin().rewind(position);
     heap_.clear();
     crowd_.clear();
+    touched_.clear();
+    opened_.clear();
+    held_.clear();
+    held_crowd_.clear();
+    taken_.clear();
+    tag_ = 0;
     ++epoch_;
   }
 
  private:
+  /// Whether there is something to be done now.
+  [[nodiscard]] bool is_due() const { return !heap_.empty() || !crowd_.empty(); }
+  [[nodiscard]] bool is_free(const TetMesh& mesh, VertexId v, const IsLocked& is_locked) {
+    if (!is_locked || !mesh.is_live(v)) return true;
+    if (is_locked(mesh.tet_of(v))) return false;
+    const std::vector<TetId>& star = walker_.star(mesh, v);
+    return std::none_of(star.begin(), star.end(), std::cref(is_locked));
+  }
+  /// The touched vertices around which nothing is locked, each once; the others wait.
+  std::vector<VertexId> take_touched(const TetMesh& mesh, const IsLocked& is_locked) {
+    std::sort(touched_.begin(), touched_.end());
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    const auto waits = [&](VertexId v) { return !is_free(mesh, v, is_locked); };
+    const auto first = std::stable_partition(touched_.begin(), touched_.end(), waits);
+    std::vector<VertexId> taken(first, touched_.end());
+    touched_.erase(first, touched_.end());
+    return taken;
+  }
+  /// The faces opened that are still walls, of tets that are not locked.
+  std::vector<OpenedFace> take_opened(const TetMesh& mesh, const IsLocked& is_locked) {
+    std::erase_if(opened_, [&](const OpenedFace& face) {
+      return !is_wall(mesh, face.a, face.tag) || !is_wall(mesh, face.b, face.tag);
+    });
+    const auto waits = [&](const OpenedFace& face) {
+      return is_locked && (is_locked(face.a.tet()) || is_locked(face.b.tet()));
+    };
+    const auto first = std::stable_partition(opened_.begin(), opened_.end(), waits);
+    std::vector<OpenedFace> taken(first, opened_.end());
+    opened_.erase(first, opened_.end());
+    return taken;
+  }
+  /// What was found locked before is looked at again.
+  void take_held(const TetMesh& mesh) {
+    const std::vector<TetId> held = std::exchange(held_, {});
+    for (const TetId tet : held) {
+      is_held_[tet.value] = 0;
+      if (mesh.is_live(tet)) push(mesh, tet);
+    }
+    crowd_.insert(crowd_.end(), held_crowd_.begin(), held_crowd_.end());
+    held_crowd_.clear();
+  }
+  void hold(TetId tet) {
+    is_held_.ensure(std::size_t{tet.value} + 1);
+    if (std::exchange(is_held_[tet.value], std::uint8_t{1}) == 0) held_.push_back(tet);
+  }
+  [[nodiscard]] bool is_locked(TetId tet) const { return *is_locked_ && (*is_locked_)(tet); }
   /// How near a vertex is to what was taken up: 2 touched, 1 a neighbour, 0 not in care.
   [[nodiscard]] unsigned nearness(VertexId v) const {
     const bool is_known = v.value < in_care_.capacity() && in_care_[v.value] / 4 == epoch_;
@@ -143,6 +197,18 @@ class Maintainer::Queue {
     for (const TetId tet : walker_.star(mesh, touched)) {
       for (const VertexId v : mesh.vertices(tet)) add_to_care(v, 1, added);
     }
+  }
+  /// Once the blade has gone, what the whole stroke touched is taken up again where it goes on from an older cut.
+  void look_for_seam(const TetMesh& mesh, std::vector<VertexId>& ring) {
+    std::vector<VertexId> all;
+    for (const auto& [v, generation] : std::exchange(taken_, {})) {
+      if (mesh.is_live(v) && mesh.generation(v) == generation) all.push_back(v);
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    is_at_seam_ = tag_ != 0 && add_older_seam(mesh, tag_, all);
+    tag_ = 0;
+    if (is_at_seam_) ring = all;
   }
   /// What an older cut had to leave dense around its end can be thinned out once this one, with another tag, goes on
   /// from there. Returns whether there is any.
@@ -204,8 +270,8 @@ class Maintainer::Queue {
   /// One journal step: bad tets first, then what the cut made needlessly dense, then the tets that could be better.
   void run_step(TetMesh& mesh, Journal& journal, StageTimes& times) {
     Transaction transaction(mesh, true);
-    Care care{transaction, mesh, references_, walker_, statistics_, false, {}, changed_};
-    for (std::uint64_t changes = 0; has_work() && has_budget() && changes < kChangesPerStep;) {
+    Care care{transaction, mesh, references_, walker_, statistics_, false, {}, changed_, is_locked_};
+    for (std::uint64_t changes = 0; is_due() && has_budget() && changes < kChangesPerStep;) {
       const bool has_bad = !heap_.empty() && heap_.front().ratio < kBad;
       const bool has_changed = has_bad || crowd_.empty() ? improve_worst(care, times) : thin_out_next(care, times);
       if (has_changed) {
@@ -222,6 +288,10 @@ class Maintainer::Queue {
     care.spend(1);
     const TetMesh& mesh = care.mesh;
     const bool is_fresh = mesh.is_live(worst.tet) && inradius_ratio(mesh, mesh.vertices(worst.tet)) == worst.ratio;
+    if (is_fresh && is_locked(worst.tet)) {
+      hold(worst.tet);
+      return false;
+    }
     care.is_bad = worst.ratio < kBad;
     return is_fresh && improve(care, worst.tet, times);
   }
@@ -229,8 +299,11 @@ class Maintainer::Queue {
     const StageZone zone(times, Stage::kMerge);
     care.is_bad = false;
     const auto [vertex, generation] = crowd_[next_in_crowd_++];
-    const bool has_merged = options_.merge && care.mesh.is_live(vertex) && care.mesh.generation(vertex) == generation &&
-                            collapser_.thin_out(care, vertex, is_at_seam_ ? kEnough : 1.0);
+    const bool is_there =
+        options_.merge && care.mesh.is_live(vertex) && care.mesh.generation(vertex) == generation;
+    const bool is_held = is_there && thinning_round_ == 0 && !is_free(care.mesh, vertex, *is_locked_);
+    if (is_held) held_crowd_.push_back({vertex, generation});
+    const bool has_merged = is_there && !is_held && collapser_.thin_out(care, vertex, is_at_seam_ ? kEnough : 1.0);
     if (next_in_crowd_ == crowd_.size()) {
       next_in_crowd_ = 0;
       if (++thinning_round_ == kThinningRounds) crowd_.clear();
@@ -267,11 +340,19 @@ class Maintainer::Queue {
   }
 
   MaintainOptions options_;
+  const IsLocked* is_locked_ = nullptr;  // of the run in progress
   References references_;
   MaintainStatistics statistics_;  // of the run in progress
   std::vector<Waiting> heap_;
   std::vector<TetId> changed_;
   std::vector<Crowded> crowd_;  // vertices that cuts made, to be merged where they are not needed
+  std::vector<VertexId> touched_;   // by steps of the journal; not taken into care yet, since tets there are locked
+  std::vector<OpenedFace> opened_;  // likewise
+  std::vector<TetId> held_;         // came up while they were locked
+  std::vector<Crowded> held_crowd_;
+  std::vector<Crowded> taken_;  // into care, during this stroke
+  std::uint32_t tag_ = 0;       // of this stroke's walls; 0 while there are none
+  ZeroedArray<std::uint8_t> is_held_;  // by tet slot
   std::size_t next_in_crowd_ = 0;
   unsigned thinning_round_ = 0;
   bool is_at_seam_ = false;
@@ -294,18 +375,23 @@ Maintainer::Maintainer(Maintainer&&) noexcept = default;
 Maintainer& Maintainer::operator=(Maintainer&&) noexcept = default;
 Maintainer::~Maintainer() = default;
 
-void Maintainer::set_reference(std::uint32_t stroke, TriangleTree sweep) {
-  queue_->set_reference(stroke, std::move(sweep));
+void Maintainer::begin_reference(std::uint32_t stroke) {
+  queue_->references().begin(stroke);
 }
-void Maintainer::take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step) {
-  queue_->take_up(mesh, journal, first_step);
+void Maintainer::extend_reference(std::uint32_t stroke, std::span<const Vec3> points,
+                                  std::span<const TriangleTree::Triangle> triangles) {
+  queue_->references().extend(stroke, points, triangles);
+}
+void Maintainer::take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step,
+                         const IsLocked& is_locked) {
+  queue_->take_up(mesh, journal, first_step, is_locked);
 }
 void Maintainer::take_up_all(const TetMesh& mesh) {
   queue_->take_up_all(mesh);
 }
 MaintainStatistics Maintainer::run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
-                                   const ShouldStop& should_stop) {
-  return queue_->run(mesh, journal, work_units, times, should_stop);
+                                   const ShouldStop& should_stop, const IsLocked& is_locked) {
+  return queue_->run(mesh, journal, work_units, times, should_stop, is_locked);
 }
 bool Maintainer::has_work() const {
   return queue_->has_work();

@@ -16,4 +16,16 @@ MaintainStatistics& MaintainStatistics::operator+=(const MaintainStatistics& oth
   return *this;
 }
 
+MaintainStatistics& MaintainStatistics::operator-=(const MaintainStatistics& part) {
+  work_units -= part.work_units;
+  collapsed_edges -= part.collapsed_edges;
+  moved_vertices -= part.moved_vertices;
+  removed_edges -= part.removed_edges;
+  removed_faces -= part.removed_faces;
+  inserted_vertices -= part.inserted_vertices;
+  peeled_tets -= part.peeled_tets;
+  created_tets -= part.created_tets;
+  return *this;
+}
+
 }  // namespace incise::inline v0

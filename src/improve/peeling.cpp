@@ -72,7 +72,8 @@ bool Peeler::find_sides(const Care& care) {
   for (unsigned s = 0; s < 4; ++s) {
     (care.mesh.links(tet_)[s].is_boundary() ? outer_ : inner_).push_back(s);
   }
-  return outer_.size() == 2 || outer_.size() == 3;
+  const auto is_free = [&](unsigned s) { return care.may_change(std::array{care.mesh.links(tet_)[s].side().tet()}); };
+  return (outer_.size() == 2 || outer_.size() == 3) && std::all_of(inner_.begin(), inner_.end(), is_free);
 }
 
 /// The surface that the new faces continue: the one with two of the old ones.
@@ -123,6 +124,9 @@ bool Peeler::keeps_surface(const Care& care) {
 bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
   const TetMesh& mesh = care.mesh;
   star_ = care.walker.star(mesh, vertex);
+  if (!care.may_change(star_)) {
+    return false;
+  }
   VertexSurfaces surfaces;
   for (const unsigned s : inner_) {
     if (mesh.vertices(tet_)[s] != vertex) {

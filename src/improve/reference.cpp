@@ -9,7 +9,7 @@ namespace incise::inline v0 {
 namespace {
 
 /// Facets of a fresh wall that are measured at most, and the share of them that counts as typical.
-constexpr std::size_t kMostSamples = 200;
+constexpr std::size_t kMostSamples = 200, kMostShares = 1000;
 constexpr double kTypicalShare = 0.9;
 /// By this share of them chords are told from bends: in a plane nothing lies off it that has not bent.
 constexpr double kChordShare = 0.25, kChordSlack = 6.0, kGreatestChord = 0.07;
@@ -23,15 +23,48 @@ bool are_near(const Piece& piece, const Piece& other, double tolerance2) {
                      [&](const Vec3& p) { return distance2_to(other, p) <= tolerance2; });
 }
 
-double farthest(const TriangleTree& sweep, const Piece& piece) {
-  double farthest2 = 0;
-  for (const Vec3& p : piece.samples) {
-    farthest2 = std::max(farthest2, sweep.closest(p).distance2);
+TriangleTree tree_of(std::span<const Vec3> points, std::span<const TriangleTree::Triangle> triangles) {
+  std::vector<Vec3> used;
+  std::vector<TriangleTree::Triangle> renumbered;
+  for (const TriangleTree::Triangle& triangle : triangles) {
+    const auto first = static_cast<std::uint32_t>(used.size());
+    for (const std::uint32_t p : triangle) used.push_back(points[p]);
+    renumbered.push_back({first, first + 1, first + 2});
   }
-  return std::sqrt(farthest2);
+  return {used, renumbered};
 }
 
 }  // namespace
+
+/// Parts that are not much smaller than the one before are made one with it, so that there are few.
+void References::extend(std::uint32_t stroke, std::span<const Vec3> points,
+                        std::span<const TriangleTree::Triangle> triangles) {
+  std::vector<Part>& parts = sweeps_[stroke].parts;
+  std::size_t first = parts.empty() ? 0 : parts.back().last;
+  if (first == triangles.size()) return;
+  while (!parts.empty() && parts.back().last - parts.back().first <= 2 * (triangles.size() - first)) {
+    first = parts.back().first;
+    parts.pop_back();
+  }
+  parts.push_back({tree_of(points, triangles.subspan(first)), first, triangles.size()});
+}
+
+TriangleTree::Hit References::closest(const Sweep& sweep, const Vec3& place, double greatest) {
+  TriangleTree::Hit best;
+  for (const Part& part : sweep.parts) {
+    const TriangleTree::Hit hit = part.tree.closest(place, std::min(greatest, std::sqrt(best.distance2)));
+    if (hit.is_valid() && hit.distance2 < best.distance2) best = hit;
+  }
+  return best;
+}
+
+double References::farthest(const Sweep& sweep, const Piece& piece) {
+  double farthest2 = 0;
+  for (const Vec3& p : piece.samples) {
+    farthest2 = std::max(farthest2, closest(sweep, p).distance2);
+  }
+  return std::sqrt(farthest2);
+}
 
 double mean_spoke(const Piece& piece) {
   double sum = 0;
@@ -46,16 +79,16 @@ void References::measure(const TetMesh& mesh, const std::vector<OpenedFace>& ope
   if (sweep == sweeps_.end()) {
     return;
   }
-  std::vector<double> shares;
+  std::vector<double>& shares = sweep->second.shares;
   const std::size_t stride = 1 + opened.size() / kMostSamples;
-  for (std::size_t i = 0; i < opened.size(); i += stride) {
+  for (std::size_t i = 0; i < opened.size() && shares.size() < kMostShares; i += stride) {
     if (!mesh.is_live(opened[i].a.tet()) || mesh.link(opened[i].a) != Link::boundary(opened[i].tag)) {
       continue;  // a later part of the same stroke has divided it
     }
     const auto v = mesh.vertices(opened[i].a);
     const Vec3 &p = mesh.rest(v[0]), &q = mesh.rest(v[1]), &r = mesh.rest(v[2]);
     const double edge = ((p - q).norm() + (q - r).norm() + (r - p).norm()) / 3.0;
-    shares.push_back(std::sqrt(sweep->second.tree.closest((p + q + r) / 3.0).distance2) / edge);
+    shares.push_back(std::sqrt(closest(sweep->second, (p + q + r) / 3.0).distance2) / edge);
   }
   if (shares.empty()) {
     return;
@@ -84,11 +117,11 @@ bool References::allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec
   }
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end() ||
-      sweep->second.tree.closest(place, std::max(tolerance, sweep->second.chord * edge)).is_valid()) {
+      closest(sweep->second, place, std::max(tolerance, sweep->second.chord * edge)).is_valid()) {
     return true;
   }
-  const double old_distance = std::sqrt(sweep->second.tree.closest(old_place).distance2);
-  return sweep->second.tree.closest(place, old_distance).is_valid();
+  const double old_distance = std::sqrt(closest(sweep->second, old_place).distance2);
+  return closest(sweep->second, place, old_distance).is_valid();
 }
 
 bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,
@@ -98,11 +131,10 @@ bool References::allows(std::uint32_t tag, const Piece& before, const Piece& aft
     return are_near(after, before, tolerance * tolerance) && are_near(before, after, tolerance * tolerance) &&
            (tag != 0 || skin_.keeps(before, after));
   }
-  const TriangleTree& tree = sweep->second.tree;
   return std::all_of(after.samples.begin(), after.samples.end(), [&](const Vec3& p) {
-    if (tree.closest(p, tolerance).is_valid()) return true;
-    if (!reach) reach = farthest(tree, before) + kSlack * tolerance;
-    return *reach > tolerance && tree.closest(p, *reach).is_valid();
+    if (closest(sweep->second, p, tolerance).is_valid()) return true;
+    if (!reach) reach = farthest(sweep->second, before) + kSlack * tolerance;
+    return *reach > tolerance && closest(sweep->second, p, *reach).is_valid();
   });
 }
 

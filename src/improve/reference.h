@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "improve/original_skin.h"
@@ -28,10 +30,14 @@ class References {
   /// The skin as it was: what is about to change must be noted there.
   [[nodiscard]] OriginalSkin& skin() { return skin_; }
 
-  void set(std::uint32_t stroke, TriangleTree sweep) { sweeps_[stroke] = {std::move(sweep)}; }
+  /// Begins a stroke: nothing is known of one of that number before.
+  void begin(std::uint32_t stroke) { sweeps_.erase(stroke); }
+  /// What a stroke has swept so far: the triangles given last time, with others behind them. Cost: O(log n) per
+  /// triangle, all in all.
+  void extend(std::uint32_t stroke, std::span<const Vec3> points, std::span<const TriangleTree::Triangle> triangles);
 
-  /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`: no further
-  /// may they lie from it later.
+  /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`, those of
+  /// earlier calls included: no further may they lie from it later.
   void measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened);
 
   /// How far the wall of a stroke may lie from its sweep, as a share of the local edge: as far as most of the fresh
@@ -51,11 +57,21 @@ class References {
                                  double edge) const;
 
  private:
-  struct Sweep {
+  /// A part of a sweep, by its triangles [first, last).
+  struct Part {
     TriangleTree tree;
+    std::size_t first = 0, last = 0;
+  };
+  struct Sweep {
+    std::vector<Part> parts;     ///< each less than half as large as the one before
+    std::vector<double> shares;  ///< of the fresh wall's facets measured so far: their distance by their edges
     double chord = 0;  ///< how far the fresh wall's facets lie from it, as a share of their edges
     double usual = kWallTolerance, greatest = kWallTolerance;  ///< tolerances
   };
+
+  static TriangleTree::Hit closest(const Sweep& sweep, const Vec3& place,
+                                   double greatest = std::numeric_limits<double>::infinity());
+  static double farthest(const Sweep& sweep, const Piece& piece);
 
   std::map<std::uint32_t, Sweep> sweeps_;
   OriginalSkin skin_;

@@ -189,6 +189,9 @@ bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vect
 
 bool Smoother::improve(Care& care, VertexId vertex) {
   star_ = care.walker.star(care.mesh, vertex);
+  if (!care.may_change(star_)) {
+    return false;
+  }
   surfaces_ = surfaces_at(care.mesh, vertex, star_);
   if (surfaces_.mobility == Mobility::kFixed) {
     return false;

@@ -140,7 +140,9 @@ TEST(FrontPoints, go_where_the_border_is_once_the_margin_shrinks) {
   const Rows rows = {{Vec3(0.31, -1, 2), Vec3(0.31, 2, 2)}, {Vec3(0.31, -1, 0.45), Vec3(0.31, 2, 0.45)}};
   blade.to(strip_to(rows, 1), {.reach = 0.0, .margin = 0.25});
   blade.body.rebuild();
-  place_front_points(blade.body.mesh(), blade.sheet, 0.0, blade.body.complex());
+  Wake wake;
+  wake.find(blade.body.mesh(), blade.body.complex(), {}, 0.0, {});
+  place_front_points(blade.body.mesh(), blade.sheet, wake, 0.0, blade.body.complex());
   for_each_side(blade.body.complex(), [&](const Master& master, unsigned s) {
     if (master.points[s] == Master::kNone) return;
     EXPECT_NEAR(blade.body.complex().point(master.points[s]).position.z(), 0.45, 1e-14);

@@ -7,9 +7,13 @@
 namespace incise::test {
 namespace {
 
-/// A sweep in the plane z = 0.
-TriangleTree flat_sweep() {
-  return {{Vec3(-5, -5, 0), Vec3(5, -5, 0), Vec3(5, 5, 0), Vec3(-5, 5, 0)}, {{0, 1, 2}, {0, 2, 3}}};
+/// The references of a stroke that swept a square in the plane z = 0.
+References references_of(std::uint32_t stroke) {
+  const std::vector<Vec3> points = {Vec3(-5, -5, 0), Vec3(5, -5, 0), Vec3(5, 5, 0), Vec3(-5, 5, 0)};
+  const std::vector<TriangleTree::Triangle> triangles = {{0, 1, 2}, {0, 2, 3}};
+  References references;
+  references.extend(stroke, points, triangles);
+  return references;
 }
 
 /// A triangle at a height, with its centroid for a sample.
@@ -24,24 +28,21 @@ bool allows(const References& references, std::uint32_t tag, double before, doub
 }
 
 TEST(References, let_a_wall_lie_within_the_tolerance_of_its_sweep) {
-  References references;
-  references.set(3, flat_sweep());
+  References references = references_of(3);
   EXPECT_TRUE(allows(references, 3, 0.0, 0.009, 0.01));
   EXPECT_TRUE(allows(references, 3, 0.0, -0.009, 0.01));
   EXPECT_FALSE(allows(references, 3, 0.0, 0.011, 0.01));
 }
 
 TEST(References, let_a_wall_that_is_too_far_come_nearer_but_not_go_further) {
-  References references;
-  references.set(3, flat_sweep());
+  References references = references_of(3);
   EXPECT_TRUE(allows(references, 3, 0.1, 0.09, 0.01));
   EXPECT_TRUE(allows(references, 3, 0.1, -0.09, 0.01));
   EXPECT_FALSE(allows(references, 3, 0.1, 0.11, 0.01));
 }
 
 TEST(References, measure_once_how_far_the_old_piece_lies) {
-  References references;
-  references.set(3, flat_sweep());
+  References references = references_of(3);
   Reach reach;
   EXPECT_TRUE(references.allows(3, piece_at(0.1), piece_at(0.005), 0.01, reach));
   EXPECT_FALSE(reach.has_value()) << "not needed";
@@ -65,8 +66,8 @@ double tolerance_of(double beside, bool is_bad) {
   Engine engine = make_engine(kuhn_cube(4), 0.0);
   cut(engine, plane(engine, Vec3(0, 0, 1), 0.4));
   References references;
-  references.set(
-      1, TriangleTree({Vec3(-1, -1, 0.4 + beside), Vec3(3, -1, 0.4 + beside), Vec3(-1, 3, 0.4 + beside)}, {{0, 1, 2}}));
+  const std::vector<Vec3> points = {Vec3(-1, -1, 0.4 + beside), Vec3(3, -1, 0.4 + beside), Vec3(-1, 3, 0.4 + beside)};
+  references.extend(1, points, std::vector<TriangleTree::Triangle>{{0, 1, 2}});
   references.measure(engine.mesh(), engine.journal().step(0).opened);
   return references.tolerance(1, is_bad);
 }
@@ -85,8 +86,7 @@ TEST(References, give_a_coarse_wall_what_it_had_within_bounds) {
 }
 
 TEST(References, let_a_moving_vertex_lie_as_far_off_as_it_did) {
-  References references;
-  references.set(3, flat_sweep());
+  References references = references_of(3);
   const auto allows_apex = [&](double before, double after) {
     return references.allows_apex(3, Vec3(0, 0, before), Vec3(0.1, 0, after), 0.01, 1.0);
   };
@@ -97,9 +97,30 @@ TEST(References, let_a_moving_vertex_lie_as_far_off_as_it_did) {
   EXPECT_TRUE(references.allows_apex(4, Vec3(0, 0, 0), Vec3(0, 0, 1), 0.01, 1.0)) << "no sweep is known";
 }
 
-TEST(References, measure_nothing_without_fresh_walls) {
+TEST(References, know_all_that_a_stroke_has_swept_however_it_was_told) {
+  std::vector<Vec3> points;
+  std::vector<TriangleTree::Triangle> triangles;
   References references;
-  references.set(1, flat_sweep());
+  for (std::uint32_t k = 0; k < 40; ++k) {  // a staircase of squares, one more with each call
+    for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}) {
+      points.emplace_back(corner + Vec3(k, 0, k));
+    }
+    triangles.push_back({4 * k, 4 * k + 1, 4 * k + 2});
+    triangles.push_back({4 * k, 4 * k + 2, 4 * k + 3});
+    references.extend(3, points, triangles);
+    for (std::uint32_t old = 0; old <= k; ++old) {
+      const Vec3 inside(old + 0.5, 0.5, old);
+      EXPECT_TRUE(references.allows_apex(3, inside + Vec3(0, 0, 0.3), inside, 0.01, 1.0)) << k << " " << old;
+    }
+    const Vec3 next(k + 1.5, 0.5, k + 1);
+    EXPECT_FALSE(references.allows_apex(3, Vec3(k + 0.5, 0.5, k), next, 0.01, 1.0)) << "not swept yet";
+  }
+  references.begin(3);
+  EXPECT_TRUE(references.allows_apex(3, Vec3(0, 0, 0), Vec3(0, 0, 1), 0.01, 1.0)) << "forgotten";
+}
+
+TEST(References, measure_nothing_without_fresh_walls) {
+  References references = references_of(1);
   const double before = references.tolerance(1, false);
   references.measure(build(kuhn_cube(1)), {});
   EXPECT_EQ(references.tolerance(1, false), before);

@@ -50,6 +50,8 @@ class Cutter {
   void call_between_sheets(std::function<void()> between_sheets);
   /// Forgets a stroke whose steps were taken back.
   void forget();
+  /// Whether a live tet is one that the stroke under way may still make anew: in the band around its front.
+  [[nodiscard]] bool is_busy(TetId tet) const;
   /// What the stroke has swept at rest, so far.
   [[nodiscard]] const SweptTriangles& swept() const;
 

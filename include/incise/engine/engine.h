@@ -42,6 +42,7 @@ struct BladePose {
 /// What one step of the blade did.
 struct StepReport {
   CutStatistics cut;
+  MaintainStatistics maintain;  ///< of what the blade has left behind
   StageTimes times;
 };
 
@@ -140,12 +141,15 @@ class Engine {
 
   [[nodiscard]] bool is_paper() const { return options_.cut.profile == Profile::kPaper; }
   [[nodiscard]] bool maintains() const;
-  void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step);
+  void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step, const IsLocked& is_locked = {});
+  [[nodiscard]] IsLocked busy() const;
+  void maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times);
   Status close_stroke();
-  void maintain_between_sheets();
+  void maintain_between_sheets(MaintainStatistics& sum, StageTimes& times);
   Error abort_stroke(Error error);
   Result<StrokeReport> end_stroke_as_paper();
-  MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop);
+  MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop,
+                              const IsLocked& is_locked = {});
   void push_operation(bool is_stroke);
 
   TetMesh mesh_;

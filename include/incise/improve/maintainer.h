@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "incise/core/profile.h"
@@ -31,19 +32,25 @@ class Maintainer {
   Maintainer& operator=(Maintainer&&) noexcept;
   ~Maintainer();
 
-  /// The surface that the walls of a stroke shall stay close to, in the rest shape.
-  void set_reference(std::uint32_t stroke, TriangleTree sweep);
+  /// Begins a stroke: a number may have been used before, by one that was undone.
+  void begin_reference(std::uint32_t stroke);
+  /// The surface that the walls of a stroke shall stay close to, in the rest shape: what it has swept so far. Each call
+  /// gives the triangles of the one before, with others behind them; points by their index. Cost: O(log n) for each
+  /// new triangle, all in all.
+  void extend_reference(std::uint32_t stroke, std::span<const Vec3> points,
+                        std::span<const TriangleTree::Triangle> triangles);
 
-  /// Takes the surroundings of what the journal's steps from `first_step` on changed into care. Cost: O(their tets).
-  void take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step);
+  /// Takes the surroundings of what the journal's steps from `first_step` on changed into care, but for what is locked:
+  /// that waits for a later call. Cost: O(their tets).
+  void take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step, const IsLocked& is_locked = {});
   /// Takes the whole mesh into care. Cost: O(tets).
   void take_up_all(const TetMesh& mesh);
 
   /// Works on what is in care until it is done, `work_units` are spent (by at most one operation more) or `should_stop`
-  /// says so, and appends journal steps. Calls with one work budget after the other do the same operations as one call
+  /// says so, and appends journal steps. Tets that are locked stay as they are. Calls with one work budget after the other do the same operations as one call
   /// with their sum. Cost: about 20 ns per unit.
   MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
-                         const ShouldStop& should_stop = {});
+                         const ShouldStop& should_stop = {}, const IsLocked& is_locked = {});
 
   /// Whether tets wait for another `run`.
   [[nodiscard]] bool has_work() const;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "incise/core/id.h"
+
 namespace incise::inline v0 {
 
 /// Maintenance without a budget.
@@ -14,11 +16,15 @@ inline constexpr std::uint64_t kUnlimitedWork = std::numeric_limits<std::uint64_
 /// spent.
 using ShouldStop = std::function<bool()>;
 
+/// Tets that a cut under way is going to make anew: maintenance leaves them alone. Empty: there are none.
+using IsLocked = std::function<bool(TetId)>;
+
 /// What is done to a mesh after a cut.
 struct MaintainOptions {
   bool merge = true;    ///< merge short edges (paper, section 2.5)
   bool improve = true;  ///< smooth, swap, and whatever else makes the worst tets better (paper, section 3)
-  /// Work units per stroke; what is left undone waits for the next one. One unit is one evaluation of one tet's
+  /// Work units per stroke that is cut as a whole, and per step of one that is cut step by step; what is left undone
+  /// waits for the next one. One unit is one evaluation of one tet's
   /// quality, about 20 ns. The paper's maintenance ignores it.
   std::uint64_t work_units = kUnlimitedWork;
   /// Of the paper's improving alone: its Boundary Laplacian (section 3.4). False to see what it does (Figure 10).
@@ -38,6 +44,8 @@ struct MaintainStatistics {
   std::int64_t created_tets = 0;   ///< tets after minus tets before
 
   MaintainStatistics& operator+=(const MaintainStatistics& other);
+  /// What a sum has beyond one that it contains; `waiting_tets` stays.
+  MaintainStatistics& operator-=(const MaintainStatistics& part);
 };
 
 }  // namespace incise::inline v0

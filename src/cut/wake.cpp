@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cut/wake.h"
+
+#include <algorithm>
+
+#include "incise/geom/box.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Whether a segment passes within `reach` of a box, taken larger by that.
+bool segment_meets(const Box& box, double reach, const Vec3& p, const Vec3& q) {
+  double from = 0, to = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double lo = box.lo[k] - reach - p[k], hi = box.hi[k] + reach - p[k], way = q[k] - p[k];
+    if (way == 0) {
+      if (lo > 0 || hi < 0) return false;
+      continue;
+    }
+    from = std::max(from, std::min(lo / way, hi / way));
+    to = std::min(to, std::max(lo / way, hi / way));
+  }
+  return from <= to;
+}
+
+Box box_of(const TetMesh& mesh, const Master& master) {
+  Box box;
+  for (const VertexId v : master.vertices) box.extend(mesh.rest(v));
+  return box;
+}
+
+bool is_near_row(const TetMesh& mesh, const Master& master, std::span<const SosPoint> row, double band) {
+  const Box box = box_of(mesh, master);
+  bool is_near = false;
+  for (std::size_t c = 0; c + 1 < row.size() && !is_near; ++c) {
+    is_near = segment_meets(box, band, row[c].position, row[c + 1].position);
+  }
+  return is_near;
+}
+
+/// Whether the sheet does anything to a master: those that were merely looked at may lie ahead.
+bool is_touched(const Master& master) {
+  return master.split != nullptr && (master.flagged != 0 || master.is_divided());
+}
+
+/// Whether incision faces of a master were left joined, to be looked at again.
+bool waits(const Master& master) {
+  return master.is_pinched || master.has_latent_faces;
+}
+
+}  // namespace
+
+void Wake::begin_marks() {
+  ++round_;
+}
+
+Wake::Level Wake::level_of(VertexId vertex) const {
+  const std::uint32_t mark = vertex.value < marks_.capacity() ? marks_[vertex.value] : 0;
+  return mark / 4 == round_ ? static_cast<Level>(mark % 4) : kNone;
+}
+
+/// A lower level counts more, and stays.
+void Wake::mark(VertexId vertex, Level level) {
+  marks_.ensure(std::size_t{vertex.value} + 1);
+  if (const Level known = level_of(vertex); known == kNone || known > level) marks_[vertex.value] = 4 * round_ + level;
+}
+
+void Wake::mark_all(const Master& master, Level level) {
+  for (const VertexId v : master.vertices) mark(v, level);
+}
+
+bool Wake::has_level(const Master& master, Level most) const {
+  return std::any_of(master.vertices.begin(), master.vertices.end(), [&](VertexId v) {
+    const Level level = level_of(v);
+    return level != kNone && level <= most;
+  });
+}
+
+void Wake::find(const TetMesh& mesh, ClosedComplex& complex, std::span<const SosPoint> row, double band,
+                std::span<const std::uint32_t> pinned) {
+  settling_.clear();
+  begin_marks();
+  for (std::uint32_t i = 0; i < complex.size(); ++i) {
+    Master& master = complex[i];
+    if (!is_touched(master)) continue;
+    master.is_behind = master.is_behind || !is_near_row(mesh, master, row, band);
+    if (!master.is_behind || (!row.empty() && waits(master))) mark_all(master, kNear);
+  }
+  for (const std::uint32_t i : pinned) {
+    if (i < complex.size() && complex[i].split != nullptr) mark_all(complex[i], kNear);
+  }
+  for (std::uint32_t i = 0; i < complex.size(); ++i) {
+    const Master& master = complex[i];
+    if (is_touched(master) && !master.is_settled && !has_level(master, kNear)) settling_.push_back(i);
+  }
+}
+
+std::size_t Wake::let_go(ClosedComplex& complex) {
+  for (const std::uint32_t i : settling_) {
+    complex[i].is_settled = true;
+    for (const VertexId v : complex[i].vertices) complex.settle(v);
+  }
+  settling_.clear();
+  begin_marks();
+  for (std::uint32_t i = 0; i < complex.size(); ++i) {
+    if (is_touched(complex[i]) && (!complex[i].is_settled || waits(complex[i]))) mark_all(complex[i], kNear);
+  }
+  for (const Level level : {kOpen, kBeside}) {
+    for (std::uint32_t i = 0; i < complex.size(); ++i) {
+      const auto next = static_cast<Level>(level - 1);
+      if (complex[i].split != nullptr && has_level(complex[i], next)) mark_all(complex[i], level);
+    }
+  }
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < complex.size(); ++i) {
+    if (complex[i].split == nullptr || has_level(complex[i], kBeside)) continue;
+    complex.release(i);
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace incise::inline v0
