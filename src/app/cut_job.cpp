@@ -52,7 +52,7 @@ bool goes_by_steps(const CutJob& job) {
   return job.by_steps && job.engine.cut.profile != Profile::kPaper;
 }
 
-/// Cuts along one stroke and maintains the mesh; the last cut is measured in between, off the clock.
+/// Cuts along one stroke and maintains what its steps have not; the last cut is measured in between, off the clock.
 Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, detail::Upkeep& upkeep,
                JobReport& report) {
   detail::StepSamples samples;
@@ -77,6 +77,11 @@ Status cut_all(RecordedEngine& engine, const CutJob& job, JobReport& report) {
   }
   if (job.progress) job.progress(job.strokes.size(), job.strokes.size());
   return {};
+}
+
+/// Strokes cut step by step are maintained in the blade's wake, but for those against a clock.
+EngineOptions engine_options(const CutJob& job) {
+  return goes_by_steps(job) && job.budget_us == 0 ? job.engine : detail::without_upkeep(job.engine);
 }
 
 /// Says of all blades whether they keep within reach, before anything is cut.
@@ -109,7 +114,7 @@ Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh)
   report.strokes = job.strokes.size();
   if (const Status status = check_blades(job, rest_bounds(loaded.mesh)); !status.ok()) return status.error();
   detail::measure_before(loaded.mesh, report);
-  Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), detail::without_upkeep(job.engine),
+  Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), engine_options(job),
                                                          {job.record, loaded.source.file, job.options.seed});
   if (!engine.ok()) return engine.error();
   if (const Status status = cut_all(*engine, job, report); !status.ok()) return status.error();

@@ -30,7 +30,7 @@ class Stopwatch {
 /// units spent say later what was done, whatever the clock was.
 class Upkeep {
  public:
-  /// `wanted` is what the job asks for; the engine itself must have no work units: see `without_upkeep`.
+  /// `wanted` is what the job asks for; the engine itself may do a part of it, or nothing: see `without_upkeep`.
   Upkeep(const EngineOptions& wanted, std::uint64_t budget_us);
 
   /// Maintains until nothing waits or the budget is spent, and adds what was done to `sum`. Returns its milliseconds.

@@ -124,15 +124,13 @@ SweptSurface BladeMotion::lay(const Row& from, const Row& to) const {
 /// Whether a strip meets the sheet so far well behind the front. Beside it, where elements are still open, crossings
 /// are counted and nothing is lost.
 bool BladeMotion::meets(const SweptSurface& surface, const OwnSheet& sheet) const {
-  double travel = 0;
-  for (auto strip = sheet.strips().rbegin(); strip != sheet.strips().rend(); ++strip) {
-    if (travel > kFrontShare * spacing_ &&
-        strips_meet(surface, (*strip)->surface, (*strip)->sheet, kMeetingShare * spacing_)) {
-      return true;
-    }
-    travel += travel_of((*strip)->surface);
-  }
-  return false;
+  Box box;
+  for (const SosPoint& p : surface.points) box.extend(p.position);
+  const Vec3 margin = Vec3::Constant(kMeetingShare * spacing_);
+  return sheet.any_near({box.lo - margin, box.hi + margin}, [&](const Strip& strip) {
+    return sheet.travel() - strip.travel > kFrontShare * spacing_ &&
+           strips_meet(surface, strip.surface, strip.sheet, kMeetingShare * spacing_);
+  });
 }
 
 /// The segments of the front that the strip to `to` leaves behind, and those of the first row that it comes back to.

@@ -129,7 +129,9 @@ std::vector<std::uint32_t> block_unsound(const TetMesh& mesh, std::span<const st
       continue;
     }
     for (unsigned e = 0; e < 6; ++e) {
-      if (needs_split(master, e) && complex.edges()[master.edges[e]].is_flagged()) {
+      const ClosedEdge& edge = complex.edges()[master.edges[e]];
+      const bool is_settled = complex.is_settled(edge.a) || complex.is_settled(edge.b);
+      if (needs_split(master, e) && edge.is_flagged() && !is_settled) {
         complex.block(master.edges[e]);
         blocked.push_back(master.edges[e]);
       }

@@ -54,6 +54,7 @@ Strip::Strip(SweptSurface swept, const std::vector<Keys>& shared)
 
 void OwnSheet::clear() {
   strips_.clear();
+  groups_.clear();
   border_.clear();
 }
 
@@ -64,6 +65,9 @@ const Strip& OwnSheet::add(std::unique_ptr<Strip> strip) {
   };
   if (!strip->inner.empty()) std::erase_if(border_, is_inner);
   border_.insert(border_.end(), strip->border.begin(), strip->border.end());
+  strip->travel = travel() + travel_of(strip->surface);
+  if (strips_.size() % kGroup == 0) groups_.emplace_back();
+  groups_.back().extend(strip->sheet.bounds());
   strips_.push_back(std::move(strip));
   return *strips_.back();
 }
@@ -71,12 +75,13 @@ const Strip& OwnSheet::add(std::unique_ptr<Strip> strip) {
 SheetPlace OwnSheet::closest(const Vec3& point, double max_distance) const {
   SheetPlace best;
   double reach = max_distance;
-  for (auto strip = strips_.rbegin(); strip != strips_.rend(); ++strip) {
-    const Sheet& sheet = (*strip)->sheet;
-    const Vec3 outside = (sheet.bounds().lo - point).cwiseMax(point - sheet.bounds().hi).cwiseMax(0.0);
-    if (outside.squaredNorm() > reach * reach) {
+  for (std::size_t i = strips_.size(); i-- > 0;) {
+    if (groups_[i / kGroup].distance2(point) > reach * reach) {
+      i -= i % kGroup;
       continue;
     }
+    const Sheet& sheet = strips_[i]->sheet;
+    if (sheet.bounds().distance2(point) > reach * reach) continue;
     const auto hit = sheet.tree().closest(point, reach);
     if (hit.is_valid() && hit.distance2 < best.distance2) {
       best = {hit.point, sheet.normal(hit.triangle).normalized(), hit.distance2};

@@ -24,6 +24,7 @@ struct Strip {
   std::vector<Segment> border;  ///< where the cut ends, as far as this strip tells
   std::vector<std::array<std::uint64_t, 2>> inner;
   std::vector<SosPoint> row;  ///< where the blade's front lies after it; empty for a sheet cut at once
+  double travel = 0;          ///< of the blade, from the sheet's beginning up to its end; set by `OwnSheet::add`
 };
 
 /// The place of a sheet nearest to a point.
@@ -35,7 +36,7 @@ struct SheetPlace {
   [[nodiscard]] bool is_valid() const { return distance2 < std::numeric_limits<double>::infinity(); }
 };
 
-/// The strips that a stroke has swept, oldest first: its own sheet. Those far behind may be dropped.
+/// The strips that a stroke has swept, oldest first: its own sheet. Searches skip them by the box of several.
 class OwnSheet {
  public:
   void clear();
@@ -43,12 +44,28 @@ class OwnSheet {
   /// The border of all strips together: where the cut ends.
   [[nodiscard]] const std::vector<Strip::Segment>& border() const { return border_; }
   [[nodiscard]] const std::deque<std::unique_ptr<Strip>>& strips() const { return strips_; }
-  [[nodiscard]] std::deque<std::unique_ptr<Strip>>& strips() { return strips_; }
-  /// The nearest place within `max_distance`; the latest strip wins ties. Cost: O(strips) boxes, then their trees.
+  /// The nearest place within `max_distance`; the latest strip wins ties. Cost: one box for 16 strips, then those near.
   [[nodiscard]] SheetPlace closest(const Vec3& point, double max_distance) const;
+  /// How far the blade has travelled.
+  [[nodiscard]] double travel() const { return strips_.empty() ? 0.0 : strips_.back()->travel; }
+  /// Whether some strip has a property, of those whose boxes are near a box: the latest first. Cost: as `closest`.
+  template <class Has>
+  [[nodiscard]] bool any_near(const Box& box, Has&& has) const {
+    for (std::size_t i = strips_.size(); i-- > 0;) {
+      if (!groups_[i / kGroup].overlaps(box)) {
+        i -= i % kGroup;
+      } else if (strips_[i]->sheet.bounds().overlaps(box) && has(*strips_[i])) {
+        return true;
+      }
+    }
+    return false;
+  }
 
  private:
+  static constexpr std::size_t kGroup = 16;
+
   std::deque<std::unique_ptr<Strip>> strips_;
+  std::vector<Box> groups_;  // of as many strips each
   std::vector<Strip::Segment> border_;
 };
 

@@ -443,11 +443,9 @@ bool StrokeCut::is_idle_cone(const TetMesh& mesh, const Master& master) const {
 /// Takes the front points out of sides between masters in which nothing came open. Returns whether there were any.
 bool StrokeCut::make_idle_cones_whole(const TetMesh& mesh) {
   std::vector<std::uint32_t> needless;
-  const auto has_near = [&](const Master& master) {
-    return std::any_of(master.vertices.begin(), master.vertices.end(), [&](VertexId v) { return wake_.is_near(v); });
-  };
   const auto is_idle = [&](std::uint32_t index) {
-    return index == Master::kNone || (!has_near(complex_[index]) && is_idle_cone(mesh, complex_[index]));
+    return index == Master::kNone || (!wake_.has_near(complex_[index]) && !complex_.is_half_baked(index) &&
+                                      is_idle_cone(mesh, complex_[index]));
   };
   for (const std::uint32_t i : wake_.settling()) {
     if (!is_idle(i)) continue;

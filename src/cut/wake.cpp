@@ -51,48 +51,38 @@ bool waits(const Master& master) {
 
 }  // namespace
 
-void Wake::begin_marks() {
-  ++round_;
+void Wake::mark(const Master& master) {
+  for (const VertexId v : master.vertices) {
+    marks_.ensure(std::size_t{v.value} + 1);
+    marks_[v.value] = round_;
+  }
 }
 
-Wake::Level Wake::level_of(VertexId vertex) const {
-  const std::uint32_t mark = vertex.value < marks_.capacity() ? marks_[vertex.value] : 0;
-  return mark / 4 == round_ ? static_cast<Level>(mark % 4) : kNone;
+void Wake::mark_pinned(const ClosedComplex& complex) {
+  for (const std::uint32_t i : pinned_) {
+    if (i < complex.size() && complex[i].split != nullptr) mark(complex[i]);
+  }
 }
 
-/// A lower level counts more, and stays.
-void Wake::mark(VertexId vertex, Level level) {
-  marks_.ensure(std::size_t{vertex.value} + 1);
-  if (const Level known = level_of(vertex); known == kNone || known > level) marks_[vertex.value] = 4 * round_ + level;
-}
-
-void Wake::mark_all(const Master& master, Level level) {
-  for (const VertexId v : master.vertices) mark(v, level);
-}
-
-bool Wake::has_level(const Master& master, Level most) const {
-  return std::any_of(master.vertices.begin(), master.vertices.end(), [&](VertexId v) {
-    const Level level = level_of(v);
-    return level != kNone && level <= most;
-  });
+bool Wake::has_near(const Master& master) const {
+  return std::any_of(master.vertices.begin(), master.vertices.end(), [&](VertexId v) { return is_near(v); });
 }
 
 void Wake::find(const TetMesh& mesh, ClosedComplex& complex, std::span<const SosPoint> row, double band,
                 std::span<const std::uint32_t> pinned) {
   settling_.clear();
-  begin_marks();
+  ++round_;
   for (std::uint32_t i = 0; i < complex.size(); ++i) {
     Master& master = complex[i];
     if (!is_touched(master)) continue;
     master.is_behind = master.is_behind || !is_near_row(mesh, master, row, band);
-    if (!master.is_behind || (!row.empty() && waits(master))) mark_all(master, kNear);
+    if (!master.is_behind || (!row.empty() && waits(master))) mark(master);
   }
-  for (const std::uint32_t i : pinned) {
-    if (i < complex.size() && complex[i].split != nullptr) mark_all(complex[i], kNear);
-  }
+  pinned_.assign(pinned.begin(), pinned.end());
+  mark_pinned(complex);
   for (std::uint32_t i = 0; i < complex.size(); ++i) {
     const Master& master = complex[i];
-    if (is_touched(master) && !master.is_settled && !has_level(master, kNear)) settling_.push_back(i);
+    if (is_touched(master) && !master.is_settled && !has_near(master)) settling_.push_back(i);
   }
 }
 
@@ -102,19 +92,14 @@ std::size_t Wake::let_go(ClosedComplex& complex) {
     for (const VertexId v : complex[i].vertices) complex.settle(v);
   }
   settling_.clear();
-  begin_marks();
+  ++round_;
   for (std::uint32_t i = 0; i < complex.size(); ++i) {
-    if (is_touched(complex[i]) && (!complex[i].is_settled || waits(complex[i]))) mark_all(complex[i], kNear);
+    if (is_touched(complex[i]) && (!complex[i].is_settled || waits(complex[i]))) mark(complex[i]);
   }
-  for (const Level level : {kOpen, kBeside}) {
-    for (std::uint32_t i = 0; i < complex.size(); ++i) {
-      const auto next = static_cast<Level>(level - 1);
-      if (complex[i].split != nullptr && has_level(complex[i], next)) mark_all(complex[i], level);
-    }
-  }
+  mark_pinned(complex);
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < complex.size(); ++i) {
-    if (complex[i].split == nullptr || has_level(complex[i], kBeside)) continue;
+    if (complex[i].split == nullptr || has_near(complex[i])) continue;
     complex.release(i);
     ++count;
   }

@@ -13,9 +13,9 @@ namespace incise::inline v0 {
 ///
 /// A master is near while the front may lie in it or is close by, or its incision waits for the blade to pass. It is
 /// settled when none of its vertices is a vertex of a near one: what the sheet does to it is known then, and vertices
-/// land, front points move to their last place. It is let go when nobody that may still be rebuilt can see it: three
-/// rings of vertices further back. So a rebuild never meets a vertex around which tets were let go. What is kept is
-/// O(front), whatever the length of the stroke. **Source:** docs/decisions/0024 (bake behind the blade); the division
+/// land, front points move to their last place. It is let go when all masters that share a vertex with it are settled,
+/// so that a rebuild never meets a vertex around which tets were let go. What is kept is O(front), whatever the length
+/// of the stroke. **Source:** docs/decisions/0024 (bake behind the blade); the division
 /// of a tet that the tool has left is made final in A. Mor and T. Kanade, "Modifying soft tissue models", 2000.
 class Wake {
  public:
@@ -27,20 +27,20 @@ class Wake {
   /// The masters to be settled now, ascending.
   [[nodiscard]] const std::vector<std::uint32_t>& settling() const { return settling_; }
   /// Whether a closed vertex belongs to a master that is near.
-  [[nodiscard]] bool is_near(VertexId vertex) const { return level_of(vertex) == kNear; }
+  [[nodiscard]] bool is_near(VertexId vertex) const {
+    return vertex.value < marks_.capacity() && marks_[vertex.value] == round_;
+  }
+  /// Whether some vertex of a master does.
+  [[nodiscard]] bool has_near(const Master& master) const;
   /// Notes that those are settled, and lets go of what is out of reach. Returns how many were let go. Cost: O(masters).
   std::size_t let_go(ClosedComplex& complex);
 
  private:
-  enum Level : std::uint32_t { kNone, kNear, kOpen, kBeside };
-  void begin_marks();
-  void mark(VertexId vertex, Level level);
-  void mark_all(const Master& master, Level level);
-  [[nodiscard]] Level level_of(VertexId vertex) const;
-  [[nodiscard]] bool has_level(const Master& master, Level most) const;
+  void mark(const Master& master);
+  void mark_pinned(const ClosedComplex& complex);
 
-  std::vector<std::uint32_t> settling_;
-  ZeroedArray<std::uint32_t> marks_;  // by vertex slot: 4 · round + level
+  std::vector<std::uint32_t> settling_, pinned_;
+  ZeroedArray<std::uint32_t> marks_;  // by vertex slot: the round in which it was near
   std::uint32_t round_ = 0;
 };
 

@@ -70,9 +70,12 @@ class Maintainer::Queue {
     for (std::size_t i = first_step; i < journal.position(); ++i) {
       const Step& step = journal.step(i);
       opened_.insert(opened_.end(), step.opened.begin(), step.opened.end());
-      for (const BornVertex& v : step.born) touched_.push_back(v.id);
-      for (const MovedVertex& v : step.moved) touched_.push_back(v.id);
-      for (const CopiedVertex& v : step.copied) touched_.insert(touched_.end(), {v.id, v.source});
+      for (const BornVertex& v : step.born) touch(v.id);
+      for (const MovedVertex& v : step.moved) touch(v.id);
+      for (const CopiedVertex& v : step.copied) {
+        touch(v.id);
+        touch(v.source);
+      }
     }
     const std::vector<VertexId> touched = take_touched(mesh, is_locked);
     const std::vector<OpenedFace> opened = take_opened(mesh, is_locked);
@@ -119,8 +122,10 @@ class Maintainer::Queue {
     references_.skin().rewind(position);
     heap_.clear();
     crowd_.clear();
+    for (const VertexId v : touched_) is_touched_[v.value] = 0;
     touched_.clear();
     opened_.clear();
+    for (const TetId tet : held_) is_held_[tet.value] = 0;
     held_.clear();
     held_crowd_.clear();
     taken_.clear();
@@ -137,14 +142,17 @@ class Maintainer::Queue {
     const std::vector<TetId>& star = walker_.star(mesh, v);
     return std::none_of(star.begin(), star.end(), std::cref(is_locked));
   }
+  void touch(VertexId v) {
+    is_touched_.ensure(std::size_t{v.value} + 1);
+    if (std::exchange(is_touched_[v.value], std::uint8_t{1}) == 0) touched_.push_back(v);
+  }
   /// The touched vertices around which nothing is locked, each once; the others wait.
   std::vector<VertexId> take_touched(const TetMesh& mesh, const IsLocked& is_locked) {
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
     const auto waits = [&](VertexId v) { return !is_free(mesh, v, is_locked); };
     const auto first = std::stable_partition(touched_.begin(), touched_.end(), waits);
     std::vector<VertexId> taken(first, touched_.end());
     touched_.erase(first, touched_.end());
+    for (const VertexId v : taken) is_touched_[v.value] = 0;
     return taken;
   }
   /// The faces opened that are still walls, of tets that are not locked.
@@ -352,7 +360,7 @@ class Maintainer::Queue {
   std::vector<Crowded> held_crowd_;
   std::vector<Crowded> taken_;  // into care, during this stroke
   std::uint32_t tag_ = 0;       // of this stroke's walls; 0 while there are none
-  ZeroedArray<std::uint8_t> is_held_;  // by tet slot
+  ZeroedArray<std::uint8_t> is_touched_, is_held_;  // by vertex slot; by tet slot
   std::size_t next_in_crowd_ = 0;
   unsigned thinning_round_ = 0;
   bool is_at_seam_ = false;

@@ -20,6 +20,13 @@ inline TetSoup jittered_cube(std::uint32_t n, std::uint64_t seed) {
   return soup;
 }
 
+/// A box of unit cells with a corner in the origin.
+inline TetSoup jittered_box(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint64_t seed) {
+  TetSoup soup = kuhn_box(Vec3(0, 0, 0), Vec3(x, y, z), {x, y, z});
+  jitter(soup, 0.15, seed);
+  return soup;
+}
+
 /// A ball of radius 1 around the origin: a body with a curved skin. `n` cells along each axis, even.
 inline TetSoup ball(std::uint32_t n) {
   TetSoup soup = kuhn_box(Vec3(-1, -1, -1), Vec3(1, 1, 1), {n, n, n});
