@@ -44,6 +44,8 @@ constexpr double kNearBody = 0.1;
 /// A blade this many spacings ahead of the crack's tip cuts on even where that closes the cut behind it: else strong
 /// shaking would hold it for ever.
 constexpr double kGiveWay = 0.75;
+/// One that would come back to what it has left is on another way only if it is as far ahead as this.
+constexpr double kTurnBack = 2.0;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
 
@@ -261,10 +263,11 @@ class Cutter::Pipeline {
   bool hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Proposal& proposal) {
     const Strip strip(proposal.surface, {});
     bool has_held = false;
-    for (const auto& [column, is_apart] : stroke_cut_.recrossed_columns(mesh, strip)) {
+    for (const auto& [column, is_apart, is_left] : stroke_cut_.recrossed_columns(mesh, strip)) {
+      const double greatest = (is_left ? kTurnBack : kGiveWay) * spacing_;
       for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
         if (!material_.is_accepted(point)) continue;
-        if (!is_apart && material_.lead(point) > kGiveWay * spacing_) continue;
+        if (!is_apart && material_.lead(point) > greatest) continue;
         material_.hold(point);
         has_held = true;
       }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "cut/dividable.h"
@@ -22,9 +23,9 @@ constexpr double kGrazeShare = 0.02;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
 constexpr double kFinalMargin = 0.04;
-/// What lies further behind the front than so many spacings is settled: less than that, and a blade that trembles would
-/// come back to it.
-constexpr double kBand = 0.5;
+/// What lies further behind the front than so many spacings is settled, at rest and in a body that moves: less than that,
+/// and a blade that trembles would come back to it.
+constexpr double kBand = 0.5, kMovingBand = 1.0;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
@@ -254,10 +255,13 @@ std::vector<StrokeCut::RecrossedColumn> StrokeCut::recrossed_columns(const TetMe
   for (std::size_t k = 0; k < crossed_->size(); ++k) {
     const StripCrossing& crossing = (*crossed_)[k];
     if (crossing.count % 2 == 0 || !(is_apart[k] || complex_.edges()[crossing.edge].is_crossed)) continue;
-    columns.push_back({strip.surface.triangles[crossing.triangle].column, is_apart[k]});
+    columns.push_back({strip.surface.triangles[crossing.triangle].column, is_apart[k], false});
   }
+  for_each_left(mesh, strip, [&](const SheetCrossings& crossings) {
+    columns.push_back({strip.surface.triangles[crossings.triangle].column, false, true});
+  });
   std::sort(columns.begin(), columns.end(), [](const RecrossedColumn& a, const RecrossedColumn& b) {
-    return a.column != b.column ? a.column < b.column : a.is_apart > b.is_apart;
+    return std::tuple(a.column, !a.is_apart, !a.is_left) < std::tuple(b.column, !b.is_apart, !b.is_left);
   });
   columns.erase(std::unique(columns.begin(), columns.end(),
                             [](const RecrossedColumn& a, const RecrossedColumn& b) { return a.column == b.column; }),
@@ -281,24 +285,36 @@ bool StrokeCut::crosses_own_cut(const TetMesh& mesh, const Strip& strip, double 
   });
 }
 
-bool StrokeCut::comes_back(const TetMesh& mesh, const Strip& strip) {
-  if (sheet_.strips().empty()) return false;
-  const auto is_left = [&](const StripCrossing& crossing) {
-    const ClosedEdge& edge = complex_.edges()[crossing.edge];
-    if (crossing.count % 2 == 0) return false;
-    bool touches = complex_.is_settled(edge.a) || complex_.is_settled(edge.b);
-    complex_.for_each_around(crossing.edge, [&](std::uint32_t m) { touches |= complex_.is_half_baked(m); });
-    return touches;
-  };
-  if (std::any_of(crossed_->begin(), crossed_->end(), is_left)) return true;
+/// Whether a strip crosses an edge at a vertex that is settled.
+bool StrokeCut::is_left(const StripCrossing& crossing) const {
+  const ClosedEdge& edge = complex_.edges()[crossing.edge];
+  if (crossing.count % 2 == 0) return false;
+  bool is_left = complex_.is_settled(edge.a) || complex_.is_settled(edge.b);
+  complex_.for_each_around(crossing.edge, [&](std::uint32_t m) { is_left |= complex_.is_half_baked(m); });
+  return is_left;
+}
+
+/// Calls `visit(crossings)` for the edges of what the blade has left that the strip, last looked for, crosses.
+template <class Visit>
+void StrokeCut::for_each_left(const TetMesh& mesh, const Strip& strip, Visit&& visit) {
+  for (const StripCrossing& crossing : *crossed_) {
+    if (is_left(crossing)) visit(crossing);
+  }
   left_sides_.begin(mesh, strip.sheet);
-  const auto is_crossed = [&](const TetVertices& v) {
-    return std::any_of(kEdgeCorners.begin(), kEdgeCorners.end(), [&](const auto& corners) {
-      const VertexId a = v[corners[0]], b = v[corners[1]];
-      return find_crossings(mesh, strip.sheet, left_sides_, std::min(a, b), std::max(a, b)).is_odd();
-    });
-  };
-  return std::any_of(walk_.left_behind().begin(), walk_.left_behind().end(), is_crossed);
+  for (const TetVertices& v : walk_.left_behind()) {
+    for (const auto& [i, j] : kEdgeCorners) {
+      const auto [a, b] = std::minmax(v[i], v[j]);
+      const SheetCrossings crossings = find_crossings(mesh, strip.sheet, left_sides_, a, b);
+      if (crossings.is_odd()) visit(crossings);
+    }
+  }
+}
+
+bool StrokeCut::comes_back(const TetMesh& mesh, const Strip& strip) {
+  bool comes_back = false;
+  if (sheet_.strips().empty()) return false;
+  for_each_left(mesh, strip, [&](const SheetCrossings& /*crossings*/) { comes_back = true; });
+  return comes_back;
 }
 
 /// Whether two crossings of an edge, by the sheet so far and by a strip, belong to one smooth part: the cut follows the
@@ -408,7 +424,7 @@ void StrokeCut::settle(TetMesh& mesh, Journal& journal, const FrontRules& rules,
 void StrokeCut::bake(TetMesh& mesh, Journal& journal, const FrontRules& rules, std::span<const std::uint32_t> pinned,
                      CutStatistics& statistics, StageTimes& times) {
   const StageZone zone(times, Stage::kSeparate);
-  wake_.find(mesh, complex_, sheet_.strips().back()->row, kBand * spacing_, pinned);
+  wake_.find(mesh, complex_, sheet_.strips().back()->row, (keeps_pieces_ ? kMovingBand : kBand) * spacing_, pinned);
   if (wake_.settling().empty()) return;
   settle(mesh, journal, rules, statistics);
   if (wake_.let_go(complex_) == 0) return;

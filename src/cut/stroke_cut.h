@@ -52,9 +52,10 @@ class StrokeCut {
   struct RecrossedColumn {
     std::uint32_t column;
     bool is_apart;  ///< what it would join has come apart: two pieces
+    bool is_left;   ///< it would come back to what the blade has left: no harm, but a new sheet
   };
   /// The columns of a strip that would cross edges which the sheet has crossed before, or between tets that have come
-  /// apart: there it would close the cut. Each once. Adopts what the strip meets, and changes nothing else. Cost: as
+  /// apart: there it would close the cut; and those that would come back to what the blade has left. Each once. Adopts what the strip meets, and changes nothing else. Cost: as
   /// `advance` without the rebuild, and that of `PieceFinder`.
   [[nodiscard]] std::vector<RecrossedColumn> recrossed_columns(const TetMesh& mesh, const Strip& strip);
   /// Whether a strip crosses an edge that the sheet has crossed elsewhere and is done with: the two would cancel there.
@@ -86,6 +87,9 @@ class StrokeCut {
   [[nodiscard]] bool is_reached(std::uint32_t edge) const;
   [[nodiscard]] bool is_graze(const TetMesh& mesh, const Strip& strip, const StripCrossing& crossing) const;
   void refresh_around(std::uint32_t edge);
+  [[nodiscard]] bool is_left(const StripCrossing& crossing) const;
+  template <class Visit>
+  void for_each_left(const TetMesh& mesh, const Strip& strip, Visit&& visit);
   [[nodiscard]] std::vector<bool> find_apart(const TetMesh& mesh, std::span<const StripCrossing> crossings);
   void place_front(const TetMesh& mesh, std::span<const std::uint32_t> masters, const FrontRules& given,
                    CutStatistics& statistics);
