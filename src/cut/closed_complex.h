@@ -191,7 +191,8 @@ class ClosedComplex {
   /// Whether a master has a vertex around which others were let go: it cannot be made anew any more.
   [[nodiscard]] bool is_half_baked(std::uint32_t master) const {
     const auto& v = masters_[master].vertices;
-    return std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return is_settled(vertex) && is_settled_[vertex.value] == kHalfBaked; });
+    return std::any_of(v.begin(), v.end(),
+                       [&](VertexId vertex) { return is_settled(vertex) && is_settled_[vertex.value] == kHalfBaked; });
   }
   /// Whether a live tet has a settled vertex.
   [[nodiscard]] bool is_at_settled(const TetMesh& mesh, TetId tet) const {

@@ -590,7 +590,8 @@ class Rebuild::Run {
   /// Notes the boundary sides around a vertex where two fans of tets might touch along an edge, or a face of the cut
   /// that is not rebuilt might be separated no more: at rest, not at points of the cut inside the body.
   void note_surface_around(VertexId vertex) {
-    bool is_plain = !complex_.is_on(vertex) && !is_beside_closed_ && result_.crumbs_kept == 0 && !settings_.keeps_pieces;
+    bool is_plain =
+        !complex_.is_on(vertex) && !is_beside_closed_ && result_.crumbs_kept == 0 && !settings_.keeps_pieces;
     for (const StarTet& tet : star_) is_plain &= has_plain_sides(tet);
     if (is_plain) return;
     for (const StarTet& tet : star_) {

@@ -23,8 +23,8 @@ constexpr double kGrazeShare = 0.02;
 /// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
 /// maintained.
 constexpr double kFinalMargin = 0.04;
-/// What lies further behind the front than so many spacings is settled, at rest and in a body that moves: less than that,
-/// and a blade that trembles would come back to it.
+/// What lies further behind the front than so many spacings is settled, at rest and in a body that moves: less than
+/// that, and a blade that trembles would come back to it.
 constexpr double kBand = 0.5, kMovingBand = 1.0;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
@@ -460,8 +460,8 @@ bool StrokeCut::is_idle_cone(const TetMesh& mesh, const Master& master) const {
 bool StrokeCut::make_idle_cones_whole(const TetMesh& mesh) {
   std::vector<std::uint32_t> needless;
   const auto is_idle = [&](std::uint32_t index) {
-    return index == Master::kNone || (!wake_.has_near(complex_[index]) && !complex_.is_half_baked(index) &&
-                                      is_idle_cone(mesh, complex_[index]));
+    return index == Master::kNone ||
+           (!wake_.has_near(complex_[index]) && !complex_.is_half_baked(index) && is_idle_cone(mesh, complex_[index]));
   };
   for (const std::uint32_t i : wake_.settling()) {
     if (!is_idle(i)) continue;

@@ -55,14 +55,14 @@ class StrokeCut {
     bool is_left;   ///< it would come back to what the blade has left: no harm, but a new sheet
   };
   /// The columns of a strip that would cross edges which the sheet has crossed before, or between tets that have come
-  /// apart: there it would close the cut; and those that would come back to what the blade has left. Each once. Adopts what the strip meets, and changes nothing else. Cost: as
-  /// `advance` without the rebuild, and that of `PieceFinder`.
+  /// apart: there it would close the cut; and those that would come back to what the blade has left. Each once. Adopts
+  /// what the strip meets, and changes nothing else. Cost: as `advance` without the rebuild, and that of `PieceFinder`.
   [[nodiscard]] std::vector<RecrossedColumn> recrossed_columns(const TetMesh& mesh, const Strip& strip);
   /// Whether a strip crosses an edge that the sheet has crossed elsewhere and is done with: the two would cancel there.
   /// Crossings nearer than `least_apart` of the edge are one. Adopts what the strip meets.
   [[nodiscard]] bool crosses_own_cut(const TetMesh& mesh, const Strip& strip, double least_apart);
-  /// Whether the strip that was last looked at by one of the two above passes through what the blade has left: the sheet
-  /// must be finished first, and is an older cut to it.
+  /// Whether the strip that was last looked at by one of the two above passes through what the blade has left: the
+  /// sheet must be finished first, and is an older cut to it.
   [[nodiscard]] bool comes_back(const TetMesh& mesh, const Strip& strip);
   /// Whether two fans of tets touch along an edge beside which two pieces meet, so that no face may be left joined
   /// there: the sheet must be finished, which parts such edges.

@@ -27,7 +27,7 @@ double wall_share(const TetMesh& mesh, const TetVertices& vertices, const TetLin
 
 double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh& mesh, std::uint32_t stroke) {
   std::vector<const TetImage*> before;  // as they were before the first step that touched them
-  std::vector<TetId> touched, made;  // by the steps themselves: these had no wall before them
+  std::vector<TetId> touched, made;     // by the steps themselves: these had no wall before them
   for (std::size_t i = first_step; i < journal.position(); ++i) {
     for (const TetImage& image : journal.step(i).before.tets) {
       before.push_back(&image);

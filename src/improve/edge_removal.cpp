@@ -184,7 +184,8 @@ bool FaceRemover::try_face(Care& care, Side face) {
   const bool is_better = std::all_of(plan_.produced.begin(), plan_.produced.end(),
                                      [&](const NewTet& tet) { return inradius_ratio(mesh, tet.vertices) > bound; });
   const std::array<VertexId, 2> edge = {p, q};
-  if (!is_better || !care.may_change(plan_.consumed) || exists_elsewhere(care, edge, plan_.consumed) || !keeps_current(mesh, plan_)) {
+  if (!is_better || !care.may_change(plan_.consumed) || exists_elsewhere(care, edge, plan_.consumed) ||
+      !keeps_current(mesh, plan_)) {
     return false;
   }
   care.note(plan_.consumed);

@@ -117,7 +117,9 @@ class Maintainer::Queue {
     statistics_.created_tets = static_cast<std::int64_t>(mesh.tet_count()) - static_cast<std::int64_t>(tets_before);
     return statistics_;
   }
-  [[nodiscard]] bool has_work() const { return is_due() || !touched_.empty() || !held_.empty() || !held_crowd_.empty(); }
+  [[nodiscard]] bool has_work() const {
+    return is_due() || !touched_.empty() || !held_.empty() || !held_crowd_.empty();
+  }
   void forget(std::size_t position) {
     references_.skin().rewind(position);
     heap_.clear();
@@ -307,8 +309,7 @@ class Maintainer::Queue {
     const StageZone zone(times, Stage::kMerge);
     care.is_bad = false;
     const auto [vertex, generation] = crowd_[next_in_crowd_++];
-    const bool is_there =
-        options_.merge && care.mesh.is_live(vertex) && care.mesh.generation(vertex) == generation;
+    const bool is_there = options_.merge && care.mesh.is_live(vertex) && care.mesh.generation(vertex) == generation;
     const bool is_held = is_there && thinning_round_ == 0 && !is_free(care.mesh, vertex, *is_locked_);
     if (is_held) held_crowd_.push_back({vertex, generation});
     const bool has_merged = is_there && !is_held && collapser_.thin_out(care, vertex, is_at_seam_ ? kEnough : 1.0);
@@ -353,13 +354,13 @@ class Maintainer::Queue {
   MaintainStatistics statistics_;  // of the run in progress
   std::vector<Waiting> heap_;
   std::vector<TetId> changed_;
-  std::vector<Crowded> crowd_;  // vertices that cuts made, to be merged where they are not needed
+  std::vector<Crowded> crowd_;      // vertices that cuts made, to be merged where they are not needed
   std::vector<VertexId> touched_;   // by steps of the journal; not taken into care yet, since tets there are locked
   std::vector<OpenedFace> opened_;  // likewise
   std::vector<TetId> held_;         // came up while they were locked
   std::vector<Crowded> held_crowd_;
-  std::vector<Crowded> taken_;  // into care, during this stroke
-  std::uint32_t tag_ = 0;       // of this stroke's walls; 0 while there are none
+  std::vector<Crowded> taken_;                      // into care, during this stroke
+  std::uint32_t tag_ = 0;                           // of this stroke's walls; 0 while there are none
   ZeroedArray<std::uint8_t> is_touched_, is_held_;  // by vertex slot; by tet slot
   std::size_t next_in_crowd_ = 0;
   unsigned thinning_round_ = 0;

@@ -65,7 +65,7 @@ class References {
   struct Sweep {
     std::vector<Part> parts;     ///< each less than half as large as the one before
     std::vector<double> shares;  ///< of the fresh wall's facets measured so far: their distance by their edges
-    double chord = 0;  ///< how far the fresh wall's facets lie from it, as a share of their edges
+    double chord = 0;            ///< how far the fresh wall's facets lie from it, as a share of their edges
     double usual = kWallTolerance, greatest = kWallTolerance;  ///< tolerances
   };
 

@@ -57,9 +57,9 @@ struct MaintainReport {
 /// A stroke is cut as a whole (`cut`) or step by step as the blade moves (`begin_stroke`, `step`, `end_stroke`), in a
 /// body at rest or one that moves (`set_positions`). After each step the mesh is valid and cut up to the blade, inside
 /// elements. The profile `paper` knows whole strokes alone: its steps cut nothing, `end_stroke` does.
-/// Maintenance follows the blade, but for a band around the front of its cut, and ends with the stroke, each call within
-/// `MaintainOptions::work_units`; what the budget leaves undone waits for the next one or `maintain`. One writer; const reads from any thread between calls. A call either takes effect as
-/// a whole or not at all.
+/// Maintenance follows the blade, but for a band around the front of its cut, and ends with the stroke, each call
+/// within `MaintainOptions::work_units`; what the budget leaves undone waits for the next one or `maintain`. One
+/// writer; const reads from any thread between calls. A call either takes effect as a whole or not at all.
 class Engine {
  public:
   /// Takes the mesh. Errors: kBadArgument for options out of range. Cost: O(tets).
