@@ -131,8 +131,8 @@ TEST(Cli, maintains_each_stroke_within_its_budget) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(5));
   const std::string blade = INCISE_SCENES "/cube_cross.json";
-  std::string hash;
-  for (const std::string budget : {"", "--budget-us=1", "--budget-us=3600000000"}) {
+  std::map<std::string, std::string> hashes;
+  for (const std::string budget : {"", "--budget-us=1", "--budget-us=3600000000", "--budget-us=7200000000"}) {
     std::vector<std::string> arguments = {"cut", cube, "--blade", blade, "--snap", "0", "--report", "-"};
     if (!budget.empty()) arguments.push_back(budget);
     const Outcome cut = run(arguments);
@@ -140,11 +140,13 @@ TEST(Cli, maintains_each_stroke_within_its_budget) {
     const json report = json::parse(cut.out);
     EXPECT_EQ(report["mesh"]["after"]["components"], 4) << budget;  // cutting is never left undone
     EXPECT_EQ(report["maintain"]["units_per_stroke"].size(), report["strokes"]);
-    if (budget.empty()) hash = report["hash"];
-    if (budget == "--budget-us=3600000000") {
-      EXPECT_EQ(report["hash"], hash);
+    hashes[budget] = report["hash"];
+    if (budget != "--budget-us=1") {
+      EXPECT_EQ(report["maintain"]["waiting_tets"], 0) << budget;
     }
   }
+  EXPECT_EQ(hashes["--budget-us=3600000000"], hashes["--budget-us=7200000000"]);
+  EXPECT_NE(hashes[""], hashes["--budget-us=1"]);
 }
 
 TEST(Cli, improves_a_mesh) {
