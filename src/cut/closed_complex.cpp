@@ -21,6 +21,31 @@ void ClosedComplex::clear() {
   retired_.clear();
   scope_ = {};
   mark_ = 0;
+  ++hold_;
+}
+
+void ClosedComplex::hold(VertexId vertex) {
+  if (!vertex.is_valid()) return;
+  held_.ensure(std::size_t{vertex.value} + 1);
+  held_[vertex.value] = hold_;
+  if (!has_copies(vertex)) return;
+  for (const VertexId copy : copies_of(vertex)) {
+    held_.ensure(std::size_t{copy.value} + 1);
+    held_[copy.value] = hold_;
+  }
+}
+
+void ClosedComplex::hold_vertices() {
+  ++hold_;
+  for (const Master& master : masters_) {
+    if (master.split == nullptr) continue;
+    for (const VertexId v : master.vertices) hold(v);
+    for (const std::uint32_t e : master.edges) hold(edges_[e].split);
+    for (const std::uint32_t at : master.points) {
+      if (at != Master::kNone) hold(points_[at].vertex);
+    }
+    hold(master.middle);
+  }
 }
 
 std::uint32_t ClosedComplex::adopt(const TetMesh& mesh, TetId tet) {

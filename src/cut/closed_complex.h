@@ -191,8 +191,20 @@ class ClosedComplex {
   /// Whether a master has a vertex around which others were let go: it cannot be made anew any more.
   [[nodiscard]] bool is_half_baked(std::uint32_t master) const {
     const auto& v = masters_[master].vertices;
-    return std::any_of(v.begin(), v.end(),
-                       [&](VertexId vertex) { return is_settled(vertex) && is_settled_[vertex.value] == kHalfBaked; });
+    return std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return is_half_baked(vertex); });
+  }
+  /// Whether masters around a vertex were let go, and others not.
+  [[nodiscard]] bool is_half_baked(VertexId vertex) const {
+    return is_settled(vertex) && is_settled_[vertex.value] == kHalfBaked;
+  }
+  /// Marks all vertices that a master knows by name, and their copies: none of them may die while it lives.
+  void hold_vertices();
+  /// Whether a live tet has a vertex that was held when `hold_vertices` was called last.
+  [[nodiscard]] bool is_held(const TetMesh& mesh, TetId tet) const {
+    const TetVertices& v = mesh.vertices(tet);
+    return std::any_of(v.begin(), v.end(), [&](VertexId vertex) {
+      return vertex.value < held_.capacity() && held_[vertex.value] == hold_;
+    });
   }
   /// Whether a live tet has a settled vertex.
   [[nodiscard]] bool is_at_settled(const TetMesh& mesh, TetId tet) const {
@@ -224,6 +236,7 @@ class ClosedComplex {
 
  private:
   void flood_star(const TetMesh& mesh, VertexId vertex, std::size_t from);
+  void hold(VertexId vertex);
   void unlink_edge(std::uint32_t master, unsigned e);
   void unlink_point(std::uint32_t master, unsigned side);
   void unlink_vertex(std::uint32_t master, unsigned corner);
@@ -251,6 +264,8 @@ class ClosedComplex {
   static constexpr std::uint8_t kHalfBaked = 2;
   ZeroedArray<std::uint8_t> is_on_;
   ZeroedArray<std::uint8_t> is_settled_;  // by vertex slot: 1, or kHalfBaked
+  ZeroedArray<std::uint32_t> held_;       // by vertex slot: the call that marked it last
+  std::uint32_t hold_ = 1;
   std::vector<std::uint32_t> free_masters_;
   std::vector<VertexId> retired_;
   std::vector<std::uint32_t> star_, dirty_;

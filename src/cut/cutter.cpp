@@ -147,7 +147,7 @@ class Cutter::Pipeline {
   }
   void forget() { stroke_cut_.forget(); }
   void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
-  [[nodiscard]] bool is_busy(TetId tet) const { return stroke_cut_.complex().find(tet) != Master::kNone; }
+  [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const { return stroke_cut_.is_busy(mesh, tet); }
   [[nodiscard]] const SweptTriangles& swept() const { return swept_; }
 
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
@@ -427,8 +427,8 @@ void Cutter::forget() {
 void Cutter::call_between_sheets(std::function<void()> between_sheets) {
   pipeline_->call_between_sheets(std::move(between_sheets));
 }
-bool Cutter::is_busy(TetId tet) const {
-  return pipeline_->is_busy(tet);
+bool Cutter::is_busy(const TetMesh& mesh, TetId tet) const {
+  return pipeline_->is_busy(mesh, tet);
 }
 const SweptTriangles& Cutter::swept() const {
   return pipeline_->swept();

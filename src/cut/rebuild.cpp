@@ -559,6 +559,7 @@ class Rebuild::Run {
       if (!complex_[index].is_divided() && complex_[index].on == 0 && !settings_.keeps_pieces) continue;
       for (unsigned c = 0; c < 4; ++c) {
         const VertexId corner = complex_[index].vertices[c];
+        if (complex_[index].is_kept && complex_.is_half_baked(corner)) continue;  // it has the copy that it had
         const bool is_apart = settings_.keeps_pieces && complex_.has_copies(corner);
         if (((unsigned{complex_[index].on} >> c) & 1U) != 0 || is_apart) divide_corner(index, corner);
       }

@@ -424,6 +424,12 @@ void StrokeCut::settle(TetMesh& mesh, Journal& journal, const FrontRules& rules,
 void StrokeCut::bake(TetMesh& mesh, Journal& journal, const FrontRules& rules, std::span<const std::uint32_t> pinned,
                      CutStatistics& statistics, StageTimes& times) {
   const StageZone zone(times, Stage::kSeparate);
+  bake_behind(mesh, journal, rules, pinned, statistics);
+  complex_.hold_vertices();
+}
+
+void StrokeCut::bake_behind(TetMesh& mesh, Journal& journal, const FrontRules& rules,
+                            std::span<const std::uint32_t> pinned, CutStatistics& statistics) {
   wake_.find(mesh, complex_, sheet_.strips().back()->row, (keeps_pieces_ ? kMovingBand : kBand) * spacing_, pinned);
   if (wake_.settling().empty()) return;
   settle(mesh, journal, rules, statistics);

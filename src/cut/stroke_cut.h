@@ -75,6 +75,10 @@ class StrokeCut {
   /// Whether a surface meets the body at rest. Cost: the cells of the surface index that it passes through.
   [[nodiscard]] bool touches(const TetMesh& mesh, const SweptSurface& surface) const;
   [[nodiscard]] const OwnSheet& sheet() const { return sheet_; }
+  /// Whether a live tet has a vertex of the band that is kept: nobody else may change it.
+  [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const {
+    return complex_.find(tet) != Master::kNone || complex_.is_held(mesh, tet);
+  }
   [[nodiscard]] ClosedComplex& complex() { return complex_; }
   [[nodiscard]] const ClosedComplex& complex() const { return complex_; }
   [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
@@ -98,6 +102,8 @@ class StrokeCut {
   void let_go_of_older_cut(const TetMesh& mesh);
   [[nodiscard]] bool is_idle_cone(const TetMesh& mesh, const Master& master) const;
   bool make_idle_cones_whole(const TetMesh& mesh);
+  void bake_behind(TetMesh& mesh, Journal& journal, const FrontRules& rules, std::span<const std::uint32_t> pinned,
+                   CutStatistics& statistics);
   void settle(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics);
   [[nodiscard]] bool may_let_go(std::uint32_t edge) const;
   [[nodiscard]] bool is_at_border(std::uint32_t edge) const;

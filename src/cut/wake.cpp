@@ -58,8 +58,8 @@ void Wake::mark(const Master& master) {
   }
 }
 
-void Wake::mark_pinned(const ClosedComplex& complex) {
-  for (const std::uint32_t i : pinned_) {
+void Wake::mark_kept(const ClosedComplex& complex) {
+  for (const std::uint32_t i : kept_) {
     if (i < complex.size() && complex[i].split != nullptr) mark(complex[i]);
   }
 }
@@ -71,15 +71,17 @@ bool Wake::has_near(const Master& master) const {
 void Wake::find(const TetMesh& mesh, ClosedComplex& complex, std::span<const SosPoint> row, double band,
                 std::span<const std::uint32_t> pinned) {
   settling_.clear();
+  kept_.assign(pinned.begin(), pinned.end());
   ++round_;
   for (std::uint32_t i = 0; i < complex.size(); ++i) {
     Master& master = complex[i];
-    if (!is_touched(master)) continue;
-    master.is_behind = master.is_behind || !is_near_row(mesh, master, row, band);
-    if (!master.is_behind || (!row.empty() && waits(master))) mark(master);
+    if (master.split == nullptr) continue;
+    const bool is_far = master.is_behind || !is_near_row(mesh, master, row, band);
+    master.is_behind = is_far && is_touched(master);
+    if (!is_far || (!row.empty() && waits(master))) mark(master);
+    if (!is_far && !is_touched(master)) kept_.push_back(i);
   }
-  pinned_.assign(pinned.begin(), pinned.end());
-  mark_pinned(complex);
+  mark_kept(complex);
   for (std::uint32_t i = 0; i < complex.size(); ++i) {
     const Master& master = complex[i];
     if (is_touched(master) && !master.is_settled && !has_near(master)) settling_.push_back(i);
@@ -96,7 +98,7 @@ std::size_t Wake::let_go(ClosedComplex& complex) {
   for (std::uint32_t i = 0; i < complex.size(); ++i) {
     if (is_touched(complex[i]) && (!complex[i].is_settled || waits(complex[i]))) mark(complex[i]);
   }
-  mark_pinned(complex);
+  mark_kept(complex);
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < complex.size(); ++i) {
     if (complex[i].split == nullptr || has_near(complex[i])) continue;

@@ -37,9 +37,10 @@ class Wake {
 
  private:
   void mark(const Master& master);
-  void mark_pinned(const ClosedComplex& complex);
+  void mark_kept(const ClosedComplex& complex);
 
-  std::vector<std::uint32_t> settling_, pinned_;
+  std::vector<std::uint32_t> settling_;
+  std::vector<std::uint32_t> kept_;   // pinned, or near though the sheet has not touched them yet
   ZeroedArray<std::uint32_t> marks_;  // by vertex slot: the round in which it was near
   std::uint32_t round_ = 0;
 };

@@ -188,7 +188,7 @@ void Engine::maintain_between_sheets(MaintainStatistics& sum, StageTimes& times)
 
 /// The band around the front of the stroke under way.
 IsLocked Engine::busy() const {
-  return [this](TetId tet) { return cutter_.is_busy(tet); };
+  return [this](TetId tet) { return cutter_.is_busy(mesh_, tet); };
 }
 
 /// Maintains what the stroke has cut so far, but for what is locked.

@@ -50,8 +50,9 @@ class Cutter {
   void call_between_sheets(std::function<void()> between_sheets);
   /// Forgets a stroke whose steps were taken back.
   void forget();
-  /// Whether a live tet is one that the stroke under way may still make anew: in the band around its front.
-  [[nodiscard]] bool is_busy(TetId tet) const;
+  /// Whether a live tet lies in the band around the front of the stroke under way, or has a vertex of it: nobody else
+  /// may change it. Cost: O(1).
+  [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const;
   /// What the stroke has swept at rest, so far.
   [[nodiscard]] const SweptTriangles& swept() const;
 
