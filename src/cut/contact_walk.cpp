@@ -13,25 +13,11 @@ namespace {
 constexpr std::size_t kFewTriangles = 4;
 /// Coordinates are rounded to this share of their magnitude, with room to spare.
 constexpr double kRounding = 1e-12;
+/// A front that passes a tet's box this close by, as a share of its diagonal, may lie in it.
+constexpr double kCloseBy = 1e-6;
 
 Box box_of(const std::array<Vec3, 4>& p) {
   return {p[0].cwiseMin(p[1]).cwiseMin(p[2]).cwiseMin(p[3]), p[0].cwiseMax(p[1]).cwiseMax(p[2]).cwiseMax(p[3])};
-}
-
-/// Whether a segment passes through a box, or close by it.
-bool segment_meets(const Box& box, const Vec3& p, const Vec3& q) {
-  const Vec3 margin = Vec3::Constant(1e-6 * (box.hi - box.lo).norm());
-  double from = 0, to = 1;
-  for (int k = 0; k < 3; ++k) {
-    const double lo = box.lo[k] - margin[k] - p[k], hi = box.hi[k] + margin[k] - p[k], way = q[k] - p[k];
-    if (way == 0) {
-      if (lo > 0 || hi < 0) return false;
-      continue;
-    }
-    from = std::max(from, std::min(lo / way, hi / way));
-    to = std::min(to, std::max(lo / way, hi / way));
-  }
-  return from <= to;
 }
 
 /// The way from a point out of the body.
@@ -276,8 +262,9 @@ void ContactWalk::keep_front(const TetMesh& mesh, const ClosedComplex& complex, 
     if (master.split == nullptr) return true;
     const Box box = box_of({mesh.rest(master.vertices[0]), mesh.rest(master.vertices[1]), mesh.rest(master.vertices[2]),
                             mesh.rest(master.vertices[3])});
+    const double margin = kCloseBy * (box.hi - box.lo).norm();
     for (std::size_t c = 0; c + 1 < row.size(); ++c) {
-      if (segment_meets(box, row[c].position, row[c + 1].position)) return false;
+      if (segment_meets(box, margin, row[c].position, row[c + 1].position)) return false;
     }
     return true;
   };

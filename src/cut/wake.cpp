@@ -9,21 +9,6 @@ namespace incise::inline v0 {
 
 namespace {
 
-/// Whether a segment passes within `reach` of a box, taken larger by that.
-bool segment_meets(const Box& box, double reach, const Vec3& p, const Vec3& q) {
-  double from = 0, to = 1;
-  for (int k = 0; k < 3; ++k) {
-    const double lo = box.lo[k] - reach - p[k], hi = box.hi[k] + reach - p[k], way = q[k] - p[k];
-    if (way == 0) {
-      if (lo > 0 || hi < 0) return false;
-      continue;
-    }
-    from = std::max(from, std::min(lo / way, hi / way));
-    to = std::min(to, std::max(lo / way, hi / way));
-  }
-  return from <= to;
-}
-
 Box box_of(const TetMesh& mesh, const Master& master) {
   Box box;
   for (const VertexId v : master.vertices) box.extend(mesh.rest(v));

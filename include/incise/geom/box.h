@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "incise/geom/vec.h"
@@ -33,5 +34,20 @@ struct Box {
   /// Squared distance from a point to the nearest point of the box; 0 inside.
   [[nodiscard]] double distance2(const Vec3& p) const { return (lo - p).cwiseMax(p - hi).cwiseMax(0.0).squaredNorm(); }
 };
+
+/// Whether a segment passes through a box that is larger by `margin` ≥ 0 on all sides; touching counts.
+[[nodiscard]] inline bool segment_meets(const Box& box, double margin, const Vec3& p, const Vec3& q) {
+  double from = 0, to = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double lo = box.lo[k] - margin - p[k], hi = box.hi[k] + margin - p[k], way = q[k] - p[k];
+    if (way == 0) {
+      if (lo > 0 || hi < 0) return false;
+      continue;
+    }
+    from = std::max(from, std::min(lo / way, hi / way));
+    to = std::min(to, std::max(lo / way, hi / way));
+  }
+  return from <= to;
+}
 
 }  // namespace incise::inline v0

@@ -16,7 +16,8 @@ inline constexpr std::uint64_t kUnlimitedWork = std::numeric_limits<std::uint64_
 /// spent.
 using ShouldStop = std::function<bool()>;
 
-/// Tets that a cut under way is going to make anew: maintenance leaves them alone. Empty: there are none.
+/// Tets that a cut under way may make anew, or that have a vertex of such: maintenance leaves them alone. Empty: there
+/// are none.
 using IsLocked = std::function<bool(TetId)>;
 
 /// What is done to a mesh after a cut.
