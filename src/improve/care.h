@@ -26,10 +26,14 @@ struct Care {
   VertexId born;                ///< out: the vertex that the last accepted operation put in
   std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
   const IsLocked* is_locked = nullptr;
+  mutable bool has_met_lock = false;  ///< out: whether an operation was refused for a tet that is locked
 
   /// Whether an operation may change all of some tets.
   [[nodiscard]] bool may_change(std::span<const TetId> tets) const {
-    return is_locked == nullptr || !*is_locked || std::none_of(tets.begin(), tets.end(), std::cref(*is_locked));
+    const bool may =
+        is_locked == nullptr || !*is_locked || std::none_of(tets.begin(), tets.end(), std::cref(*is_locked));
+    has_met_lock |= !may;
+    return may;
   }
 
   /// To be called with tets whose boundary an operation is about to judge or to change.
@@ -44,6 +48,11 @@ inline constexpr double kFineTolerance = 0.01, kCoarseTolerance = 0.04;
 
 inline double skin_tolerance(const Care& care) {
   return care.is_bad ? kCoarseTolerance : kFineTolerance;
+}
+
+/// How far skin may lie from where it was before all, as a share of the local edge.
+inline double skin_share(const Care& care) {
+  return care.is_bad ? kBadSkinTolerance : kSkinTolerance;
 }
 
 /// How far a surface may leave its place, as a share of the local edge.

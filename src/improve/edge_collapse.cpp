@@ -296,11 +296,11 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
       }
     }
     const double edge = mean_spoke(patches_[i].before), tolerance = surface_tolerance(care, surface.tag) * edge;
-    const bool keeps_apex =
-        !moves(care) || care.references.allows_apex(surface.tag, care.mesh.rest(plan_.into), place_, tolerance, edge);
+    const bool keeps_apex = !moves(care) || care.references.allows_apex(surface.tag, care.mesh.rest(plan_.into), place_,
+                                                                        tolerance, edge, skin_share(care));
     const bool keeps_facets =
-        surface.is_flat ||
-        care.references.allows(surface.tag, patches_[i].before, patches_[i].after, tolerance, patches_[i].reach);
+        surface.is_flat || care.references.allows(surface.tag, patches_[i].before, patches_[i].after, tolerance,
+                                                  patches_[i].reach, skin_share(care));
     if (!keeps_apex || !keeps_facets) {
       return false;
     }
@@ -318,7 +318,7 @@ bool EdgeCollapser::keeps_skin_beside(const Care& care) {
     facet[0] = place_;
     add_facet(after, facet);
   });
-  return care.references.skin().keeps(before, after);
+  return care.references.skin().keeps(before, after, skin_share(care));
 }
 
 /// Whether tets that stand upright now stay so, with the merged vertex where it will stand.
@@ -336,13 +336,14 @@ bool EdgeCollapser::keeps_current(const Care& care) const {
 
 bool EdgeCollapser::carry_out(Care& care) {
   care.note(star_);
-  if (moves(care) && !move_vertex(care, plan_.into, place_, plan_.around)) {
+  const bool has_moved = moves(care);
+  if (has_moved && !move_vertex(care, plan_.into, place_, plan_.around)) {
     return false;
   }
   incise::apply(care.transaction, plan_);
   ++care.statistics.collapsed_edges;
   care.changed = plan_.fan;
-  if (moves(care)) {
+  if (has_moved) {
     care.changed = care.walker.star(care.mesh, plan_.into);
   }
   return true;

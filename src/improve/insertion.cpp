@@ -74,7 +74,7 @@ bool VertexInserter::open_edge(const Care& care, VertexId a, VertexId b) {
       (mesh.shape_of(a) & mesh.shape_of(b) & shape::kFront) != 0) {
     return false;
   }
-  opened_ = {true, mesh.link(first).tag(), {first, second}, (n + m).normalized(), {}};
+  opened_ = {true, mesh.link(first).tag(), {first, second}, {mesh.rest(a), mesh.rest(b)}, (n + m).normalized(), {}};
   for (const Side side : opened_.faces) {
     const auto v = mesh.vertices(side);
     opened_.piece.facets.push_back({mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])});
@@ -161,6 +161,7 @@ double VertexInserter::rate(Care& care) {
 void VertexInserter::keep_best(double worst) {
   if (worst > kLeastRatio && worst > best_gain_ * before_) {
     best_gain_ = worst / before_;
+    best_before_ = before_;
     best_cavity_ = cavity_;
     best_place_ = place_;
   }
@@ -207,7 +208,18 @@ bool VertexInserter::keeps_surface(const Care& care) {
   const bool is_flat =
       vector_area2(care.mesh, opened_.faces[0]).cross(vector_area2(care.mesh, opened_.faces[1])).squaredNorm() <=
       kFlat * kFlat * longest2 * longest2 * longest2 * longest2;
-  return is_flat || care.references.allows(opened_.tag, opened_.piece, piece_, tolerance, reach);
+  return is_flat || care.references.allows(opened_.tag, opened_.piece, piece_, tolerance, reach, skin_share(care));
+}
+
+/// Takes a place that leaves the surface nearer to the edge opened, which lies on it.
+bool VertexInserter::come_nearer(Care& care) {
+  const Vec3 middle = 0.5 * (opened_.edge[0] + opened_.edge[1]), step = place_ - middle;
+  for (const double share : {0.5, 0.25, 0.0}) {
+    place_ = middle + share * step;
+    const double worst = rate(care);
+    if (worst > kLeastRatio && worst > (1.0 + kLeastInsertionGain) * best_before_ && keeps_surface(care)) return true;
+  }
+  return false;
 }
 
 /// Whether no more than two faces of the cavity's hull meet at an edge.
@@ -241,10 +253,10 @@ bool VertexInserter::carry_out(Care& care) {
   cavity_ = best_cavity_;
   place_ = best_place_;
   care.note(cavity_);
-  if (!keeps_surface(care)) {
+  collect_bases(care);
+  if (!keeps_surface(care) && !come_nearer(care)) {
     return false;
   }
-  collect_bases(care);
   const MaterialPoint point = locate(care.mesh, place_, cavity_);
   const Vec3 current = current_at(care.mesh, point);
   if (!has_manifold_hull(care.mesh) || !stays_sound(care.mesh, current)) {

@@ -33,6 +33,7 @@ class VertexInserter {
     bool is_surface = false;
     std::uint32_t tag = 0;
     std::array<Side, 2> faces;
+    std::array<Vec3, 2> edge;  ///< its ends
     Vec3 normal = Vec3::Zero();
     Piece piece;
   };
@@ -48,6 +49,7 @@ class VertexInserter {
   double rate(Care& care);
   void keep_best(double worst);
   [[nodiscard]] bool keeps_surface(const Care& care);
+  bool come_nearer(Care& care);
   [[nodiscard]] bool has_manifold_hull(const TetMesh& mesh);
   [[nodiscard]] bool stays_sound(const TetMesh& mesh, const Vec3& current) const;
   bool carry_out(Care& care);
@@ -60,7 +62,7 @@ class VertexInserter {
   StarEnergy energy_;
   Vec3 place_ = Vec3::Zero(), best_place_ = Vec3::Zero();
   double before_ = 0;  // worst of the cavity as it is
-  double best_gain_ = 0;
+  double best_gain_ = 0, best_before_ = 0;
   std::vector<std::uint64_t> hull_edges_;
   std::vector<VertexId> enclosed_;
   RemeshPlan plan_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "improve/care.h"
+#include "improve/close_merge.h"
 #include "improve/edge_collapse.h"
 #include "improve/edge_removal.h"
 #include "improve/insertion.h"
@@ -38,6 +39,13 @@ struct Waiting {
 
   /// Heaps keep the greatest in front: here the worst, of equals the lowest.
   bool operator<(const Waiting& o) const { return ratio != o.ratio ? ratio > o.ratio : o.tet.value < tet.value; }
+};
+
+/// A bad tet that nothing could mend, at a time in changes.
+struct Hopeless {
+  TetId tet;
+  double ratio;
+  std::uint64_t time;
 };
 
 /// A vertex that may be merged, by slot and generation: slots are used again.
@@ -112,6 +120,7 @@ class Maintainer::Queue {
     while (is_due() && has_budget()) {
       run_step(mesh, journal, times);
       references_.skin().skip(journal);
+      if (!is_due()) take_hopeless(mesh);
     }
     statistics_.waiting_tets = heap_.size();
     statistics_.created_tets = static_cast<std::int64_t>(mesh.tet_count()) - static_cast<std::int64_t>(tets_before);
@@ -124,6 +133,7 @@ class Maintainer::Queue {
     references_.skin().rewind(position);
     heap_.clear();
     crowd_.clear();
+    hopeless_.clear();
     for (const VertexId v : touched_) is_touched_[v.value] = 0;
     touched_.clear();
     opened_.clear();
@@ -138,6 +148,23 @@ class Maintainer::Queue {
  private:
   /// Whether there is something to be done now.
   [[nodiscard]] bool is_due() const { return !heap_.empty() || !crowd_.empty(); }
+  /// A bad tet that nothing could mend is tried again once something has changed at one of its vertices.
+  void take_hopeless(const TetMesh& mesh) {
+    std::size_t kept = 0;
+    for (const Hopeless& entry : hopeless_) {
+      if (!mesh.is_live(entry.tet) || inradius_ratio(mesh, mesh.vertices(entry.tet)) != entry.ratio) continue;
+      const TetVertices& v = mesh.vertices(entry.tet);
+      if (std::any_of(v.begin(), v.end(), [&](VertexId id) { return changed_at(id) > entry.time; })) {
+        push(mesh, entry.tet);
+      } else {
+        hopeless_[kept++] = entry;
+      }
+    }
+    hopeless_.resize(kept);
+  }
+  [[nodiscard]] std::uint64_t changed_at(VertexId v) const {
+    return v.value < changed_at_.capacity() ? changed_at_[v.value] : 0;
+  }
   [[nodiscard]] bool is_free(const TetMesh& mesh, VertexId v, const IsLocked& is_locked) {
     if (!is_locked || !mesh.is_live(v)) return true;
     if (is_locked(mesh.tet_of(v))) return false;
@@ -302,8 +329,13 @@ class Maintainer::Queue {
       hold(worst.tet);
       return false;
     }
+    if (!is_fresh) return false;
     care.is_bad = worst.ratio < kBad;
-    return is_fresh && improve(care, worst.tet, times);
+    care.has_met_lock = false;
+    const bool has_improved = improve(care, worst.tet, times);
+    if (!has_improved && care.has_met_lock) hold(worst.tet);
+    if (!has_improved && !care.has_met_lock && care.is_bad) hopeless_.push_back({worst.tet, worst.ratio, time_});
+    return has_improved;
   }
   bool thin_out_next(Care& care, StageTimes& times) {
     const StageZone zone(times, Stage::kMerge);
@@ -321,7 +353,7 @@ class Maintainer::Queue {
   }
   /// The first remedy that helps; collapses first, since they leave fewer tets behind.
   bool improve(Care& care, TetId tet, StageTimes& times) {
-    return collapse(care, tet, times) || reshape(care, tet, times);
+    return collapse(care, tet, times) || reshape(care, tet, times) || merge_close(care, tet, times);
   }
   bool collapse(Care& care, TetId tet, StageTimes& times) {
     const StageZone zone(times, Stage::kMerge);
@@ -331,6 +363,11 @@ class Maintainer::Queue {
     const StageZone zone(times, Stage::kImprove);
     return options_.improve && (remover_.improve(care, tet) || face_remover_.improve(care, tet) || smooth(care, tet) ||
                                 (care.is_bad && (peeler_.improve(care, tet) || inserter_.improve(care, tet))));
+  }
+  /// Where nothing else helps.
+  bool merge_close(Care& care, TetId tet, StageTimes& times) {
+    const StageZone zone(times, Stage::kMerge);
+    return options_.merge && care.is_bad && merger_.improve(care, tet);
   }
   bool smooth(Care& care, TetId tet) {
     const TetVertices corners = care.mesh.vertices(tet);
@@ -343,8 +380,11 @@ class Maintainer::Queue {
       in_care_[care.born.value] = epoch_ * 4 + 2;
       care.born = {};
     }
+    ++time_;
+    changed_at_.ensure(care.mesh.vertex_slots());
     for (const TetId tet : changed_) {
       push(care.mesh, tet);
+      for (const VertexId v : care.mesh.vertices(tet)) changed_at_[v.value] = time_;
     }
   }
 
@@ -354,7 +394,10 @@ class Maintainer::Queue {
   MaintainStatistics statistics_;  // of the run in progress
   std::vector<Waiting> heap_;
   std::vector<TetId> changed_;
-  std::vector<Crowded> crowd_;      // vertices that cuts made, to be merged where they are not needed
+  std::vector<Hopeless> hopeless_;
+  std::uint64_t time_ = 0;                 // changes so far
+  ZeroedArray<std::uint64_t> changed_at_;  // the time of the last change at a vertex, by its slot
+  std::vector<Crowded> crowd_;             // vertices that cuts made, to be merged where they are not needed
   std::vector<VertexId> touched_;   // by steps of the journal; not taken into care yet, since tets there are locked
   std::vector<OpenedFace> opened_;  // likewise
   std::vector<TetId> held_;         // came up while they were locked
@@ -377,6 +420,7 @@ class Maintainer::Queue {
   Smoother smoother_;
   Peeler peeler_;
   VertexInserter inserter_;
+  CloseMerger merger_;
 };
 
 Maintainer::Maintainer(MaintainOptions options) : queue_(std::make_unique<Queue>(options)) {}

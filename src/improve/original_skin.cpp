@@ -191,10 +191,10 @@ OriginalSkin::Closest OriginalSkin::closest(const Vec3& place, double greatest) 
 }
 
 /// In length units, at a piece of skin with this mean edge.
-double OriginalSkin::tolerance_at(const Vec3& place, double edge) const {
-  const Closest nearest = closest(place, kSkinTolerance * kFarthest * edge);
+double OriginalSkin::tolerance_at(const Vec3& place, double edge, double share) const {
+  const Closest nearest = closest(place, share * kFarthest * edge);
   const bool is_known = nearest.distance2 < std::numeric_limits<double>::infinity();
-  return kSkinTolerance * (is_known ? std::min(edge, mean_edge(facets_[nearest.facet])) : edge);
+  return share * (is_known ? std::min(edge, mean_edge(facets_[nearest.facet])) : edge);
 }
 
 /// Whether a vertex that the skin had is as near to the new piece as it must be; others than the old piece's own are.
@@ -217,16 +217,16 @@ bool OriginalSkin::is_near(const Piece& after, const Piece& before, double toler
   });
 }
 
-bool OriginalSkin::keeps_vertex(const Vec3& old_place, const Vec3& place, double edge) const {
+bool OriginalSkin::keeps_vertex(const Vec3& old_place, const Vec3& place, double edge, double share) const {
   if (is_empty()) return true;
-  return is_near({{}, {place}}, {{}, {old_place}}, tolerance_at(old_place, edge));
+  return is_near({{}, {place}}, {{}, {old_place}}, tolerance_at(old_place, edge, share));
 }
 
-bool OriginalSkin::keeps(const Piece& before, const Piece& after) const {
+bool OriginalSkin::keeps(const Piece& before, const Piece& after, double share) const {
   if (is_empty() || after.facets.empty() || before.samples.empty()) return true;
   double edge = 0;
   for (const Facet& f : after.facets) edge += mean_edge(f) / static_cast<double>(after.facets.size());
-  const double tolerance = tolerance_at(before.samples.front(), edge);
+  const double tolerance = tolerance_at(before.samples.front(), edge, share);
   if (!is_near(after, before, tolerance)) return false;
   Box box;
   for (const Facet& f : before.facets) box.extend(box_of(f));

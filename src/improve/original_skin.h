@@ -15,9 +15,9 @@
 
 namespace incise::inline v0 {
 
-/// However often it is maintained, skin leaves its place by at most this share of the local edge. Later cuts make edges
-/// shorter: of those it may be a few times as much.
-inline constexpr double kSkinTolerance = 0.01;
+/// However often it is maintained, skin leaves its place by at most this share of the local edge; by the greater one to
+/// mend bad tets. Later cuts make edges shorter: of those it may be a few times as much.
+inline constexpr double kSkinTolerance = 0.01, kBadSkinTolerance = 0.025;
 
 /// The skin of a mesh as it was when its journal began, as far as the places go that have changed since.
 ///
@@ -41,12 +41,13 @@ class OriginalSkin {
   [[nodiscard]] double distance2(const Vec3& place, double greatest) const {
     return closest(place, greatest).distance2;
   }
-  /// Whether a piece of skin may give way to another: the new one lies within `kSkinTolerance` of the local edge from
-  /// where the skin was, or at least no further off than the old piece did; and so do the vertices that the skin had
-  /// there from the new piece. The local edge: of the new piece or of the skin as it was, whichever is shorter.
-  [[nodiscard]] bool keeps(const Piece& before, const Piece& after) const;
+  /// Whether a piece of skin may give way to another: the new one lies within `share` of the local edge from where the
+  /// skin was, or at least no further off than the old piece did; and so do the vertices that the skin had there from
+  /// the new piece. The local edge: of the new piece or of the skin as it was, whichever is shorter.
+  [[nodiscard]] bool keeps(const Piece& before, const Piece& after, double share = kSkinTolerance) const;
   /// The same for a vertex that moves, at a piece of skin with this mean edge.
-  [[nodiscard]] bool keeps_vertex(const Vec3& old_place, const Vec3& place, double edge) const;
+  [[nodiscard]] bool keeps_vertex(const Vec3& old_place, const Vec3& place, double edge,
+                                  double share = kSkinTolerance) const;
 
  private:
   /// A facet is listed in the few cells of about its size that it meets, and as one of the finer things in those of
@@ -84,7 +85,7 @@ class OriginalSkin {
     std::uint32_t facet = 0;
   };
   [[nodiscard]] Closest closest(const Vec3& place, double greatest) const;
-  [[nodiscard]] double tolerance_at(const Vec3& place, double edge) const;
+  [[nodiscard]] double tolerance_at(const Vec3& place, double edge, double share) const;
   [[nodiscard]] bool is_near(const Piece& after, const Piece& before, double tolerance) const;
   [[nodiscard]] bool is_covered(const Vec3& point, const Piece& before, const Piece& after, double tolerance) const;
 

@@ -117,7 +117,7 @@ bool Peeler::keeps_surface(const Care& care) {
   }
   const double tolerance = surface_tolerance(care, tag_) * longest_edge(care.mesh, tet_);
   Reach reach;
-  return care.references.allows(tag_, before_, after_, tolerance, reach);
+  return care.references.allows(tag_, before_, after_, tolerance, reach, skin_share(care));
 }
 
 /// Where a vertex must go to restore the volume; false where that makes the worst tet no better.
@@ -151,7 +151,7 @@ bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
   care.note(star_);
   const double edge = longest_edge(mesh, tet_);
   if ((mesh.shape_of(vertex) & shape::kSkin) != 0 &&
-      !care.references.allows_apex(0, mesh.rest(vertex), place, skin_tolerance(care) * edge, edge)) {
+      !care.references.allows_apex(0, mesh.rest(vertex), place, skin_tolerance(care) * edge, edge, skin_share(care))) {
     return false;
   }
   std::erase(star_, tet_);

@@ -110,10 +110,10 @@ double References::tolerance(std::uint32_t tag, bool is_bad) const {
   return is_bad ? sweep->second.greatest : sweep->second.usual;
 }
 
-bool References::allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec3& place, double tolerance,
-                             double edge) const {
+bool References::allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec3& place, double tolerance, double edge,
+                             double skin_share) const {
   if (tag == 0) {
-    return skin_.keeps_vertex(old_place, place, edge);
+    return skin_.keeps_vertex(old_place, place, edge, skin_share);
   }
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end() ||
@@ -124,12 +124,12 @@ bool References::allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec
   return closest(sweep->second, place, old_distance).is_valid();
 }
 
-bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,
-                        Reach& reach) const {
+bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance, Reach& reach,
+                        double skin_share) const {
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end()) {
     return are_near(after, before, tolerance * tolerance) && are_near(before, after, tolerance * tolerance) &&
-           (tag != 0 || skin_.keeps(before, after));
+           (tag != 0 || skin_.keeps(before, after, skin_share));
   }
   return std::all_of(after.samples.begin(), after.samples.end(), [&](const Vec3& p) {
     if (closest(sweep->second, p, tolerance).is_valid()) return true;

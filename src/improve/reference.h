@@ -46,15 +46,16 @@ class References {
 
   /// Whether the surface under a tag may change from `before` to `after`: no sample of `after` lies further from the
   /// reference than `tolerance`, or than `before` did. Where there is no sweep the pieces are compared with each other,
-  /// skin with the skin as it was besides. `reach` is that of `before`. Cost: O(samples), or O(samples·facets).
-  [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance,
-                            Reach& reach) const;
+  /// skin with the skin as it was besides, from which it may lie `skin_share` of the local edge. `reach` is that of
+  /// `before`. Cost: O(samples), or O(samples·facets).
+  [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance, Reach& reach,
+                            double skin_share = kSkinTolerance) const;
 
   /// The same for a vertex of the surface that moves: it may lie as far from the reference as it did, or as the facets
   /// of a fresh wall with this mean edge do; on skin see `OriginalSkin::keeps_vertex`. True where there is no
   /// reference. Cost: O(1) searches.
   [[nodiscard]] bool allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec3& place, double tolerance,
-                                 double edge) const;
+                                 double edge, double skin_share = kSkinTolerance) const;
 
  private:
   /// A part of a sweep, by its triangles [first, last).

@@ -17,6 +17,8 @@ namespace {
 constexpr unsigned kMaxSteps = 5;
 /// A step is halved so often before it is given up.
 constexpr unsigned kMaxHalvings = 5;
+/// A step that would take a curved surface too far from its place is halved so often.
+constexpr unsigned kShortenings = 3;
 /// A step that gains less than this share of the energy is the last.
 constexpr double kLeastDescent = 1e-2;
 /// A move must make the worst tet better by this share: smaller gains cost more than they are worth.
@@ -201,14 +203,18 @@ bool Smoother::improve(Care& care, VertexId vertex) {
     return false;
   }
   collect(care, vertex);
-  const Vec3 place = find_place(care, vertex);
+  const Vec3 start = care.mesh.rest(vertex), step = find_place(care, vertex) - start;
   const double bound = std::max(before * (1.0 + kLeastSmoothingGain), kLeastRatio);
-  if (place == care.mesh.rest(vertex) || !(worst_at(care, vertex, place, bound) > bound) ||
-      !keeps_surfaces(care, vertex, place) || !move_vertex(care, vertex, place, star_)) {
-    return false;
+  const unsigned attempts = care.is_bad && is_curved() ? kShortenings + 1 : 1;
+  double share = 1.0;
+  for (unsigned i = 0; i < attempts && !step.isZero(0.0); ++i, share *= 0.5) {
+    const Vec3 place = start + share * step;
+    if (worst_at(care, vertex, place, bound) > bound && keeps_surfaces(care, vertex, place)) {
+      care.changed = star_;
+      return move_vertex(care, vertex, place, star_);
+    }
   }
-  care.changed = star_;
-  return true;
+  return false;
 }
 
 void Smoother::collect(const Care& care, VertexId vertex) {
@@ -260,7 +266,7 @@ double Smoother::worst_at(Care& care, VertexId vertex, const Vec3& place, double
 
 /// Whether the boundary around the vertex stays where it is, within the tolerance; in a plane it does by itself.
 bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& place) {
-  if (surfaces_.mobility == Mobility::kFree || (surfaces_.is_flat() && !surfaces_.is_front())) {
+  if (!is_curved()) {
     return true;
   }
   care.note(star_);
@@ -279,8 +285,8 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
     const double tolerance = surface_tolerance(care, surface.tag) * mean_spoke(before_);
     Reach apex_reach, reach;
     const Piece apex_before{before_.facets, {care.mesh.rest(vertex)}}, apex_after{after_.facets, {place}};
-    if (!care.references.allows(surface.tag, apex_before, apex_after, tolerance, apex_reach) ||
-        !care.references.allows(surface.tag, before_, after_, tolerance, reach)) {
+    if (!care.references.allows(surface.tag, apex_before, apex_after, tolerance, apex_reach, skin_share(care)) ||
+        !care.references.allows(surface.tag, before_, after_, tolerance, reach, skin_share(care))) {
       return false;
     }
   }

@@ -52,6 +52,9 @@ class Smoother {
   bool improve(Care& care, VertexId vertex);
 
  private:
+  [[nodiscard]] bool is_curved() const {
+    return surfaces_.mobility != Mobility::kFree && (!surfaces_.is_flat() || surfaces_.is_front());
+  }
   void collect(const Care& care, VertexId vertex);
   [[nodiscard]] Vec3 find_place(Care& care, VertexId vertex) const;
   [[nodiscard]] bool keeps_surfaces(const Care& care, VertexId vertex, const Vec3& place);

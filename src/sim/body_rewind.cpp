@@ -119,12 +119,14 @@ void Rewind::compare(DeformableBody::State& s, const TetMesh& mesh) {
 
 Rewind::Sample Rewind::sample(const Vec3& rest) const {
   Sample sample;
-  sample.tet = &old_tets_[grid_.find(rest, sample.weights)];
-  constexpr double kFarthest = -0.5;  // beside a thin tet weights would lead far away
+  const std::size_t at = grid_.find(rest, sample.weights);
+  sample.tet = &old_tets_[at];
+  constexpr double kFarthest = -0.5;  // beside a thin tet weights would lead far away: from there on as at rest
   if (*std::min_element(sample.weights.begin(), sample.weights.end()) < kFarthest) {
     double sum = 0;
     for (double& weight : sample.weights) sum += weight = std::max(weight, 0.0);
-    for (double& weight : sample.weights) weight /= sum;
+    sample.place = rest;
+    for (unsigned i = 0; i < 4; ++i) sample.place -= (sample.weights[i] /= sum) * grid_.tet(at)[i];
   }
   for (unsigned i = 0; i < 4; ++i) {
     sample.place += sample.weights[i] * sample.tet->places[i];

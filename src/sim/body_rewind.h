@@ -23,6 +23,7 @@ class RestGrid {
   /// The tet that holds a point, or is nearest to holding it, with the point's barycentric coordinates. There must be
   /// tets. Cost: O(tets that meet a cell).
   [[nodiscard]] std::size_t find(const Vec3& point, Weights& weights) const;
+  [[nodiscard]] const Corners& tet(std::size_t index) const { return tets_[index]; }
 
  private:
   [[nodiscard]] std::array<std::uint32_t, 3> cell_of(const Vec3& point) const;

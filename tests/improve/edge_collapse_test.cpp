@@ -200,6 +200,11 @@ unsigned thin_out_all(TetMesh& mesh) {
     const Step step = care.commit();
     if (!is_done) continue;
     merge.expect_allowed(step);
+    for (const MovedVertex& moved : step.moved) {
+      for (const TetId tet : star_of(mesh, moved.id)) {
+        EXPECT_NE(std::find(care.changed.begin(), care.changed.end(), tet), care.changed.end()) << "to be judged anew";
+      }
+    }
     ++merged;
   }
   return merged;

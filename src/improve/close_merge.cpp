@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "improve/close_merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "improve/smooth.h"
+#include "incise/geom/quality.h"
+
+namespace incise::inline v0 {
+
+namespace {
+
+/// Edges of at most this share of the mean edge around them are short.
+constexpr double kShort = 0.15;
+/// Where the cut ends there is no reference for the front: it may move by this share of the mean edge.
+constexpr double kFrontReach = 0.06;
+/// Facets turn by less than the angle with this cosine: 60 degrees.
+constexpr double kTurn = 0.5;
+/// A facet whose height is below this share of the mean edge may turn as it likes: it has no direction to speak of.
+constexpr double kLeastHeight = 0.05;
+/// A loss of volume below this share of the mean edge cubed is rounding.
+constexpr double kNoVolume = 1e-13;
+/// Vector areas shorter than this share of what they are the sum of give no way to restore the volume.
+constexpr double kLeastArea = 0.05;
+/// What restores the volume is at most this share of the mean edge.
+constexpr double kGreatestStep = 0.05;
+
+Vec3 vector_area2(const Facet& f) {
+  return (f[1] - f[0]).cross(f[2] - f[0]);
+}
+
+double height_of(const Facet& f) {
+  const double longest2 =
+      std::max({(f[1] - f[0]).squaredNorm(), (f[2] - f[1]).squaredNorm(), (f[0] - f[2]).squaredNorm()});
+  return longest2 > 0 ? vector_area2(f).norm() / std::sqrt(longest2) : 0.0;
+}
+
+/// Samples at the centroid and along the edges from the first corner.
+void add_facet(Piece& piece, const Facet& f) {
+  piece.facets.push_back(f);
+  piece.samples.push_back((f[0] + f[1] + f[2]) / 3.0);
+  piece.samples.push_back(0.5 * (f[0] + f[1]));
+}
+
+/// Whether a place is the corner of a facet.
+bool is_on(const Piece& piece, const Vec3& place) {
+  return std::any_of(piece.facets.begin(), piece.facets.end(),
+                     [&](const Facet& f) { return f[0] == place || f[1] == place || f[2] == place; });
+}
+
+}  // namespace
+
+bool CloseMerger::improve(Care& care, TetId tet) {
+  const TetVertices v = care.mesh.vertices(tet);
+  std::array<std::tuple<double, VertexId, VertexId>, 6> edges;
+  for (unsigned e = 0; e < 6; ++e) {
+    const auto [i, j] = kEdgeCorners[e];
+    edges[e] = {(care.mesh.rest(v[i]) - care.mesh.rest(v[j])).squaredNorm(), v[i], v[j]};
+  }
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const auto& x, const auto& y) { return std::get<0>(x) < std::get<0>(y); });
+  const double short2 = kShort * kShort * std::get<0>(edges.back());
+  return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    return std::get<0>(edge) <= short2 && try_merge(care, std::get<1>(edge), std::get<2>(edge));
+  });
+}
+
+bool CloseMerger::try_merge(Care& care, VertexId from, VertexId into) {
+  planner_.plan(care.mesh, from, into, plan_);
+  if (!plan_ || !begin(care)) return false;
+  const Vec3 p = care.mesh.rest(from), q = care.mesh.rest(into);
+  const bool is_front = ((care.mesh.shape_of(from) | care.mesh.shape_of(into)) & shape::kFront) != 0;
+  const double length = (p - q).norm();
+  if (length > (is_front ? kFrontReach : kShort) * edge_) return false;
+  return try_place(care, q) || try_place(care, p) || try_place(care, 0.5 * (p + q));
+}
+
+/// Looks at both stars; false where they may not change.
+bool CloseMerger::begin(Care& care) {
+  const TetMesh& mesh = care.mesh;
+  star_ = plan_.fan;
+  star_.insert(star_.end(), plan_.around.begin(), plan_.around.end());
+  const auto has_region = [&](TetId tet) { return mesh.region(tet) == mesh.region(star_.front()); };
+  if (!care.may_change(star_) || !std::all_of(star_.begin(), star_.end(), has_region)) return false;
+  worst_ = worst_of(care, star_);
+  double sum = 0;
+  std::size_t count = 0;
+  for (const TetId tet : star_) {
+    for (const auto& [i, j] : kEdgeCorners) {
+      sum += (mesh.rest(mesh.vertices(tet)[i]) - mesh.rest(mesh.vertices(tet)[j])).norm();
+      ++count;
+    }
+  }
+  edge_ = sum / static_cast<double>(count);
+  collect_sides(care);
+  return true;
+}
+
+void CloseMerger::collect_sides(const Care& care) {
+  const TetMesh& mesh = care.mesh;
+  sides_.clear();
+  tags_.clear();
+  for (const TetId tet : star_) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Link link = mesh.links(tet)[s];
+      if (!link.is_boundary()) continue;
+      const auto v = mesh.vertices(Side(tet, s));
+      const auto from = static_cast<std::size_t>(std::find(v.begin(), v.end(), plan_.from) - v.begin());
+      const auto into = static_cast<std::size_t>(std::find(v.begin(), v.end(), plan_.into) - v.begin());
+      const std::size_t first = std::min(from, into);
+      if (first == 3) continue;
+      const Facet before = {mesh.rest(v[first]), mesh.rest(v[(first + 1) % 3]), mesh.rest(v[(first + 2) % 3])};
+      sides_.push_back({link.tag(), before, before, from == 3 || into == 3});
+      if (std::find(tags_.begin(), tags_.end(), link.tag()) == tags_.end()) tags_.push_back(link.tag());
+    }
+  }
+}
+
+bool CloseMerger::try_place(Care& care, Vec3 place) {
+  return restore_volume(place) && improves(care, place) && keeps_current(care, place) && keeps_surfaces(care, place) &&
+         carry_out(care, place);
+}
+
+/// Moves the merged vertex to where both stars have the volume that they had: it is linear in the vertex, with the sum
+/// of the vector areas around it as gradient.
+bool CloseMerger::restore_volume(Vec3& place) {
+  double lost6 = 0, scale = 0;
+  Vec3 area2 = Vec3::Zero();
+  for (Side3& side : sides_) {
+    side.after[0] = place;
+    // The volume that facets enclose with the place itself: none of those that stay have any.
+    lost6 += (side.before[0] - place).cross(side.before[1] - place).dot(side.before[2] - place);
+    if (!side.stays) continue;
+    area2 += vector_area2(side.after);
+    scale += vector_area2(side.after).norm();
+  }
+  if (std::abs(lost6) <= kNoVolume * edge_ * edge_ * edge_) return true;
+  if (!(area2.norm() > kLeastArea * scale)) return false;
+  const Vec3 step = (lost6 / area2.squaredNorm()) * area2;
+  place += step;
+  for (Side3& side : sides_) side.after[0] = place;
+  return step.norm() <= kGreatestStep * edge_;
+}
+
+bool CloseMerger::improves(Care& care, const Vec3& place) const {
+  const double bound = std::max(worst_ * (1.0 + kLeastGain), kLeastRatio);
+  const auto is_better = [&](TetId tet, VertexId vertex) {
+    care.spend(1);
+    return inradius_ratio_with(care.mesh, tet, vertex, place) > bound;
+  };
+  return std::all_of(plan_.fan.begin(), plan_.fan.end(), [&](TetId tet) { return is_better(tet, plan_.from); }) &&
+         std::all_of(plan_.around.begin(), plan_.around.end(),
+                     [&](TetId tet) { return care.mesh.corner_of(tet, plan_.from) < 4 || is_better(tet, plan_.into); });
+}
+
+bool CloseMerger::keeps_surfaces(Care& care, const Vec3& place) {
+  const auto turns = [&](const Side3& side) {
+    const Vec3 n = vector_area2(side.before), m = vector_area2(side.after);
+    return side.stays && height_of(side.before) > kLeastHeight * edge_ && !(n.dot(m) > kTurn * n.norm() * m.norm());
+  };
+  care.note(star_);
+  return std::none_of(sides_.begin(), sides_.end(), turns) &&
+         std::all_of(tags_.begin(), tags_.end(), [&](std::uint32_t tag) { return keeps_tag(care, tag, place); });
+}
+
+bool CloseMerger::keeps_tag(Care& care, std::uint32_t tag, const Vec3& place) {
+  before_.clear();
+  after_.clear();
+  for (const Side3& side : sides_) {
+    if (side.tag != tag) continue;
+    add_facet(before_, side.before);
+    if (side.stays) add_facet(after_, side.after);
+  }
+  if (after_.facets.empty()) return false;
+  after_.samples.push_back(place);
+  const double tolerance = surface_tolerance(care, tag) * edge_;
+  const auto keeps_end = [&](const Vec3& end) {
+    return !is_on(before_, end) || care.references.allows_apex(tag, end, place, tolerance, edge_, skin_share(care));
+  };
+  Reach reach;
+  return keeps_end(care.mesh.rest(plan_.from)) && keeps_end(care.mesh.rest(plan_.into)) &&
+         care.references.allows(tag, before_, after_, tolerance, reach, skin_share(care));
+}
+
+/// Whether tets that stand upright now stay so.
+bool CloseMerger::keeps_current(const Care& care, const Vec3& place) const {
+  const TetMesh& mesh = care.mesh;
+  const MaterialPoint point = locate(mesh, place, star_);
+  const Vec3 merged = place == mesh.rest(plan_.into)
+                          ? mesh.current(plan_.into)
+                          : current_after_move(mesh, plan_.into, place, point.basis, point.weights);
+  return std::all_of(star_.begin(), star_.end(), [&](TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
+    const bool vanishes = mesh.corner_of(tet, plan_.from) < 4 && mesh.corner_of(tet, plan_.into) < 4;
+    const auto at = [&](unsigned c) -> const Vec3& {
+      return v[c] == plan_.from || v[c] == plan_.into ? merged : mesh.current(v[c]);
+    };
+    return vanishes || signed_volume6(at(0), at(1), at(2), at(3)) > 0 || !is_sound_now(mesh, v);
+  });
+}
+
+bool CloseMerger::carry_out(Care& care, const Vec3& place) {
+  if (place != care.mesh.rest(plan_.into)) {
+    const MaterialPoint point = locate(care.mesh, place, star_);
+    care.transaction.move(plan_.into, place, point.basis, point.weights);
+    ++care.statistics.moved_vertices;
+  }
+  apply(care.transaction, plan_);
+  ++care.statistics.collapsed_edges;
+  care.changed = care.walker.star(care.mesh, plan_.into);
+  return true;
+}
+
+}  // namespace incise::inline v0
