@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cut/twist.h"
 #include "incise/geom/closest.h"
@@ -19,6 +20,8 @@ constexpr double kLeastStep = 0.05;
 constexpr double kCoverShare = 0.02;
 /// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
 constexpr double kFrontShare = 1.5;
+/// The end of a blade draws back by less than this share of its last segment.
+constexpr double kMostRetreat = 0.5;
 /// Strips that fold back onto earlier ones within so many spacings meet them.
 constexpr double kMeetingShare = 1e-6;
 
@@ -317,8 +320,28 @@ BladeMotion::Move BladeMotion::reach_on(const Surroundings& around) {
   return move;
 }
 
-BladeMotion::Move BladeMotion::advance(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches,
+/// A row whose ends stay before older walls that they pass by very little.
+std::vector<Vec3> BladeMotion::drawn_back(std::span<const Vec3> row, const Surroundings& around) const {
+  std::vector<Vec3> drawn(row.begin(), row.end());
+  if (!around.has_older_cuts || is_closed_) return drawn;
+  const std::size_t last = row.size() - 1;
+  for (const auto& [tip, next] : {std::pair(std::size_t{0}, std::size_t{1}), std::pair(last, last - 1)}) {
+    const Vec3 way = row[tip] - row[next];
+    const double length = way.norm();
+    if (!(length > 0)) continue;
+    const double retreat = around.retreat(row[tip], way / length);
+    if (retreat < kMostRetreat * length) drawn[tip] -= (retreat / length) * way;
+  }
+  return drawn;
+}
+
+BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnSheet& sheet, const Touches& touches,
                                        const Surroundings& around, bool flushes) {
+  const std::vector<Vec3> row = drawn_back(given, around);
+  if (is_first_strip_ && around.has_older_cuts) {
+    const std::vector<Vec3> start = drawn_back(front(), around);
+    for (std::size_t c = 0; c < start.size(); ++c) first_[c].position = front_[c].position = start[c];
+  }
   const double least2 = flushes ? 0.0 : kLeastStep * spacing_ * kLeastStep * spacing_;
   std::vector<Vec3> wanted(row.begin(), row.end());
   std::size_t in_slit = 0;
@@ -330,7 +353,7 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> row, const OwnSheet
     if (is_held || (row[c] - front_[c].position).squaredNorm() <= least2) wanted[c] = front_[c].position;
   }
   const std::vector<Vec3> before = last_;
-  last_.assign(row.begin(), row.end());
+  last_.assign(given.begin(), given.end());
   if (in_slit == row.size()) {
     is_held_ = true;
     return {};

@@ -30,7 +30,7 @@ class BladeMotion {
   /// Whether a surface meets the body.
   using Touches = std::function<bool(const SweptSurface&)>;
   /// The strip to the next row, with as many points. `flushes`: holds nothing merely because it moved too little.
-  Move advance(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches, const Surroundings& around,
+  Move advance(std::span<const Vec3> given, const OwnSheet& sheet, const Touches& touches, const Surroundings& around,
                bool flushes);
   /// A row that was chosen elsewhere, with the surface from the front to it; for `accept`.
   struct Proposal {
@@ -70,6 +70,7 @@ class BladeMotion {
   [[nodiscard]] std::vector<std::array<std::uint64_t, 2>> inner_segments(const Row& to) const;
   Move leave_slit(std::span<const Vec3> before, std::span<const Vec3> row, const Touches& touches,
                   const Surroundings& around);
+  [[nodiscard]] std::vector<Vec3> drawn_back(std::span<const Vec3> row, const Surroundings& around) const;
   void note_swept(const Row& to);
   Move move_to(const Row& to, const Surroundings& around);
   void start_sheet(const Row& from);

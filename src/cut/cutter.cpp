@@ -33,6 +33,8 @@ constexpr double kWeld = 0.08;
 constexpr double kReachOn = 0.3, kReachThrough = 0.12;
 /// What a blade sweeps while it turns is made of triangles that lie within so many spacings of it.
 constexpr double kTwist = 0.1;
+/// The end of a blade that passes an older wall by less than that stays so many spacings before it.
+constexpr double kBefore = 0.02;
 /// All of this way lies in the older cut or outside the body: asked at these shares of it, the furthest first.
 constexpr std::array kReachSamples = {1.0, 0.5, 0.1, 0.25, 0.75};
 /// What lies at most so many spacings beyond the rim of an older cut lies in it: rounding, no more.
@@ -296,6 +298,10 @@ class Cutter::Pipeline {
         return along;
       }
       return older.meet(place - kInside * spacing_ * outwards, place + kWeld * spacing_ * outwards) ? across : 0.0;
+    };
+    found.retreat = [this, older](const Vec3& place, const Vec3& outwards) {
+      const double weld = kWeld * spacing_, met = older.first_met(place - weld * outwards, place);
+      return met <= 1.0 ? (1.0 - met) * weld + kBefore * spacing_ : 0.0;
     };
     return found;
   }

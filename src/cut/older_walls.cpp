@@ -59,21 +59,23 @@ bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, doub
   return does_pass;
 }
 
-bool OlderWalls::meet(const Vec3& from, const Vec3& to) const {
-  if (!exist()) return false;
-  bool do_meet = false;
+double OlderWalls::first_met(const Vec3& from, const Vec3& to) const {
+  double first = 2.0;
+  if (!exist()) return first;
   surface_.for_each_near(mesh_, {from.cwiseMin(to), from.cwiseMax(to)}, [&](Side side) {
-    if (do_meet || !is_older_wall(mesh_, complex_, side)) return;
+    if (!is_older_wall(mesh_, complex_, side)) return;
     const auto v = mesh_.vertices(side);
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
     const double before = area.dot(from - a), after = area.dot(to - a);
     if ((before > 0) == (after > 0) || !(std::abs(after - before) > kAcross * area.norm() * (to - from).norm())) return;
-    const Vec3 x = from + (before / (before - after)) * (to - from);
-    do_meet = area.dot((b - a).cross(x - a)) >= 0 && area.dot((c - b).cross(x - b)) >= 0 &&
-              area.dot((a - c).cross(x - c)) >= 0;
+    const double share = before / (before - after);
+    const Vec3 x = from + share * (to - from);
+    const bool is_in = area.dot((b - a).cross(x - a)) >= 0 && area.dot((c - b).cross(x - b)) >= 0 &&
+                       area.dot((a - c).cross(x - c)) >= 0;
+    if (is_in) first = std::min(first, share);
   });
-  return do_meet;
+  return first;
 }
 
 }  // namespace incise::inline v0

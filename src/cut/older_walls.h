@@ -28,7 +28,9 @@ class OlderWalls {
   /// Cost: the cells of the surface index within the greater of both.
   [[nodiscard]] bool pass(const Vec3& place, const Vec3& normal, double beside, double beyond) const;
   /// Whether a segment at rest meets a wall, at 6 degrees or more. Cost: the cells of the surface index around it.
-  [[nodiscard]] bool meet(const Vec3& from, const Vec3& to) const;
+  [[nodiscard]] bool meet(const Vec3& from, const Vec3& to) const { return first_met(from, to) <= 1.0; }
+  /// Where it meets the first one: the share of the way; above 1 where it meets none. Cost: the same.
+  [[nodiscard]] double first_met(const Vec3& from, const Vec3& to) const;
 
  private:
   const TetMesh& mesh_;

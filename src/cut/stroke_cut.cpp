@@ -44,6 +44,7 @@ void StrokeCut::forget() {
   walk_.clear();
   snapping_.coincident.clear();
   on_.clear();
+  waiting_.clear();
   must_finish_ = false;
 }
 
@@ -123,20 +124,70 @@ void StrokeCut::refresh_around(std::uint32_t edge) {
 
 /// Takes the strip's crossings into the complex: an edge is flagged while it is crossed an odd number of times.
 void StrokeCut::flag(const TetMesh& mesh, const Strip& strip) {
-  const double clamp = snap() > 0 ? kSplitClamp : 0.0;
   const bool is_all_reached = find_reached(strip);
   for (const StripCrossing& crossing : *crossed_) {
-    if (crossing.count % 2 == 0 || !(is_all_reached || is_reached(crossing.edge))) continue;
-    ClosedEdge& edge = complex_.edges()[crossing.edge];
-    edge.is_blocked |= mesh.touched_itself_at_load() && mesh.is_overshared_at_load(edge.a, edge.b);
-    complex_.toggle(crossing.edge);
-    if (edge.is_crossed) {
-      const double t = 0.5 * (crossing.t + crossing.t_last);
-      edge.t = std::min(std::max(crossing.count > 1 ? t : crossing.t, clamp), 1.0 - clamp);
-      edge.position = mesh.rest(edge.a) + edge.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
-      edge.normal = strip.sheet.normal(crossing.triangle).normalized();
+    if (crossing.count % 2 == 0) continue;
+    const ClosedEdge& edge = complex_.edges()[crossing.edge];
+    const double t = crossing.count > 1 ? 0.5 * (crossing.t + crossing.t_last) : crossing.t;
+    const Crossed crossed{crossing.edge, edge.a, edge.b, t, strip.sheet.normal(crossing.triangle).normalized()};
+    if (is_all_reached || is_reached(crossing.edge)) {
+      cross(mesh, crossed);
+    } else {
+      waiting_.push_back(crossed);
     }
-    refresh_around(crossing.edge);
+  }
+  take_waiting(mesh);
+}
+
+void StrokeCut::cross(const TetMesh& mesh, const Crossed& crossed) {
+  const double clamp = snap() > 0 ? kSplitClamp : 0.0;
+  ClosedEdge& edge = complex_.edges()[crossed.edge];
+  edge.is_blocked |= mesh.touched_itself_at_load() && mesh.is_overshared_at_load(edge.a, edge.b);
+  complex_.toggle(crossed.edge);
+  if (edge.is_crossed) {
+    edge.t = std::min(std::max(crossed.t, clamp), 1.0 - clamp);
+    edge.position = mesh.rest(edge.a) + edge.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
+    edge.normal = crossed.normal;
+  }
+  refresh_around(crossed.edge);
+}
+
+/// Whether the complex has all tets around an edge.
+bool StrokeCut::is_whole_around(const TetMesh& mesh, std::uint32_t edge) const {
+  bool is_whole = true;
+  complex_.for_each_around(edge, [&](std::uint32_t m) {
+    const Master& master = complex_[m];
+    for (unsigned s = 0; s < 4; ++s) {
+      const auto& edges = kSideEdges[s];
+      const bool has_edge =
+          std::any_of(edges.begin(), edges.end(), [&](unsigned e) { return master.edges[e] == edge; });
+      if (has_edge && master.behind[s] == Master::kNone) {
+        is_whole &= complex_.outside(mesh, master, s).is_boundary();
+      }
+    }
+  });
+  return is_whole;
+}
+
+/// What reaches on may be ahead of the sheet itself: it counts once that has come to a tet beside it.
+void StrokeCut::take_waiting(const TetMesh& mesh) {
+  const auto is_gone = [&](const Crossed& c) {
+    const ClosedEdge& edge = complex_.edges()[c.edge];
+    bool is_lost = edge.a != c.a || edge.b != c.b || complex_.is_settled(c.a) || complex_.is_settled(c.b);
+    complex_.for_each_around(c.edge, [&](std::uint32_t m) { is_lost |= complex_.is_half_baked(m); });
+    return is_lost;
+  };
+  std::erase_if(waiting_, is_gone);
+  for (std::size_t i = 0; i < waiting_.size();) {
+    bool has_come = false;
+    complex_.for_each_around(waiting_[i].edge, [&](std::uint32_t m) { has_come |= complex_[m].flagged != 0; });
+    if (!has_come || !is_whole_around(mesh, waiting_[i].edge)) {
+      ++i;
+      continue;
+    }
+    cross(mesh, waiting_[i]);
+    waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(i));
+    i = 0;  // those beside it may follow
   }
 }
 

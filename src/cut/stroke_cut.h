@@ -87,6 +87,16 @@ class StrokeCut {
   void collide(TetMesh& mesh, Journal& journal, const Strip& strip);
   bool bisect(TetMesh& mesh, Journal& journal, const std::vector<BetweenCrossings>& between);
   void flag(const TetMesh& mesh, const Strip& strip);
+  /// Where a strip crosses an edge, once.
+  struct Crossed {
+    std::uint32_t edge;
+    VertexId a, b;  ///< its ends: indices are used again
+    double t;
+    Vec3 normal;
+  };
+  void cross(const TetMesh& mesh, const Crossed& crossed);
+  void take_waiting(const TetMesh& mesh);
+  [[nodiscard]] bool is_whole_around(const TetMesh& mesh, std::uint32_t edge) const;
   bool find_reached(const Strip& strip);
   [[nodiscard]] bool is_reached(std::uint32_t edge) const;
   [[nodiscard]] bool is_graze(const TetMesh& mesh, const Strip& strip, const StripCrossing& crossing) const;
@@ -131,7 +141,8 @@ class StrokeCut {
   SideSigns left_sides_;
   const std::vector<StripCrossing>* crossed_ = nullptr;  // of the current strip
   const std::vector<std::uint32_t>* met_ = nullptr;      // likewise
-  std::vector<bool> reached_;  // by master: through faces, from where the current strip itself is
+  std::vector<bool> reached_;     // by master: through faces, from where the current strip itself is
+  std::vector<Crossed> waiting_;  // crossings of what reaches on that nothing has reached yet
   double spacing_ = 0.0;
   bool must_finish_ = false, keeps_pieces_ = false;
   std::uint32_t tag_ = 1, step_ = 0;

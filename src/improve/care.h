@@ -26,8 +26,11 @@ struct Care {
   VertexId born;                ///< out: the vertex that the last accepted operation put in
   std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
   const IsLocked* is_locked = nullptr;
+  bool is_at_seam = false;            ///< what is thinned out lies where a cut goes on from an older one: as for bad tets
   mutable bool has_met_lock = false;  ///< out: whether an operation was refused for a tet that is locked
 
+  /// Whether surfaces may give way more than usual.
+  [[nodiscard]] bool gives_way() const { return is_bad || is_at_seam; }
   /// Whether an operation may change all of some tets.
   [[nodiscard]] bool may_change(std::span<const TetId> tets) const {
     const bool may =
@@ -47,17 +50,17 @@ struct Care {
 inline constexpr double kFineTolerance = 0.01, kCoarseTolerance = 0.04;
 
 inline double skin_tolerance(const Care& care) {
-  return care.is_bad ? kCoarseTolerance : kFineTolerance;
+  return care.gives_way() ? kCoarseTolerance : kFineTolerance;
 }
 
 /// How far skin may lie from where it was before all, as a share of the local edge.
 inline double skin_share(const Care& care) {
-  return care.is_bad ? kBadSkinTolerance : kSkinTolerance;
+  return care.is_bad ? kBadSkinTolerance : (care.is_at_seam ? kSeamSkinTolerance : kSkinTolerance);
 }
 
 /// How far a surface may leave its place, as a share of the local edge.
 inline double surface_tolerance(const Care& care, std::uint32_t tag) {
-  return tag == 0 ? skin_tolerance(care) : care.references.tolerance(tag, care.is_bad);
+  return tag == 0 ? skin_tolerance(care) : care.references.tolerance(tag, care.gives_way());
 }
 
 /// An operation is accepted where the worst tet after it is better than the worst before by more than this share.

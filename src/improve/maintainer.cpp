@@ -331,6 +331,7 @@ class Maintainer::Queue {
     }
     if (!is_fresh) return false;
     care.is_bad = worst.ratio < kBad;
+    care.is_at_seam = false;
     care.has_met_lock = false;
     const bool has_improved = improve(care, worst.tet, times);
     if (!has_improved && care.has_met_lock) hold(worst.tet);
@@ -340,6 +341,7 @@ class Maintainer::Queue {
   bool thin_out_next(Care& care, StageTimes& times) {
     const StageZone zone(times, Stage::kMerge);
     care.is_bad = false;
+    care.is_at_seam = is_at_seam_;
     const auto [vertex, generation] = crowd_[next_in_crowd_++];
     const bool is_there = options_.merge && care.mesh.is_live(vertex) && care.mesh.generation(vertex) == generation;
     const bool is_held = is_there && thinning_round_ == 0 && !is_free(care.mesh, vertex, *is_locked_);

@@ -15,9 +15,9 @@
 
 namespace incise::inline v0 {
 
-/// However often it is maintained, skin leaves its place by at most this share of the local edge; by the greater one to
-/// mend bad tets. Later cuts make edges shorter: of those it may be a few times as much.
-inline constexpr double kSkinTolerance = 0.01, kBadSkinTolerance = 0.025;
+/// However often it is maintained, skin leaves its place by at most this share of the local edge; by more where seams
+/// are thinned out, and to mend bad tets. Later cuts make edges shorter: of those it may be a few times as much.
+inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadSkinTolerance = 0.025;
 
 /// The skin of a mesh as it was when its journal began, as far as the places go that have changed since.
 ///

@@ -32,6 +32,14 @@ class Motion {
       return reach(place, outwards);
     };
     around_.is_outside = [](const Vec3&) { return false; };
+    around_.retreat = [](const Vec3&, const Vec3&) { return 0.0; };
+  }
+  /// From now on there is an older wall at a plane y = `wall`, just before the blade's end.
+  void pass_a_wall(double wall) {
+    meet_older_cuts([](const Vec3&, const Vec3&) { return 0.0; });
+    around_.retreat = [wall](const Vec3& place, const Vec3& outwards) {
+      return outwards.y() > 0.9 && place.y() > wall && place.y() < wall + 0.1 ? place.y() - wall : 0.0;
+    };
   }
   BladeMotion::Move reach_on() { return keep(motion_.reach_on(around_)); }
   [[nodiscard]] const OwnSheet& sheet() const { return sheet_; }
@@ -209,6 +217,20 @@ TEST(BladeMotion, reaches_back_into_an_older_cut_that_ends_where_it_starts) {
     area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
   }
   EXPECT_NEAR(area, 2.0 + 0.3 * 1.0, 1e-12);  // half of its edge is at the older cut
+}
+
+TEST(BladeMotion, draws_back_an_end_that_passes_an_older_wall_by_very_little) {
+  Motion blade(at(0));
+  blade.pass_a_wall(1.95);
+  blade.advance(at(1));
+  EXPECT_NEAR(blade.last().sheet.bounds().hi.y(), 1.95, 1e-12);
+  blade.advance(at(2));
+  EXPECT_NEAR(blade.last().sheet.bounds().hi.y(), 1.95, 1e-12);
+  EXPECT_EQ(keys_of(blade.sheet().border()), blade.whole_border());
+  Motion beyond(at(0));
+  beyond.pass_a_wall(1.5);
+  beyond.advance(at(1));
+  EXPECT_NEAR(beyond.last().sheet.bounds().hi.y(), 2.0, 1e-12) << "it means to pass";
 }
 
 TEST(BladeMotion, reaches_on_into_an_older_cut_where_it_ends) {
