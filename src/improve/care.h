@@ -26,7 +26,7 @@ struct Care {
   VertexId born;                ///< out: the vertex that the last accepted operation put in
   std::vector<TetId>& changed;  ///< out: the live tets that the last accepted operation made or reshaped
   const IsLocked* is_locked = nullptr;
-  bool is_at_seam = false;            ///< what is thinned out lies where a cut goes on from an older one: as for bad tets
+  bool is_at_seam = false;  ///< what is thinned out lies where a cut goes on from an older one: as for bad tets
   mutable bool has_met_lock = false;  ///< out: whether an operation was refused for a tet that is locked
 
   /// Whether surfaces may give way more than usual.

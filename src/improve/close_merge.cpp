@@ -27,21 +27,10 @@ constexpr double kLeastArea = 0.05;
 /// What restores the volume is at most this share of the mean edge.
 constexpr double kGreatestStep = 0.05;
 
-Vec3 vector_area2(const Facet& f) {
-  return (f[1] - f[0]).cross(f[2] - f[0]);
-}
-
 double height_of(const Facet& f) {
   const double longest2 =
       std::max({(f[1] - f[0]).squaredNorm(), (f[2] - f[1]).squaredNorm(), (f[0] - f[2]).squaredNorm()});
   return longest2 > 0 ? vector_area2(f).norm() / std::sqrt(longest2) : 0.0;
-}
-
-/// Samples at the centroid and along the edges from the first corner.
-void add_facet(Piece& piece, const Facet& f) {
-  piece.facets.push_back(f);
-  piece.samples.push_back((f[0] + f[1] + f[2]) / 3.0);
-  piece.samples.push_back(0.5 * (f[0] + f[1]));
 }
 
 /// Whether a place is the corner of a facet.
@@ -128,7 +117,7 @@ bool CloseMerger::try_place(Care& care, Vec3 place) {
 bool CloseMerger::restore_volume(Vec3& place) {
   double lost6 = 0, scale = 0;
   Vec3 area2 = Vec3::Zero();
-  for (Side3& side : sides_) {
+  for (MovedSide& side : sides_) {
     side.after[0] = place;
     // The volume that facets enclose with the place itself: none of those that stay have any.
     lost6 += (side.before[0] - place).cross(side.before[1] - place).dot(side.before[2] - place);
@@ -140,7 +129,7 @@ bool CloseMerger::restore_volume(Vec3& place) {
   if (!(area2.norm() > kLeastArea * scale)) return false;
   const Vec3 step = (lost6 / area2.squaredNorm()) * area2;
   place += step;
-  for (Side3& side : sides_) side.after[0] = place;
+  for (MovedSide& side : sides_) side.after[0] = place;
   return step.norm() <= kGreatestStep * edge_;
 }
 
@@ -156,7 +145,7 @@ bool CloseMerger::improves(Care& care, const Vec3& place) const {
 }
 
 bool CloseMerger::keeps_surfaces(Care& care, const Vec3& place) {
-  const auto turns = [&](const Side3& side) {
+  const auto turns = [&](const MovedSide& side) {
     const Vec3 n = vector_area2(side.before), m = vector_area2(side.after);
     return side.stays && height_of(side.before) > kLeastHeight * edge_ && !(n.dot(m) > kTurn * n.norm() * m.norm());
   };
@@ -168,7 +157,7 @@ bool CloseMerger::keeps_surfaces(Care& care, const Vec3& place) {
 bool CloseMerger::keeps_tag(Care& care, std::uint32_t tag, const Vec3& place) {
   before_.clear();
   after_.clear();
-  for (const Side3& side : sides_) {
+  for (const MovedSide& side : sides_) {
     if (side.tag != tag) continue;
     add_facet(before_, side.before);
     if (side.stays) add_facet(after_, side.after);

@@ -28,7 +28,7 @@ class CloseMerger {
 
  private:
   /// A boundary facet of either star, the merged vertex first, and the same before.
-  struct Side3 {
+  struct MovedSide {
     std::uint32_t tag;
     Facet before, after;
     bool stays;  ///< it does not vanish with the edge
@@ -48,7 +48,7 @@ class CloseMerger {
   CollapsePlanner planner_;
   CollapsePlan plan_;
   std::vector<TetId> star_;  // both stars
-  std::vector<Side3> sides_;
+  std::vector<MovedSide> sides_;
   std::vector<std::uint32_t> tags_;
   double worst_ = 0, edge_ = 0;  // of the stars: ratio, mean length
   Piece before_, after_;

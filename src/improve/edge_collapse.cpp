@@ -68,17 +68,6 @@ Facet facet_of(const TetMesh& mesh, Side side, VertexId first) {
   return {mesh.rest(v[at]), mesh.rest(v[(at + 1) % 3]), mesh.rest(v[(at + 2) % 3])};
 }
 
-/// Samples a facet at its centroid and along the edge from its first corner: the rim of the piece does not move.
-void add_facet(Piece& piece, const Facet& f) {
-  piece.facets.push_back(f);
-  piece.samples.push_back((f[0] + f[1] + f[2]) / 3.0);
-  piece.samples.push_back(0.5 * (f[0] + f[1]));
-}
-
-Vec3 vector_area2(const Facet& f) {
-  return (f[1] - f[0]).cross(f[2] - f[0]);
-}
-
 }  // namespace
 
 bool EdgeCollapser::improve(Care& care, TetId tet) {

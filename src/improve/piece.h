@@ -27,6 +27,18 @@ struct Piece {
   }
 };
 
+/// Adds a facet, sampled at its centroid and along the edge from its first corner: the rim of a piece does not move.
+inline void add_facet(Piece& piece, const Facet& f) {
+  piece.facets.push_back(f);
+  piece.samples.push_back((f[0] + f[1] + f[2]) / 3.0);
+  piece.samples.push_back(0.5 * (f[0] + f[1]));
+}
+
+/// Twice the vector area.
+inline Vec3 vector_area2(const Facet& f) {
+  return (f[1] - f[0]).cross(f[2] - f[0]);
+}
+
 /// Squared; infinite from a piece without facets.
 inline double distance2_to(const Piece& piece, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
