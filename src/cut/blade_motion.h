@@ -29,7 +29,8 @@ class BladeMotion {
   void begin(std::span<const Vec3> row, double spacing);
   /// Whether a surface meets the body.
   using Touches = std::function<bool(const SweptSurface&)>;
-  /// The strip to the next row, with as many points. `flushes`: holds nothing merely because it moved too little.
+  /// The strip to the next row, with as many points. Ends that pass an older wall by very little draw back to just
+  /// before it. `flushes`: holds nothing merely because it moved too little.
   Move advance(std::span<const Vec3> given, const OwnSheet& sheet, const Touches& touches, const Surroundings& around,
                bool flushes);
   /// A row that was chosen elsewhere, with the surface from the front to it; for `accept`.

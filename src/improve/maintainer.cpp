@@ -74,6 +74,7 @@ class Maintainer::Queue {
   void take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step, const IsLocked& is_locked) {
     if (!has_work()) {
       ++epoch_;
+      hopeless_.clear();  // none of them is in care any more
     }
     for (std::size_t i = first_step; i < journal.position(); ++i) {
       const Step& step = journal.step(i);
