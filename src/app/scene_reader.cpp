@@ -251,6 +251,7 @@ class SceneReader {
     MaintainOptions& maintain = scene_.options.engine.maintain;
     const JsonValue* units = value->find("work_units");
     const bool is_unlimited = units != nullptr && units->kind == JsonValue::Kind::kNull;
+    if (is_unlimited) maintain.work_units = kUnlimitedWork;
     return read_.is_object(*value, "maintain", {"merge", "improve", "work_units"}) &&
            read_.optional_boolean(*value, "maintain", "merge", maintain.merge) &&
            read_.optional_boolean(*value, "maintain", "improve", maintain.improve) &&

@@ -21,11 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongestSide = 0.1;       // m, of a mesh without a scene
-constexpr double kHeldShare = 0.1;         // of its height
-constexpr double kYoung = 20e3;            // Pa
-constexpr std::uint64_t kUnits = 100'000;  // of maintenance per frame
-constexpr std::size_t kHead = 4096;        // bytes that tell what a file is
+constexpr double kLongestSide = 0.1;  // m, of a mesh without a scene
+constexpr double kHeldShare = 0.1;    // of its height
+constexpr double kYoung = 20e3;       // Pa
+constexpr std::size_t kHead = 4096;   // bytes that tell what a file is
 
 enum class FileKind : std::uint8_t { kMesh, kScene, kSimulation, kEngine };
 
@@ -67,7 +66,6 @@ Scene scene_of_mesh(const fs::path& mesh, const Box& body, const Vec3& up) {
   scene.options.body.gravity = -9.81 * up;
   scene.options.body.damping = 2;
   scene.options.materials.fallback.young = kYoung;
-  scene.options.engine.maintain.work_units = kUnits;
   const double low = std::min(body.lo.dot(up), body.hi.dot(up)), height = std::abs(size.dot(up));
   scene.attachments.push_back({HalfSpace{up, low + kHeldShare * height}});
   scene.tools.push_back({"table", {}, {PlaneTool{up, low}}});

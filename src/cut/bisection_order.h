@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 
-#include "incise/core/id.h"
-
 namespace incise::inline v0 {
 
-/// The edges of one tet that are to be bisected, first bisected first: longest first, ties by ends. A total order of
-/// the mesh's edges, so that neighbours divide their common face alike.
+/// The edges of one tet that are to be bisected, first bisected first: longest first, ties by the ranks of their ends.
+/// A total order of the mesh's edges, so that neighbours divide their common face alike.
 class BisectionOrder {
  public:
   void clear() { count_ = 0; }
-  /// Adds the tet's edge `number`, which joins a and b (a with the lower slot); at most 6.
-  void add(double length2, VertexId a, VertexId b, std::uint8_t number) {
-    const Item item{length2, a, b};
+  /// Adds the tet's edge `number`, whose ends rank as a and b among the mesh's vertices; at most 6.
+  void add(double length2, std::uint64_t a, std::uint64_t b, std::uint8_t number) {
+    const Item item{length2, std::min(a, b), std::max(a, b)};
     unsigned place = count_++;
     for (; place > 0 && item < items_[place - 1]; --place) {
       items_[place] = items_[place - 1];
@@ -31,7 +30,7 @@ class BisectionOrder {
  private:
   struct Item {
     double length2;
-    VertexId a, b;
+    std::uint64_t a, b;
     bool operator<(const Item& other) const {
       if (length2 != other.length2) return length2 > other.length2;
       if (a != other.a) return a < other.a;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace incise::inline v0 {
 
@@ -19,6 +20,8 @@ void ClosedComplex::clear() {
   edges_.clear();
   dirty_.clear();
   retired_.clear();
+  for (const VertexId vertex : ranked_) rank_[vertex.value] = 0;
+  ranked_.clear();
   scope_ = {};
   mark_ = 0;
   ++hold_;
@@ -162,6 +165,63 @@ void ClosedComplex::unlink_vertex(std::uint32_t index, unsigned corner) {
   drop_copies(vertex);
   if (is_on(vertex)) is_on_[vertex.value] = 0;
   if (is_settled(vertex)) is_settled_[vertex.value] = 0;
+  if (rank(vertex) != vertex.value) retire_rank(vertex);
+}
+
+/// Whoever has this slot next ranks as nobody does: another corner may have its slot as a rank.
+void ClosedComplex::retire_rank(VertexId vertex) {
+  rank_.ensure(std::size_t{vertex.value} + 1);
+  ranked_.push_back(vertex);
+  rank_[vertex.value] = 1 + ((std::uint64_t{ranked_.size()} << 32U) | vertex.value);
+}
+
+void ClosedComplex::rename(VertexId from, VertexId to, std::span<const std::uint32_t> star) {
+  for (const std::uint32_t index : star) {
+    Master& master = masters_[index];
+    for (const std::uint32_t e : master.edges) {
+      if (edges_[e].a == from || edges_[e].b == from) rename_edge(e, from, to);
+    }
+    for (const std::uint32_t at : master.points) {
+      if (at != Master::kNone) rename_point(points_[at], from, to);
+    }
+    std::replace(master.vertices.begin(), master.vertices.end(), from, to);
+  }
+  const auto move = [&](auto& table) {
+    table.ensure(std::size_t{std::max(from, to).value} + 1);
+    table[to.value] = std::exchange(table[from.value], 0);
+  };
+  const std::uint64_t ranked = rank(from);
+  for (auto* table : {&flagged_at_, &master_at_, &count_at_}) move(*table);
+  for (auto* table : {&is_on_, &is_settled_}) move(*table);
+  retire_rank(from);
+  rank_.ensure(std::size_t{to.value} + 1);
+  rank_[to.value] = 1 + ranked;
+  ranked_.push_back(to);
+}
+
+/// Its ends are in rising order again.
+void ClosedComplex::rename_edge(std::uint32_t index, VertexId from, VertexId to) {
+  const VertexId other = edges_[index].a == from ? edges_[index].b : edges_[index].a;
+  const bool turns = (from < other) != (to < other);
+  edges_.rename(index, std::min(to, other), std::max(to, other));
+  if (!turns) return;
+  ClosedEdge& edge = edges_[index];
+  edge.t = 1.0 - edge.t;
+  std::swap(edge.halves[0], edge.halves[1]);
+}
+
+/// The vertices of its face are in rising order again, and what goes with them.
+void ClosedComplex::rename_point(FrontPoint& point, VertexId from, VertexId to) {
+  std::replace(point.face.begin(), point.face.end(), from, to);
+  const auto order = [&](std::size_t i, std::size_t j) {
+    if (point.face[i] < point.face[j]) return;
+    std::swap(point.face[i], point.face[j]);
+    std::swap(point.weights[i], point.weights[j]);
+    std::swap(point.slide[i], point.slide[j]);
+  };
+  order(0, 1);
+  order(1, 2);
+  order(0, 1);
 }
 
 /// Room for so many children.

@@ -176,6 +176,20 @@ class ClosedComplex {
     return vertex.value < flagged_at_.capacity() ? flagged_at_[vertex.value] : 0;
   }
 
+  /// Gives a corner of masters another name, as which it goes by from now on: it is none yet. `star`: all masters that
+  /// have it. It keeps its rank. Cost: O(star).
+  void rename(VertexId from, VertexId to, std::span<const std::uint32_t> star);
+  /// Whether `star` are all masters that have a corner, and none around it was let go.
+  [[nodiscard]] bool is_known_around(VertexId vertex, std::span<const std::uint32_t> star) const {
+    return !is_half_baked(vertex) && count_at_[vertex.value] == star.size();
+  }
+  /// The place of a corner in an order of all of them, by which neighbours divide a common face alike: its slot, or
+  /// that of its first name.
+  [[nodiscard]] std::uint64_t rank(VertexId vertex) const {
+    const std::uint64_t rank = vertex.value < rank_.capacity() ? rank_[vertex.value] : 0;
+    return rank != 0 ? rank - 1 : vertex.value;
+  }
+
   /// A master that has a closed vertex, or `Master::kNone`.
   [[nodiscard]] std::uint32_t master_at(VertexId vertex) const {
     const std::uint32_t index = vertex.value < master_at_.capacity() ? master_at_[vertex.value] - 1 : Master::kNone;
@@ -235,6 +249,9 @@ class ClosedComplex {
   }
 
  private:
+  void rename_edge(std::uint32_t index, VertexId from, VertexId to);
+  void rename_point(FrontPoint& point, VertexId from, VertexId to);
+  void retire_rank(VertexId vertex);
   void flood_star(const TetMesh& mesh, VertexId vertex, std::size_t from);
   void hold(VertexId vertex);
   void unlink_edge(std::uint32_t master, unsigned e);
@@ -264,6 +281,8 @@ class ClosedComplex {
   static constexpr std::uint8_t kHalfBaked = 2;
   ZeroedArray<std::uint8_t> is_on_;
   ZeroedArray<std::uint8_t> is_settled_;  // by vertex slot: 1, or kHalfBaked
+  ZeroedArray<std::uint64_t> rank_;       // by vertex slot: 1 + the rank, where that is not the slot
+  std::vector<VertexId> ranked_;          // where it is not
   ZeroedArray<std::uint32_t> held_;       // by vertex slot: the call that marked it last
   std::uint32_t hold_ = 1;
   std::vector<std::uint32_t> free_masters_;

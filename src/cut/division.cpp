@@ -40,7 +40,8 @@ std::span<const std::uint8_t> Divider::order_of(const Master& master) {
   for (std::uint8_t e = 0; e < 6; ++e) {
     if (((split >> e) & 1U) == 0) continue;
     const ClosedEdge& edge = complex_.edges()[master.edges[e]];
-    order_.add((mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e);
+    order_.add((mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), complex_.rank(edge.a), complex_.rank(edge.b),
+               e);
   }
   return order_.numbers();
 }

@@ -43,6 +43,13 @@ class BasicEdgeTable {
     edges_[index] = Edge();
     free_.push_back(index);
   }
+  /// Gives an edge the ends a and b, in rising order, between which there is none; its index stays.
+  void rename(std::uint32_t index, VertexId a, VertexId b) {
+    close_gap(slot_of(edges_[index].a, edges_[index].b));
+    edges_[index].a = a;
+    edges_[index].b = b;
+    slots_[slot_of(a, b)] = index + 1;
+  }
   /// The index of the edge, added where it is new.
   std::uint32_t find_or_add(VertexId a, VertexId b) {
     if (b < a) {

@@ -100,6 +100,7 @@ class Rebuild::Run {
         settings_(settings),
         divider_(mesh_, owner.templates_, complex),
         old_(owner.old_),
+        pieces_(owner.pieces_),
         incision_(owner.incision_),
         dropped_(owner.dropped_),
         ranges_(owner.ranges_),
@@ -112,6 +113,7 @@ class Rebuild::Run {
     surface_.clear();
     old_.clear();
     incision_.clear();
+    owner_.renamed_.clear();
   }
 
   RebuildStatistics run() {
@@ -126,7 +128,7 @@ class Rebuild::Run {
     for (unsigned round = 0; round < kMaxPinchRounds && close_pinched_faces(); ++round) separate();
     open_faces();
     bury_retired();
-    forget_pieces();
+    pieces_.forget();
     owner_.sizes_ = transaction_.sizes();
     for (const std::uint32_t index : dirty_) complex_[index].is_dirty = false;
     dirty_.clear();
@@ -149,9 +151,7 @@ class Rebuild::Run {
     for (const std::uint32_t index : dirty_) {
       for (unsigned s = 0; s < 4; ++s) note_beside(complex_[index], s);
     }
-    has_pieces_ = owner_.pieces_.find(mesh_, seeds) > 1;
-    if (!has_pieces_) return;
-    for (std::size_t i = 0; i < seeds.size(); ++i) set_piece(seeds[i], owner_.pieces_.piece_of(i) + 1);
+    pieces_.find(mesh_, seeds);
   }
   /// The tets behind a side of a dirty master, where these stay as they are.
   void note_beside(const Master& master, unsigned side) {
@@ -163,30 +163,12 @@ class Rebuild::Run {
       for (const TetId child : complex_.children(complex_[behind])) owner_.seeds_.push_back(child);
     }
   }
-  void set_piece(TetId tet, std::uint32_t piece) {
-    owner_.piece_of_.ensure(std::size_t{tet.value} + 1);
-    if (owner_.piece_of_[tet.value] == 0) owner_.has_piece_.push_back(tet);
-    owner_.piece_of_[tet.value] = piece;
-  }
-  [[nodiscard]] std::uint32_t piece_of(TetId tet) const {
-    return tet.value < owner_.piece_of_.capacity() ? owner_.piece_of_[tet.value] : 0;
-  }
-  /// Whether the material of two tets was of two pieces: no step joins them.
-  [[nodiscard]] bool were_apart(TetId a, TetId b) const {
-    const std::uint32_t p = piece_of(a), q = piece_of(b);
-    return p != 0 && q != 0 && p != q;
-  }
-  /// The same for a face of the cut, also between masters that are taken in later. What this step itself parts counts
-  /// as apart there.
+  /// Whether a face of the cut is between two pieces, also between masters that are taken in later: no step joins them.
+  /// What this step itself parts counts as apart there.
   [[nodiscard]] bool would_join_pieces(const IncisionFace& face) {
-    if (piece_of(face.a.tet()) != 0 && piece_of(face.b.tet()) != 0) return were_apart(face.a.tet(), face.b.tet());
-    if (!settings_.keeps_pieces || !stands_open(face)) return false;
-    const std::array<TetId, 2> sides = {face.a.tet(), face.b.tet()};
-    return owner_.pieces_.find(mesh_, sides) > 1;
-  }
-  void forget_pieces() {
-    for (const TetId tet : owner_.has_piece_) owner_.piece_of_[tet.value] = 0;
-    owner_.has_piece_.clear();
+    const TetId a = face.a.tet(), b = face.b.tet();
+    if (pieces_.knows(a) && pieces_.knows(b)) return pieces_.are_apart(a, b);
+    return settings_.keeps_pieces && stands_open(face) && !pieces_.hang_together(mesh_, a, b);
   }
   void keep_old(Master& master) {
     OldRange range{old_.size(), 0, {}};
@@ -310,7 +292,7 @@ class Rebuild::Run {
   void note_old(TetId tet, std::uint32_t old) {
     owner_.old_of_.ensure(std::size_t{tet.value} + 1);
     owner_.old_of_[tet.value] = old;
-    if (has_pieces_) set_piece(tet, piece_of(old_.id(old)));
+    pieces_.follow(tet, old_.id(old));
   }
   /// Whether a master's children are those of a template already, down to the vertices.
   [[nodiscard]] bool is_divided_so(const Master& master, const SplitTemplate& split) const {
@@ -367,7 +349,7 @@ class Rebuild::Run {
   }
   void meet(Side a, Side b, bool is_crossed) {
     const Link wall = Link::boundary(settings_.tag);
-    const bool is_incision = is_crossed || were_apart(a.tet(), b.tet());
+    const bool is_incision = is_crossed || pieces_.are_apart(a.tet(), b.tet());
     if (is_incision && !is_crossed) note_apart(a);
     if (is_incision && mesh_.link(a) == wall && mesh_.link(b) == wall) standing_.push_back(a);
     set_link(a, is_incision ? Link::boundary(settings_.tag) : Link(b));
@@ -389,7 +371,7 @@ class Rebuild::Run {
         set_link(facet, outside);
         note_surface(facet, outside.tag() == 0 ? shape::kSkin : shape::kWall);
       } else {
-        if (were_apart(facet.tet(), outside.side().tet())) complex_.adopt(mesh_, outside.side().tet());
+        if (pieces_.are_apart(facet.tet(), outside.side().tet())) complex_.adopt(mesh_, outside.side().tet());
         meet(facet, outside.side(), false);
       }
     }
@@ -473,7 +455,7 @@ class Rebuild::Run {
     dropped_.clear();
     result_.crumbs_kept += incise::keep_crumbs(mesh_, rules, incision_, dropped_, owner_.crumbs_);
     for (const IncisionFace& face : dropped_) {
-      if (stands_open(face) || were_apart(face.a.tet(), face.b.tet())) {
+      if (stands_open(face) || pieces_.are_apart(face.a.tet(), face.b.tet())) {
         incision_.push_back(face);
       } else {
         close(face);
@@ -581,7 +563,7 @@ class Rebuild::Run {
   /// Returns what the closed vertex is called now.
   VertexId divide(VertexId vertex, const StarParts::Home& home, bool makes_twins, bool may_be_named) {
     const bool keeps = settings_.keeps_pieces;
-    const StarParts::Settings settings{settings_.tag, makes_twins, keeps, keeps && may_be_named};
+    const StarParts::Settings settings{settings_.tag, makes_twins, keeps, keeps && may_be_named, &pieces_};
     const StarParts::Division done = owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, settings);
     result_.copied_vertices += done.made;
     if (done.closed != vertex) note_visited(done.closed);
@@ -611,9 +593,15 @@ class Rebuild::Run {
   }
   void divide_corner(std::uint32_t master, VertexId vertex) {
     if (!is_first(vertex)) return;
-    gather(complex_.star(mesh_, master, vertex), [&](const Master& m) { return codes_of_corner(m, vertex); });
-    divide(
-        vertex, [&](std::span<const StarTet> part) { return home_of_corner(vertex, part); }, false, false);
+    const std::vector<std::uint32_t>& masters = complex_.star(mesh_, master, vertex);
+    gather(masters, [&](const Master& m) { return codes_of_corner(m, vertex); });
+    const bool may_be_named = complex_.is_known_around(vertex, masters);
+    const VertexId named = divide(
+        vertex, [&](std::span<const StarTet> part) { return home_of_corner(vertex, part); }, false, may_be_named);
+    if (named == vertex) return;
+    complex_.rename(vertex, named, masters);
+    for (ApartVertex& apart : apart_) apart.vertex = apart.vertex == vertex ? named : apart.vertex;
+    owner_.renamed_.push_back({vertex, named});
   }
   /// The part in whose material the vertex stood keeps it.
   [[nodiscard]] VertexId home_of_corner(VertexId vertex, std::span<const StarTet> part) const {
@@ -829,6 +817,7 @@ class Rebuild::Run {
   const Settings& settings_;
   Divider divider_;
   OldChildren& old_;
+  MaterialPieces& pieces_;
   std::vector<IncisionFace>& incision_;
   std::vector<IncisionFace>& dropped_;
   std::vector<OldRange>& ranges_;
@@ -844,7 +833,6 @@ class Rebuild::Run {
     std::uint32_t master;
   };
   std::vector<ApartVertex> apart_;  // of faces that are left open since two pieces meet there, with a master each
-  bool has_pieces_ = false;         // the material around the dirty masters is of more than one piece
   bool is_beside_closed_ = false;   // `star_`: beside faces of the cut that were left joined
 };
 

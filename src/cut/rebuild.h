@@ -7,8 +7,8 @@
 #include "cut/closed_complex.h"
 #include "cut/crumbs.h"
 #include "cut/division.h"
+#include "cut/material_pieces.h"
 #include "cut/old_children.h"
-#include "cut/piece_finder.h"
 #include "cut/snapping.h"
 #include "cut/star_parts.h"
 #include "cut/surface_edges.h"
@@ -54,6 +54,11 @@ class Rebuild {
 
   /// The incision faces that the last run opened.
   [[nodiscard]] const std::vector<IncisionFace>& opened() const { return incision_; }
+  /// The corners that go by another name since the last run, in the order of time.
+  struct Renamed {
+    VertexId from, to;
+  };
+  [[nodiscard]] const std::vector<Renamed>& renamed() const { return renamed_; }
 
  private:
   class Run;
@@ -69,6 +74,7 @@ class Rebuild {
   StarParts parts_;
   std::vector<IncisionFace> incision_;
   std::vector<IncisionFace> dropped_;  // from here on: memory kept between runs
+  std::vector<Renamed> renamed_;
   std::vector<OldRange> ranges_;
   std::vector<TetId> children_;
   std::vector<StarTet> star_;
@@ -77,13 +83,11 @@ class Rebuild {
   std::vector<std::pair<std::array<VertexId, 3>, Side>> walls_;
   SurfaceEdges edges_;
   CrumbScratch crumbs_;
-  PieceFinder pieces_;
+  MaterialPieces pieces_;
   std::vector<TetId> seeds_;
-  ZeroedArray<std::uint32_t> piece_of_;  // by tet slot: 1 + the piece that its material was of before; else 0
-  std::vector<TetId> has_piece_;         // the tets for which that is not 0
-  Transaction::Sizes sizes_;             // of the last run
-  ZeroedArray<std::uint32_t> old_of_;    // by tet slot: the old child that holds the middle of a child
-  ZeroedArray<std::uint32_t> visited_;   // by vertex slot: the round that divided its star
+  Transaction::Sizes sizes_;            // of the last run
+  ZeroedArray<std::uint32_t> old_of_;   // by tet slot: the old child that holds the middle of a child
+  ZeroedArray<std::uint32_t> visited_;  // by vertex slot: the round that divided its star
   std::uint32_t round_ = 0;
 };
 

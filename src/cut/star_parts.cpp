@@ -84,6 +84,29 @@ VertexId StarParts::make_copy(Transaction& transaction, const OldChildren& old, 
   return copy;
 }
 
+/// Whether tets of a part that stay have a copy, and another one.
+bool StarParts::has_other_copy(const TetMesh& mesh, std::span<const StarTet> part, VertexId copy) {
+  const auto stays = std::find_if(part.begin(), part.end(), [](const StarTet& tet) { return !tet.is_new; });
+  return stays != part.end() && mesh.vertices(stays->tet)[stays->corner] != copy;
+}
+
+/// The copy of a vertex, or itself, that the material of a part had before this step; of several, that of its first tet
+/// from before. None where the material did not reach the vertex.
+VertexId StarParts::copy_before(const TetMesh& mesh, const ClosedComplex& complex, const OldChildren& old,
+                                VertexId vertex, std::span<const StarTet> part) {
+  for (const StarTet& tet : part) {
+    if (!tet.is_new) return mesh.vertices(tet.tet)[tet.corner];
+  }
+  for (const StarTet& tet : part) {
+    if (tet.old == kInvalidIndex) continue;
+    const TetVertices& corners = old.vertices(tet.old);
+    const auto is_copy = [&](VertexId v) { return complex.closed(v) == vertex && mesh.is_live(v); };
+    const auto had = std::find_if(corners.begin(), corners.end(), is_copy);
+    if (had != corners.end()) return *had;
+  }
+  return {};
+}
+
 void StarParts::write_corners(Transaction& transaction, std::span<const StarTet> star) {
   const TetMesh& mesh = transaction.mesh();
   for (const Part& part : parts_) {
@@ -153,12 +176,26 @@ StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& c
   std::swap(star, sorted_);
   keep_copies(mesh, star);
   const auto tets_of = [&](const Part& part) { return std::span(star).subspan(part.first, part.last - part.first); };
+  const auto were_apart = [&](const Part& part, VertexId copy) {
+    const auto is_apart = [&](const StarTet& tet) { return settings.pieces->are_apart(tet.tet, copy); };
+    return settings.pieces != nullptr && settings.pieces->has_any() &&
+           std::any_of(star.begin() + part.first, star.begin() + part.last, is_apart);
+  };
+  const auto had = [&](const Part& part) {
+    return settings.keeps_places ? copy_before(mesh, complex, old, vertex, tets_of(part)) : VertexId();
+  };
+  const auto may_take = [&](const Part& part, VertexId copy) {
+    const bool is_elsewhere = settings.keeps_places && has_other_copy(mesh, tets_of(part), copy);
+    return !is_elsewhere && !were_apart(part, copy);
+  };
   for (Part& part : parts_) {
     if (part.copy.is_valid()) continue;
     const VertexId copy = home(tets_of(part));
-    if (copy.is_valid() && !is_taken(copy)) part.copy = copy;
+    if (copy.is_valid() && !is_taken(copy) && may_take(part, copy)) part.copy = copy;
   }
+  const auto was_elsewhere = [&](const Part& part) { return were_apart(part, vertex) || complex.has_copies(vertex); };
   const auto stands_in = [&](const Part& part) {
+    if (!may_take(part, vertex)) return false;
     if (settings.makes_twins || !settings.keeps_places) return true;
     const MaterialPlace place = place_of(mesh, old, vertex, tets_of(part));
     const double tolerance =
@@ -177,8 +214,10 @@ StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& c
       part.copy = vertex;
       continue;
     }
+    const bool is_twin = settings.makes_twins && !(settings.keeps_places && was_elsewhere(part));
+    const VertexId source = is_twin ? vertex : had(part);
     part.copy =
-        settings.makes_twins ? transaction.copy_vertex(vertex) : make_copy(transaction, old, vertex, tets_of(part));
+        source.is_valid() ? transaction.copy_vertex(source) : make_copy(transaction, old, vertex, tets_of(part));
     ++done.made;
   }
   done.closed = name(transaction, vertex, settings.may_be_named);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cut/closed_complex.h"
+#include "cut/material_pieces.h"
 #include "cut/old_children.h"
 
 namespace incise::inline v0 {
@@ -29,7 +30,8 @@ class StarParts {
   /// Divides the star of `vertex`, gives every part its own copy, and writes the copies into the corners of the tets.
   ///
   /// A part that has tets from before keeps their copy. `home(tets of a part)` names the copy that a part made of new
-  /// tets alone should have, if any. Copies beyond those start as the old child of one of their tets has it.
+  /// tets alone should have, if any. Copies beyond those start as the old child of one of their tets has it; with
+  /// `keeps_places` where that child had a copy of it, if it had one.
   /// Copies that no part needs any more die. A closed vertex that no part needs takes the place of one of its copies;
   /// with `keeps_places` no vertex goes over to material that stands elsewhere: with `may_be_named`, too, the closed
   /// vertex goes by the name of that copy from then on. Cost: O(star).
@@ -40,6 +42,7 @@ class StarParts {
     std::uint32_t tag = 0;
     bool makes_twins = false;
     bool keeps_places = false, may_be_named = false;
+    const MaterialPieces* pieces = nullptr;  ///< where not null, no copy goes over from one to another
   };
   struct Division {
     std::uint64_t made = 0;  ///< copies
@@ -59,6 +62,9 @@ class StarParts {
   [[nodiscard]] static MaterialPlace place_of(const TetMesh& mesh, const OldChildren& old, VertexId vertex,
                                               std::span<const StarTet> part);
   VertexId make_copy(Transaction& transaction, const OldChildren& old, VertexId vertex, std::span<const StarTet> part);
+  [[nodiscard]] static bool has_other_copy(const TetMesh& mesh, std::span<const StarTet> part, VertexId copy);
+  [[nodiscard]] static VertexId copy_before(const TetMesh& mesh, const ClosedComplex& complex, const OldChildren& old,
+                                            VertexId vertex, std::span<const StarTet> part);
   VertexId name(Transaction& transaction, VertexId vertex, bool may_be_named);
   void write_corners(Transaction& transaction, std::span<const StarTet> star);
   void set_shapes(Transaction& transaction, VertexId vertex, std::span<const StarTet> star, std::uint32_t tag);

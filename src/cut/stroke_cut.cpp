@@ -270,6 +270,9 @@ void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, Cu
   statistics.crumbs_kept += done.crumbs_kept;
   statistics.latent_faces += done.latent_faces;
   must_finish_ = done.left_pinched > 0;
+  for (const auto& [from, to] : rebuild_.renamed()) {
+    for (OnVertex& on : on_) on.vertex = on.vertex == from ? to : on.vertex;
+  }
   if (!step.is_empty()) journal.append(std::move(step));
 }
 

@@ -43,7 +43,7 @@ class PlannedOrder {
     for (std::uint8_t e = 0; e < 6; ++e) {
       const CutEdge& edge = near_.edges[tet.edges[e]];
       if (edge.is_planned) {
-        order_.add((mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a, edge.b, e);
+        order_.add((mesh_.rest(edge.b) - mesh_.rest(edge.a)).squaredNorm(), edge.a.value, edge.b.value, e);
       }
     }
     return order_.numbers();

@@ -38,6 +38,7 @@ struct Waiting {
   TetId tet;
 
   /// Heaps keep the greatest in front: here the worst, of equals the lowest.
+  bool operator==(const Waiting& o) const { return ratio == o.ratio && tet == o.tet; }
   bool operator<(const Waiting& o) const { return ratio != o.ratio ? ratio > o.ratio : o.tet.value < tet.value; }
 };
 
@@ -48,10 +49,65 @@ struct Hopeless {
   std::uint64_t time;
 };
 
-/// A vertex that may be merged, by slot and generation: slots are used again.
-struct Crowded {
+/// A vertex, by slot and generation: slots are used again.
+struct KnownVertex {
   VertexId vertex;
   std::uint32_t generation;
+
+  [[nodiscard]] bool is_in(const TetMesh& mesh) const {
+    return mesh.is_live(vertex) && mesh.generation(vertex) == generation;
+  }
+};
+
+/// Vertices that cuts made, to be merged where they are not needed: gone through in rounds, since a merge makes room
+/// for others. What lies where others are at work waits outside until `begin`. Each is there once.
+class Crowd {
+ public:
+  [[nodiscard]] bool is_empty() const { return entries_.empty(); }
+  [[nodiscard]] bool has_waiting() const { return !waiting_.empty(); }
+  [[nodiscard]] bool is_in_first_round() const { return round_ == 0; }
+  void add(const TetMesh& mesh, VertexId vertex) {
+    const std::uint32_t generation = mesh.generation(vertex);
+    known_.ensure(std::size_t{vertex.value} + 1);
+    if (std::exchange(known_[vertex.value], generation + 1) != generation + 1) entries_.push_back({vertex, generation});
+  }
+  /// The first round begins, with those that waited.
+  void begin() {
+    entries_.insert(entries_.end(), waiting_.begin(), waiting_.end());
+    waiting_.clear();
+    round_ = 0;
+    next_ = 0;
+  }
+  /// The one whose turn it is.
+  [[nodiscard]] KnownVertex current() const { return entries_[next_]; }
+  /// It waits, or has had its turn in this round.
+  void wait() {
+    waiting_.push_back(entries_[next_]);
+    entries_[next_].vertex = {};
+    advance();
+  }
+  void advance() {
+    if (++next_ < entries_.size()) return;
+    next_ = 0;
+    if (++round_ == kThinningRounds) forget(entries_);
+  }
+  void clear() {
+    forget(entries_);
+    forget(waiting_);
+  }
+
+ private:
+  void forget(std::vector<KnownVertex>& vertices) {
+    for (const KnownVertex& v : vertices) {
+      if (v.vertex.is_valid()) known_[v.vertex.value] = 0;
+    }
+    vertices.clear();
+  }
+
+  std::vector<KnownVertex> entries_, waiting_;
+  ZeroedArray<std::uint32_t> known_;  // by vertex slot: 1 + the generation of the one that is there
+  std::size_t next_ = 0;
+  unsigned round_ = 0;
 };
 
 }  // namespace
@@ -90,6 +146,7 @@ class Maintainer::Queue {
     const std::vector<OpenedFace> opened = take_opened(mesh, is_locked);
     references_.measure(mesh, opened);
     take_held(mesh);
+    crowd_.begin();
     std::vector<VertexId> ring;
     for (const VertexId v : touched) {
       add_with_neighbours(mesh, v, ring);
@@ -99,10 +156,8 @@ class Maintainer::Queue {
     if (!is_locked) look_for_seam(mesh, ring);
     push_stars(mesh, ring);
     for (const VertexId v : ring) {
-      if (!mesh.origin(v).is_valid()) crowd_.push_back({v, mesh.generation(v)});
+      if (!mesh.origin(v).is_valid()) crowd_.add(mesh, v);
     }
-    thinning_round_ = 0;
-    next_in_crowd_ = 0;
   }
   void take_up_all(const TetMesh& mesh) {
     in_care_.ensure(mesh.vertex_slots());
@@ -128,7 +183,7 @@ class Maintainer::Queue {
     return statistics_;
   }
   [[nodiscard]] bool has_work() const {
-    return is_due() || !touched_.empty() || !held_.empty() || !held_crowd_.empty();
+    return is_due() || !touched_.empty() || !held_.empty() || crowd_.has_waiting();
   }
   void forget(std::size_t position) {
     references_.skin().rewind(position);
@@ -140,7 +195,6 @@ class Maintainer::Queue {
     opened_.clear();
     for (const TetId tet : held_) is_held_[tet.value] = 0;
     held_.clear();
-    held_crowd_.clear();
     taken_.clear();
     tag_ = 0;
     ++epoch_;
@@ -148,7 +202,7 @@ class Maintainer::Queue {
 
  private:
   /// Whether there is something to be done now.
-  [[nodiscard]] bool is_due() const { return !heap_.empty() || !crowd_.empty(); }
+  [[nodiscard]] bool is_due() const { return !heap_.empty() || !crowd_.is_empty(); }
   /// A bad tet that nothing could mend is tried again once something has changed at one of its vertices.
   void take_hopeless(const TetMesh& mesh) {
     std::size_t kept = 0;
@@ -205,8 +259,6 @@ class Maintainer::Queue {
       is_held_[tet.value] = 0;
       if (mesh.is_live(tet)) push(mesh, tet);
     }
-    crowd_.insert(crowd_.end(), held_crowd_.begin(), held_crowd_.end());
-    held_crowd_.clear();
   }
   void hold(TetId tet) {
     is_held_.ensure(std::size_t{tet.value} + 1);
@@ -239,8 +291,8 @@ class Maintainer::Queue {
   /// Once the blade has gone, what the whole stroke touched is taken up again where it goes on from an older cut.
   void look_for_seam(const TetMesh& mesh, std::vector<VertexId>& ring) {
     std::vector<VertexId> all;
-    for (const auto& [v, generation] : std::exchange(taken_, {})) {
-      if (mesh.is_live(v) && mesh.generation(v) == generation) all.push_back(v);
+    for (const KnownVertex& known : std::exchange(taken_, {})) {
+      if (known.is_in(mesh)) all.push_back(known.vertex);
     }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -298,6 +350,10 @@ class Maintainer::Queue {
     std::pop_heap(heap_.begin(), heap_.end());
     const Waiting worst = heap_.back();
     heap_.pop_back();
+    while (!heap_.empty() && heap_.front() == worst) {  // pushed twice
+      std::pop_heap(heap_.begin(), heap_.end());
+      heap_.pop_back();
+    }
     return worst;
   }
 
@@ -311,7 +367,7 @@ class Maintainer::Queue {
     Care care{transaction, mesh, references_, walker_, statistics_, false, {}, changed_, is_locked_};
     for (std::uint64_t changes = 0; is_due() && has_budget() && changes < kChangesPerStep;) {
       const bool has_bad = !heap_.empty() && heap_.front().ratio < kBad;
-      const bool has_changed = has_bad || crowd_.empty() ? improve_worst(care, times) : thin_out_next(care, times);
+      const bool has_changed = has_bad || crowd_.is_empty() ? improve_worst(care, times) : thin_out_next(care, times);
       if (has_changed) {
         ++changes;
         requeue(care);
@@ -343,16 +399,15 @@ class Maintainer::Queue {
     const StageZone zone(times, Stage::kMerge);
     care.is_bad = false;
     care.is_at_seam = is_at_seam_;
-    const auto [vertex, generation] = crowd_[next_in_crowd_++];
-    const bool is_there = options_.merge && care.mesh.is_live(vertex) && care.mesh.generation(vertex) == generation;
-    const bool is_held = is_there && thinning_round_ == 0 && !is_free(care.mesh, vertex, *is_locked_);
-    if (is_held) held_crowd_.push_back({vertex, generation});
-    const bool has_merged = is_there && !is_held && collapser_.thin_out(care, vertex, is_at_seam_ ? kEnough : 1.0);
-    if (next_in_crowd_ == crowd_.size()) {
-      next_in_crowd_ = 0;
-      if (++thinning_round_ == kThinningRounds) crowd_.clear();
+    care.spend(1);
+    const KnownVertex current = crowd_.current();
+    const bool is_there = options_.merge && current.is_in(care.mesh);
+    if (is_there && crowd_.is_in_first_round() && !is_free(care.mesh, current.vertex, *is_locked_)) {
+      crowd_.wait();
+      return false;
     }
-    return has_merged;
+    crowd_.advance();
+    return is_there && collapser_.thin_out(care, current.vertex, is_at_seam_ ? kEnough : 1.0);
   }
   /// The first remedy that helps; collapses first, since they leave fewer tets behind.
   bool improve(Care& care, TetId tet, StageTimes& times) {
@@ -400,16 +455,13 @@ class Maintainer::Queue {
   std::vector<Hopeless> hopeless_;
   std::uint64_t time_ = 0;                 // changes so far
   ZeroedArray<std::uint64_t> changed_at_;  // the time of the last change at a vertex, by its slot
-  std::vector<Crowded> crowd_;             // vertices that cuts made, to be merged where they are not needed
+  Crowd crowd_;
   std::vector<VertexId> touched_;   // by steps of the journal; not taken into care yet, since tets there are locked
   std::vector<OpenedFace> opened_;  // likewise
   std::vector<TetId> held_;         // came up while they were locked
-  std::vector<Crowded> held_crowd_;
-  std::vector<Crowded> taken_;                      // into care, during this stroke
-  std::uint32_t tag_ = 0;                           // of this stroke's walls; 0 while there are none
+  std::vector<KnownVertex> taken_;  // into care, during this stroke
+  std::uint32_t tag_ = 0;           // of this stroke's walls; 0 while there are none
   ZeroedArray<std::uint8_t> is_touched_, is_held_;  // by vertex slot; by tet slot
-  std::size_t next_in_crowd_ = 0;
-  unsigned thinning_round_ = 0;
   bool is_at_seam_ = false;
   std::uint64_t work_units_ = 0;  // of the run in progress
   const ShouldStop* should_stop_ = nullptr;

@@ -45,7 +45,7 @@ TEST(Scene, reads_the_least_with_defaults) {
   EXPECT_EQ(scene.options.body.length_unit, 0.1);
   EXPECT_EQ(scene.frames, 10U);
   EXPECT_EQ(scene.options.frame_seconds, 1.0 / 60);
-  EXPECT_EQ(scene.options.engine.maintain.work_units, kUnlimitedWork);
+  EXPECT_EQ(scene.options.engine.maintain.work_units, kFrameWorkUnits);
   EXPECT_TRUE(scene.strokes.empty() && scene.hooks.empty() && scene.tools.empty() && scene.attachments.empty());
 }
 

@@ -184,6 +184,69 @@ TEST(ClosedComplex, takes_copies_of_a_vertex_for_one) {
   EXPECT_EQ(complex.closed(first), VertexId(4));
 }
 
+TEST(ClosedComplex, knows_a_corner_by_its_new_name_and_ranks_it_by_its_first) {
+  SomeMasters some(1.0);
+  ClosedComplex& complex = some.complex;
+  const VertexId from(13), to(500);
+  const std::uint32_t seed = complex.master_at(from);
+  const std::vector<std::uint32_t> star = complex.star(some.mesh, seed, from);
+  ASSERT_TRUE(complex.is_known_around(from, star));
+  EXPECT_FALSE(complex.is_known_around(from, std::span(star).first(1)));
+  struct Known {
+    std::uint32_t index;
+    VertexId other;
+    double t;  // from the corner
+  };
+  std::vector<Known> edges;
+  for (std::uint32_t e = 0; e < complex.edges().size(); ++e) {
+    ClosedEdge& edge = complex.edges()[e];
+    if (edge.a != from && edge.b != from) continue;
+    edge.t = 0.25;
+    complex.toggle(e);
+    edges.push_back({e, edge.a == from ? edge.b : edge.a, edge.a == from ? 0.25 : 0.75});
+  }
+  complex.set_on(from);
+  complex.rename(from, to, star);
+  EXPECT_EQ(complex.flagged_at(to), edges.size());
+  EXPECT_EQ(complex.flagged_at(from), 0U);
+  EXPECT_TRUE(complex.is_on(to));
+  EXPECT_FALSE(complex.is_on(from));
+  EXPECT_EQ(complex.rank(to), 13U);
+  EXPECT_GT(complex.rank(from), 1000U) << "who has the slot next ranks as nobody does";
+  for (const Known& known : edges) {
+    EXPECT_EQ(complex.edges().find_or_add(to, known.other), known.index);
+    const ClosedEdge& edge = complex.edges()[known.index];
+    EXPECT_LT(edge.a, edge.b);
+    EXPECT_EQ(edge.a == to ? edge.t : 1 - edge.t, known.t);
+  }
+  for (const std::uint32_t master : star) {
+    const auto& v = complex[master].vertices;
+    EXPECT_EQ(std::count(v.begin(), v.end(), to), 1);
+    EXPECT_EQ(std::count(v.begin(), v.end(), from), 0);
+  }
+  for (const std::uint32_t master : star) complex.release(master);
+  EXPECT_NE(complex.rank(to), 13U) << "nobody has that name any more";
+}
+
+TEST(ClosedComplex, turns_what_goes_with_a_face_whose_corner_has_another_name) {
+  SomeMasters some(1.0);
+  ClosedComplex& complex = some.complex;
+  const Master& master = complex[5];
+  FrontPoint point;
+  point.face = {master.vertices[0], master.vertices[1], master.vertices[2]};
+  std::sort(point.face.begin(), point.face.end());
+  point.weights = point.slide = {0.1, 0.2, 0.7};
+  point.masters = {5, Master::kNone};
+  complex[5].points[3] = complex.add_point(point);
+  const VertexId from = point.face[0], to(500);
+  const std::vector<std::uint32_t> star = complex.star(some.mesh, 5, from);
+  complex.rename(from, to, star);
+  const FrontPoint& turned = complex.point(complex[5].points[3]);
+  EXPECT_EQ(turned.face, (std::array<VertexId, 3>{point.face[1], point.face[2], to}));
+  EXPECT_EQ(turned.weights, (std::array<double, 3>{0.2, 0.7, 0.1}));
+  EXPECT_EQ(turned.slide, turned.weights);
+}
+
 TEST(ClosedComplex, removes_front_points_from_both_masters) {
   SomeMasters some(1.0);
   ClosedComplex& complex = some.complex;

@@ -201,10 +201,14 @@ class SimulationRun {
   /// Pieces come apart, and never together.
   void check_pieces(std::size_t position) {
     const Journal& journal = simulation_.engine().journal();
-    for (std::size_t i = position; i < journal.position(); ++i) {  // who has a slot now is not who had it
-      for (const VertexId v : journal.step(i).new_vertices) {
-        if (v.value < pieces_.size()) pieces_[v.value] = kInvalidIndex;
-      }
+    const auto forget = [&](VertexId v) {  // who has a slot now is not who had it, be it left in the same step
+      if (v.value < pieces_.size()) pieces_[v.value] = kInvalidIndex;
+    };
+    for (std::size_t i = position; i < journal.position(); ++i) {
+      const Step& step = journal.step(i);
+      for (const VertexId v : step.new_vertices) forget(v);
+      for (const BornVertex& v : step.born) forget(v.id);
+      for (const CopiedVertex& v : step.copied) forget(v.id);
     }
     std::vector<std::uint32_t> now = pieces_of(simulation_.mesh());
     std::vector<std::uint32_t> came_from(now.size(), kInvalidIndex);

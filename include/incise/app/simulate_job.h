@@ -15,7 +15,7 @@ namespace app {
 
 /// Work units that a microsecond of maintenance buys (see `MaintainOptions`): a simulation counts work, and reads no
 /// clock, so that a budget of time gives the same result everywhere.
-inline constexpr std::uint64_t kWorkUnitsPerUs = 50;
+inline constexpr std::uint64_t kWorkUnitsPerUs = 10;
 
 /// About as many files as a series has where nobody says otherwise.
 inline constexpr std::uint64_t kSeriesFiles = 100;

@@ -105,7 +105,7 @@ class Engine {
 
   /// Goes on with the maintenance that a budget left undone, for `work_units` more or until `should_stop` says so; it
   /// counts as part of the last stroke. The same units on the same mesh give the same result, whatever stopped it.
-  /// Does nothing while a stroke is under way. Cost: about 20 ns per unit.
+  /// Does nothing while a stroke is under way. Cost: about 0.1 µs per unit.
   MaintainReport maintain(std::uint64_t work_units = kUnlimitedWork, const ShouldStop& should_stop = {});
   /// Whether maintenance waits.
   [[nodiscard]] bool has_maintenance() const;

@@ -15,9 +15,13 @@
 
 namespace incise::inline v0 {
 
+/// A frame's budget of maintenance unless told otherwise, in work units: about 2 ms. The steps of a stroke need a tenth
+/// of it; what a stroke leaves when it ends is spread over some frames, without a hitch.
+inline constexpr std::uint64_t kFrameWorkUnits = 20'000;
+
 struct SimulationOptions {
   /// `engine.maintain.work_units` is the budget of each frame: a stroke's maintenance goes on in the frames after it.
-  EngineOptions engine;
+  EngineOptions engine = {{}, {.work_units = kFrameWorkUnits}, {}, 1};
   BodyOptions body;
   Materials materials;
   double frame_seconds = 1.0 / 60;  ///< in (0, 1]

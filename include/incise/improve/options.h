@@ -26,7 +26,7 @@ struct MaintainOptions {
   bool improve = true;  ///< smooth, swap, and whatever else makes the worst tets better (paper, section 3)
   /// Work units per stroke that is cut as a whole, and per step of one that is cut step by step; what is left undone
   /// waits for the next one. One unit is one evaluation of one tet's
-  /// quality, about 20 ns. The paper's maintenance ignores it.
+  /// quality, about 0.1 µs. The paper's maintenance ignores it.
   std::uint64_t work_units = kUnlimitedWork;
   /// Of the paper's improving alone: its Boundary Laplacian (section 3.4). False to see what it does (Figure 10).
   bool smooth_boundary = true;
