@@ -6,8 +6,8 @@
 namespace incise::inline v0 {
 
 void MaterialPieces::find(const TetMesh& mesh, std::span<const TetId> tets) {
-  has_any_ = finder_.find(mesh, tets) > 1;
-  if (!has_any_) return;
+  has_several_ = finder_.find(mesh, tets) > 1;
+  has_labels_ = true;
   for (std::size_t i = 0; i < tets.size(); ++i) label(mesh, tets[i], finder_.piece_of(i) + 1);
 }
 
@@ -19,11 +19,11 @@ void MaterialPieces::label(const TetMesh& mesh, TetId tet, std::uint32_t piece) 
 void MaterialPieces::forget() {
   of_tet_.forget();
   of_vertex_.forget();
-  has_any_ = false;
+  has_several_ = has_labels_ = false;
 }
 
 void MaterialPieces::follow(TetId tet, TetId other) {
-  if (has_any_) of_tet_.set(tet, of_tet_[other.value]);
+  if (has_labels_) of_tet_.set(tet, of_tet_[other.value]);
 }
 
 bool MaterialPieces::hang_together(const TetMesh& mesh, TetId a, TetId b) {

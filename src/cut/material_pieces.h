@@ -12,11 +12,10 @@ namespace incise::inline v0 {
 /// stays apart, and goes by its own names. **Source:** docs/decisions/0023.
 class MaterialPieces {
  public:
-  /// Labels tets that hang together through faces, and their vertices. Labels nothing where all are of one piece.
-  /// Cost: that of `PieceFinder`.
+  /// Labels tets that hang together through faces, and their vertices. Cost: that of `PieceFinder`.
   void find(const TetMesh& mesh, std::span<const TetId> tets);
-  /// Whether `find` found several pieces.
-  [[nodiscard]] bool has_any() const { return has_any_; }
+  /// Whether `find` found more than one.
+  [[nodiscard]] bool has_several() const { return has_several_; }
   /// Forgets all labels. Cost: O(labels).
   void forget();
 
@@ -60,7 +59,7 @@ class MaterialPieces {
   PieceFinder finder_;
   Labels<TetId> of_tet_;
   Labels<VertexId> of_vertex_;
-  bool has_any_ = false;
+  bool has_several_ = false, has_labels_ = false;
 };
 
 }  // namespace incise::inline v0

@@ -163,8 +163,15 @@ class Rebuild::Run {
       for (const TetId child : complex_.children(complex_[behind])) owner_.seeds_.push_back(child);
     }
   }
-  /// Whether a face of the cut is between two pieces, also between masters that are taken in later: no step joins them.
-  /// What this step itself parts counts as apart there.
+  /// Whether two sides are of two pieces: no step joins them. Of masters that are taken in later, where a wall is
+  /// between them; what this step itself parts counts as apart there.
+  [[nodiscard]] bool stand_apart(Side a, Side b) {
+    if (!settings_.keeps_pieces) return false;
+    if (pieces_.knows(a.tet()) && pieces_.knows(b.tet())) return pieces_.are_apart(a.tet(), b.tet());
+    const Link wall = Link::boundary(settings_.tag);
+    return mesh_.link(a) == wall && mesh_.link(b) == wall && !pieces_.hang_together(mesh_, a.tet(), b.tet());
+  }
+  /// The same for a face of the cut, where nothing is linked yet.
   [[nodiscard]] bool would_join_pieces(const IncisionFace& face) {
     const TetId a = face.a.tet(), b = face.b.tet();
     if (pieces_.knows(a) && pieces_.knows(b)) return pieces_.are_apart(a, b);
@@ -349,7 +356,7 @@ class Rebuild::Run {
   }
   void meet(Side a, Side b, bool is_crossed) {
     const Link wall = Link::boundary(settings_.tag);
-    const bool is_incision = is_crossed || pieces_.are_apart(a.tet(), b.tet());
+    const bool is_incision = is_crossed || stand_apart(a, b);
     if (is_incision && !is_crossed) note_apart(a);
     if (is_incision && mesh_.link(a) == wall && mesh_.link(b) == wall) standing_.push_back(a);
     set_link(a, is_incision ? Link::boundary(settings_.tag) : Link(b));

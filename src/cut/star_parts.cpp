@@ -178,8 +178,9 @@ StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& c
   const auto tets_of = [&](const Part& part) { return std::span(star).subspan(part.first, part.last - part.first); };
   const auto were_apart = [&](const Part& part, VertexId copy) {
     const auto is_apart = [&](const StarTet& tet) { return settings.pieces->are_apart(tet.tet, copy); };
-    return settings.pieces != nullptr && settings.pieces->has_any() &&
-           std::any_of(star.begin() + part.first, star.begin() + part.last, is_apart);
+    const auto tets = tets_of(part);
+    return settings.pieces != nullptr && settings.pieces->has_several() &&
+           std::any_of(tets.begin(), tets.end(), is_apart);
   };
   const auto had = [&](const Part& part) {
     return settings.keeps_places ? copy_before(mesh, complex, old, vertex, tets_of(part)) : VertexId();

@@ -26,7 +26,7 @@ TEST(MaterialPieces, tells_tets_and_vertices_of_two_pieces_apart) {
   const std::vector<TetId> tets = {TetId(0), TetId(1), TetId(2)};
   MaterialPieces pieces;
   pieces.find(mesh, tets);
-  EXPECT_TRUE(pieces.has_any());
+  EXPECT_TRUE(pieces.has_several());
   EXPECT_FALSE(pieces.are_apart(TetId(0), TetId(1)));
   EXPECT_TRUE(pieces.are_apart(TetId(0), TetId(2)));
   EXPECT_TRUE(pieces.are_apart(TetId(0), VertexId(5)));
@@ -46,17 +46,18 @@ TEST(MaterialPieces, says_nothing_of_what_it_does_not_know) {
   pieces.follow(TetId(1), TetId(0));
   EXPECT_TRUE(pieces.are_apart(TetId(1), TetId(2)));
   pieces.forget();
-  EXPECT_FALSE(pieces.has_any());
+  EXPECT_FALSE(pieces.has_several());
   EXPECT_FALSE(pieces.are_apart(TetId(0), TetId(2)));
 }
 
-TEST(MaterialPieces, labels_nothing_where_all_hangs_together) {
+TEST(MaterialPieces, knows_that_all_hangs_together) {
   const TetMesh mesh = two_pieces();
   const std::vector<TetId> tets = {TetId(0), TetId(1)};
   MaterialPieces pieces;
   pieces.find(mesh, tets);
-  EXPECT_FALSE(pieces.has_any());
-  EXPECT_FALSE(pieces.knows(TetId(0)));
+  EXPECT_FALSE(pieces.has_several());
+  EXPECT_TRUE(pieces.knows(TetId(0)));
+  EXPECT_FALSE(pieces.are_apart(TetId(0), VertexId(4)));
 }
 
 }  // namespace
