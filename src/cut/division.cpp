@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cut/weights.h"
 #include "incise/geom/predicates.h"
 #include "incise/geom/quality.h"
 
@@ -14,19 +15,6 @@ namespace {
 constexpr double kInnerMargin = 0.08;
 /// It is drawn along the sheet by this share of an edge at most.
 constexpr double kGreatestDraw = 0.15;
-
-/// Weights of at least `kInnerMargin`; what the others give for it, they give in proportion to what they have beyond
-/// it.
-std::array<double, 4> kept_off(std::array<double, 4> weights) {
-  double lacking = 0, excess = 0;
-  for (const double w : weights) {
-    (w < kInnerMargin ? lacking : excess) += w < kInnerMargin ? kInnerMargin - w : w - kInnerMargin;
-  }
-  for (double& w : weights) {
-    w = w < kInnerMargin ? kInnerMargin : w - (w - kInnerMargin) * (lacking / excess);
-  }
-  return weights;
-}
 
 Vec3 blend(const std::array<Vec3, 4>& p, const std::array<double, 4>& weights) {
   return weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2] + weights[3] * p[3];
@@ -93,7 +81,7 @@ Vec3 Divider::kept_inside(const Master& master, const Vec3& place, const Vec3& a
   }
   const Vec3 way = std::min(share, 1.0) * (amid - place);
   if (way.squaredNorm() <= kGreatestDraw * kGreatestDraw * (p[1] - p[0]).squaredNorm()) return place + way;
-  return blend(p, kept_off(here));
+  return blend(p, kept_off(here, kInnerMargin));
 }
 
 Vec3 Divider::position_of(const Master& master, std::uint8_t code) const {

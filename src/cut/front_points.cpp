@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cut/division.h"
+#include "cut/weights.h"
 #include "incise/geom/box.h"
 #include "incise/geom/quality.h"
 
@@ -78,17 +79,6 @@ std::array<double, N> normalised(std::array<double, N> weights) {
   double sum = 0;
   for (double& w : weights) sum += w = std::max(w, 0.0);
   for (double& w : weights) w = sum > 0 ? w / sum : 1.0 / static_cast<double>(N);
-  return weights;
-}
-
-/// Weights of at least `margin`; what the others give for it, they give in proportion to what they have beyond it.
-template <std::size_t N>
-std::array<double, N> kept_off(std::array<double, N> weights, double margin) {
-  double lacking = 0, excess = 0;
-  for (const double w : weights) {
-    (w < margin ? lacking : excess) += w < margin ? margin - w : w - margin;
-  }
-  for (double& w : weights) w = w < margin ? margin : w - (w - margin) * (lacking / excess);
   return weights;
 }
 

@@ -168,62 +168,93 @@ VertexId StarParts::name(Transaction& transaction, VertexId vertex, bool may_be_
   return vertex;
 }
 
-StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old,
-                                      VertexId vertex, std::vector<StarTet>& star, const Home& home,
-                                      const Settings& settings) {
-  const TetMesh& mesh = transaction.mesh();
-  find_parts(mesh, star);
-  std::swap(star, sorted_);
-  keep_copies(mesh, star);
-  const auto tets_of = [&](const Part& part) { return std::span(star).subspan(part.first, part.last - part.first); };
-  const auto were_apart = [&](const Part& part, VertexId copy) {
-    const auto is_apart = [&](const StarTet& tet) { return settings.pieces->are_apart(tet.tet, copy); };
-    const auto tets = tets_of(part);
-    return settings.pieces != nullptr && settings.pieces->has_several() &&
-           std::any_of(tets.begin(), tets.end(), is_apart);
-  };
-  const auto had = [&](const Part& part) {
-    return settings.keeps_places ? copy_before(mesh, complex, old, vertex, tets_of(part)) : VertexId();
-  };
-  const auto may_take = [&](const Part& part, VertexId copy) {
-    const bool is_elsewhere = settings.keeps_places && has_other_copy(mesh, tets_of(part), copy);
-    return !is_elsewhere && !were_apart(part, copy);
-  };
+/// Whether material of a part was of another piece than a vertex is.
+bool StarParts::were_apart(const Star& star, const Part& part, VertexId copy) {
+  const MaterialPieces* pieces = star.settings.pieces;
+  if (pieces == nullptr || !pieces->has_several()) return false;
+  const auto tets = star.tets_of(part);
+  return std::any_of(tets.begin(), tets.end(), [&](const StarTet& tet) { return pieces->are_apart(tet.tet, copy); });
+}
+
+bool StarParts::may_take(const Star& star, const Part& part, VertexId copy) {
+  const bool is_elsewhere = star.settings.keeps_places && has_other_copy(star.mesh, star.tets_of(part), copy);
+  return !is_elsewhere && !were_apart(star, part, copy);
+}
+
+/// Whether a part may take the closed vertex as it stands.
+bool StarParts::stands_in(const Star& star, const Part& part) {
+  if (!may_take(star, part, star.vertex)) return false;
+  if (star.settings.makes_twins || !star.settings.keeps_places) return true;
+  const TetMesh& mesh = star.mesh;
+  const auto tets = star.tets_of(part);
+  const MaterialPlace place = place_of(mesh, star.old, star.vertex, tets);
+  const double tolerance = kSamePlace * (mesh.rest(star.vertex) - mesh.rest(mesh.vertices(tets[0].tet)[0])).norm();
+  return place.inside <= -1e300 || (place.current - mesh.current(star.vertex)).norm() <= tolerance;
+}
+
+void StarParts::take_homes(const Star& star, const Home& home) {
   for (Part& part : parts_) {
     if (part.copy.is_valid()) continue;
-    const VertexId copy = home(tets_of(part));
-    if (copy.is_valid() && !is_taken(copy) && may_take(part, copy)) part.copy = copy;
+    const VertexId copy = home(star.tets_of(part));
+    if (copy.is_valid() && !is_taken(copy) && may_take(star, part, copy)) part.copy = copy;
   }
-  const auto was_elsewhere = [&](const Part& part) { return were_apart(part, vertex) || complex.has_copies(vertex); };
-  const auto stands_in = [&](const Part& part) {
-    if (!may_take(part, vertex)) return false;
-    if (settings.makes_twins || !settings.keeps_places) return true;
-    const MaterialPlace place = place_of(mesh, old, vertex, tets_of(part));
-    const double tolerance =
-        kSamePlace * (mesh.rest(vertex) - mesh.rest(mesh.vertices(star[part.first].tet)[0])).norm();
-    return place.inside <= -1e300 || (place.current - mesh.current(vertex)).norm() <= tolerance;
-  };
+}
+
+void StarParts::take_vertex(const Star& star) {
   for (Part& part : parts_) {
-    if (!part.copy.is_valid() && !is_taken(vertex) && stands_in(part)) part.copy = vertex;
+    if (!part.copy.is_valid() && !is_taken(star.vertex) && stands_in(star, part)) part.copy = star.vertex;
   }
-  Division done;
+}
+
+/// Moves the closed vertex, which no part has taken, to where the material of a part has it.
+void StarParts::move_vertex(Transaction& transaction, const Star& star, Part& part) {
+  const MaterialPlace place = place_of(star.mesh, star.old, star.vertex, star.tets_of(part));
+  transaction.move(star.vertex, star.mesh.rest(star.vertex), place.basis, place.weights);
+  part.copy = star.vertex;
+}
+
+/// The vertex that a part's copy starts as; none where it starts as the old child of one of its tets has it.
+VertexId StarParts::source_of(const Star& star, const Part& part) {
+  const auto was_elsewhere = [&] {
+    return were_apart(star, part, star.vertex) || star.complex.has_copies(star.vertex);
+  };
+  if (star.settings.makes_twins && !(star.settings.keeps_places && was_elsewhere())) return star.vertex;
+  if (!star.settings.keeps_places) return {};
+  return copy_before(star.mesh, star.complex, star.old, star.vertex, star.tets_of(part));
+}
+
+/// Gives a copy to every part that has none yet; returns how many it made.
+std::uint64_t StarParts::make_copies(Transaction& transaction, const Star& star) {
+  std::uint64_t made = 0;
   for (Part& part : parts_) {
     if (part.copy.is_valid()) continue;
-    if (!is_taken(vertex) && !settings.may_be_named) {
-      const MaterialPlace place = place_of(mesh, old, vertex, tets_of(part));
-      transaction.move(vertex, mesh.rest(vertex), place.basis, place.weights);
-      part.copy = vertex;
+    if (!star.settings.may_be_named && !is_taken(star.vertex)) {
+      move_vertex(transaction, star, part);
       continue;
     }
-    const bool is_twin = settings.makes_twins && !(settings.keeps_places && was_elsewhere(part));
-    const VertexId source = is_twin ? vertex : had(part);
-    part.copy =
-        source.is_valid() ? transaction.copy_vertex(source) : make_copy(transaction, old, vertex, tets_of(part));
-    ++done.made;
+    const VertexId source = source_of(star, part);
+    part.copy = source.is_valid() ? transaction.copy_vertex(source)
+                                  : make_copy(transaction, star.old, star.vertex, star.tets_of(part));
+    ++made;
   }
+  return made;
+}
+
+StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old,
+                                      VertexId vertex, std::vector<StarTet>& tets, const Home& home,
+                                      const Settings& settings) {
+  const TetMesh& mesh = transaction.mesh();
+  find_parts(mesh, tets);
+  std::swap(tets, sorted_);
+  const Star star{mesh, complex, old, vertex, tets, settings};
+  keep_copies(mesh, tets);
+  take_homes(star, home);
+  take_vertex(star);
+  Division done;
+  done.made = make_copies(transaction, star);
   done.closed = name(transaction, vertex, settings.may_be_named);
-  write_corners(transaction, star);
-  set_shapes(transaction, done.closed, star, settings.tag);
+  write_corners(transaction, tets);
+  set_shapes(transaction, done.closed, tets, settings.tag);
   bury(transaction, complex, vertex, done.closed);
   return done;
 }

@@ -27,7 +27,8 @@ struct StarTet {
 /// proof. Differs: works on a wound that is open, where copies that stay keep their slots and positions.
 class StarParts {
  public:
-  /// Divides the star of `vertex`, gives every part its own copy, and writes the copies into the corners of the tets.
+  /// Divides the star `tets` of `vertex`, gives every part its own copy, and writes the copies into the corners of the
+  /// tets.
   ///
   /// A part that has tets from before keeps their copy. `home(tets of a part)` names the copy that a part made of new
   /// tets alone should have, if any. Copies beyond those start as the old child of one of their tets has it; with
@@ -49,12 +50,25 @@ class StarParts {
     VertexId closed;         ///< the closed vertex, as it is called now
   };
   Division divide(Transaction& transaction, ClosedComplex& complex, const OldChildren& old, VertexId vertex,
-                  std::vector<StarTet>& star, const Home& home, const Settings& settings);
+                  std::vector<StarTet>& tets, const Home& home, const Settings& settings);
 
  private:
   struct Part {
     std::uint32_t first = 0, last = 0;  ///< into the star, sorted by part
     VertexId copy;
+  };
+  /// What `divide` is asked about.
+  struct Star {
+    const TetMesh& mesh;
+    const ClosedComplex& complex;
+    const OldChildren& old;
+    VertexId vertex;
+    std::span<const StarTet> tets;  ///< sorted by part
+    const Settings& settings;
+
+    [[nodiscard]] std::span<const StarTet> tets_of(const Part& part) const {
+      return tets.subspan(part.first, part.last - part.first);
+    }
   };
   void find_parts(const TetMesh& mesh, std::vector<StarTet>& star);
   void keep_copies(const TetMesh& mesh, std::span<const StarTet> star);
@@ -65,6 +79,14 @@ class StarParts {
   [[nodiscard]] static bool has_other_copy(const TetMesh& mesh, std::span<const StarTet> part, VertexId copy);
   [[nodiscard]] static VertexId copy_before(const TetMesh& mesh, const ClosedComplex& complex, const OldChildren& old,
                                             VertexId vertex, std::span<const StarTet> part);
+  [[nodiscard]] static bool were_apart(const Star& star, const Part& part, VertexId copy);
+  [[nodiscard]] static bool may_take(const Star& star, const Part& part, VertexId copy);
+  [[nodiscard]] static bool stands_in(const Star& star, const Part& part);
+  void take_homes(const Star& star, const Home& home);
+  void take_vertex(const Star& star);
+  static void move_vertex(Transaction& transaction, const Star& star, Part& part);
+  [[nodiscard]] static VertexId source_of(const Star& star, const Part& part);
+  std::uint64_t make_copies(Transaction& transaction, const Star& star);
   VertexId name(Transaction& transaction, VertexId vertex, bool may_be_named);
   void write_corners(Transaction& transaction, std::span<const StarTet> star);
   void set_shapes(Transaction& transaction, VertexId vertex, std::span<const StarTet> star, std::uint32_t tag);
