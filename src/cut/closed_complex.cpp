@@ -20,6 +20,7 @@ void ClosedComplex::clear() {
   edges_.clear();
   dirty_.clear();
   retired_.clear();
+  let_go_.clear();
   for (const VertexId vertex : ranked_) rank_[vertex.value] = 0;
   ranked_.clear();
   scope_ = {};
@@ -27,27 +28,56 @@ void ClosedComplex::clear() {
   ++hold_;
 }
 
-void ClosedComplex::hold(VertexId vertex) {
+template <class Visit>
+void ClosedComplex::for_each_copy(VertexId vertex, Visit&& visit) {
   if (!vertex.is_valid()) return;
-  held_.ensure(std::size_t{vertex.value} + 1);
-  held_[vertex.value] = hold_;
+  visit(vertex);
   if (!has_copies(vertex)) return;
-  for (const VertexId copy : copies_of(vertex)) {
-    held_.ensure(std::size_t{copy.value} + 1);
-    held_[copy.value] = hold_;
-  }
+  for (const VertexId copy : copies_of(vertex)) visit(copy);
 }
 
-void ClosedComplex::hold_vertices() {
+void ClosedComplex::hold(VertexId vertex) {
+  for_each_copy(vertex, [&](VertexId v) {
+    held_.ensure(std::size_t{v.value} + 1);
+    held_[v.value] = hold_;
+  });
+}
+
+/// The same for one that was made by the cut: split points and front points.
+void ClosedComplex::hold_made(VertexId vertex) {
+  hold(vertex);
+  for_each_copy(vertex, [&](VertexId v) {
+    made_.ensure(std::size_t{v.value} + 1);
+    made_[v.value] = hold_;
+  });
+}
+
+void ClosedComplex::hold_vertices(const TetMesh& mesh) {
   ++hold_;
   for (const Master& master : masters_) {
     if (master.split == nullptr) continue;
     for (const VertexId v : master.vertices) hold(v);
-    for (const std::uint32_t e : master.edges) hold(edges_[e].split);
+    for (const std::uint32_t e : master.edges) hold_made(edges_[e].split);
     for (const std::uint32_t at : master.points) {
-      if (at != Master::kNone) hold(points_[at].vertex);
+      if (at != Master::kNone) hold_made(points_[at].vertex);
     }
-    hold(master.middle);
+    hold_made(master.middle);
+  }
+  mark_beside_made(mesh);
+}
+
+/// Nor is a vertex of a tet that was let go beside such a point a corner that could be divided: its star has that tet.
+void ClosedComplex::mark_beside_made(const TetMesh& mesh) {
+  std::erase_if(let_go_, [&](TetId tet) {
+    if (!mesh.is_live(tet) || find(tet) != Master::kNone) return true;
+    const TetVertices& v = mesh.vertices(tet);
+    return std::none_of(v.begin(), v.end(), [&](VertexId vertex) { return is_made(vertex); });
+  });
+  std::vector<VertexId> beside;
+  for (const TetId tet : let_go_) beside.insert(beside.end(), mesh.vertices(tet).begin(), mesh.vertices(tet).end());
+  for (const VertexId v : beside) {
+    made_.ensure(std::size_t{v.value} + 1);
+    made_[v.value] = hold_;
   }
 }
 
@@ -121,7 +151,10 @@ void ClosedComplex::release(std::uint32_t index) {
     if (other == Master::kNone) continue;
     std::replace(masters_[other].behind.begin(), masters_[other].behind.end(), index, Master::kNone);
   }
-  for (const TetId child : children(master)) master_of_[child.value] = 0;
+  for (const TetId child : children(master)) {
+    master_of_[child.value] = 0;
+    if (master.is_divided()) let_go_.push_back(child);
+  }
   free_blocks_[master.split->children.size()].push_back(master.first_child);
   for (unsigned s = 0; s < 4; ++s) unlink_point(index, s);
   if (master.middle.is_valid()) drop_copies(master.middle);

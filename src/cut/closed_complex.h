@@ -211,8 +211,9 @@ class ClosedComplex {
   [[nodiscard]] bool is_half_baked(VertexId vertex) const {
     return is_settled(vertex) && is_settled_[vertex.value] == kHalfBaked;
   }
-  /// Marks all vertices that a master knows by name, and their copies: none of them may die while it lives.
-  void hold_vertices();
+  /// Marks all vertices that a master knows by name, and their copies: none of them may die while it lives. Notes which
+  /// tets that were let go have one that the cut made.
+  void hold_vertices(const TetMesh& mesh);
   /// Whether a live tet has a vertex that was held when `hold_vertices` was called last.
   [[nodiscard]] bool is_held(const TetMesh& mesh, TetId tet) const {
     const TetVertices& v = mesh.vertices(tet);
@@ -220,10 +221,12 @@ class ClosedComplex {
       return vertex.value < held_.capacity() && held_[vertex.value] == hold_;
     });
   }
-  /// Whether a live tet has a settled vertex.
+  /// Whether a live tet that is no master's has a settled vertex, or one that a master has as a split point or a front
+  /// point: it was let go beside that master, and none of its corners need be settled.
   [[nodiscard]] bool is_at_settled(const TetMesh& mesh, TetId tet) const {
     const TetVertices& v = mesh.vertices(tet);
-    return is_settled(closed(v[0])) || is_settled(closed(v[1])) || is_settled(closed(v[2])) || is_settled(closed(v[3]));
+    const auto is_at = [&](VertexId vertex) { return is_settled(closed(vertex)) || is_made(vertex); };
+    return is_at(v[0]) || is_at(v[1]) || is_at(v[2]) || is_at(v[3]);
   }
 
   [[nodiscard]] bool is_on(VertexId vertex) const {
@@ -253,7 +256,16 @@ class ClosedComplex {
   void rename_point(FrontPoint& point, VertexId from, VertexId to);
   void retire_rank(VertexId vertex);
   void flood_star(const TetMesh& mesh, VertexId vertex, std::size_t from);
+  /// Whether a master had a vertex as a split point or a front point when `hold_vertices` was called last, or a tet that
+  /// was let go has both.
+  [[nodiscard]] bool is_made(VertexId vertex) const {
+    return vertex.value < made_.capacity() && made_[vertex.value] == hold_;
+  }
+  template <class Visit>
+  void for_each_copy(VertexId vertex, Visit&& visit);
   void hold(VertexId vertex);
+  void hold_made(VertexId vertex);
+  void mark_beside_made(const TetMesh& mesh);
   void unlink_edge(std::uint32_t master, unsigned e);
   void unlink_point(std::uint32_t master, unsigned side);
   void unlink_vertex(std::uint32_t master, unsigned corner);
@@ -284,6 +296,8 @@ class ClosedComplex {
   ZeroedArray<std::uint64_t> rank_;       // by vertex slot: 1 + the rank, where that is not the slot
   std::vector<VertexId> ranked_;          // where it is not
   ZeroedArray<std::uint32_t> held_;       // by vertex slot: the call that marked it last
+  ZeroedArray<std::uint32_t> made_;       // by vertex slot: likewise, of split points and front points
+  std::vector<TetId> let_go_;             // children let go that may have such a vertex
   std::uint32_t hold_ = 1;
   std::vector<std::uint32_t> free_masters_;
   std::vector<VertexId> retired_;

@@ -479,7 +479,7 @@ void StrokeCut::bake(TetMesh& mesh, Journal& journal, const FrontRules& rules, s
                      CutStatistics& statistics, StageTimes& times) {
   const StageZone zone(times, Stage::kSeparate);
   bake_behind(mesh, journal, rules, pinned, statistics);
-  complex_.hold_vertices();
+  complex_.hold_vertices(mesh);
 }
 
 void StrokeCut::bake_behind(TetMesh& mesh, Journal& journal, const FrontRules& rules,

@@ -247,6 +247,53 @@ TEST(ClosedComplex, turns_what_goes_with_a_face_whose_corner_has_another_name) {
   EXPECT_EQ(turned.slide, turned.weights);
 }
 
+/// The vertices that masters have as split points or front points.
+std::set<VertexId> made_by(ClosedComplex& complex) {
+  std::set<VertexId> made;
+  const auto note = [&](VertexId vertex) {
+    if (!vertex.is_valid()) return;
+    made.insert(vertex);
+    if (complex.has_copies(vertex)) made.insert(complex.copies_of(vertex).begin(), complex.copies_of(vertex).end());
+  };
+  for (std::uint32_t m = 0; m < complex.size(); ++m) {
+    if (complex[m].split == nullptr) continue;
+    for (const std::uint32_t e : complex[m].edges) note(complex.edges()[e].split);
+    for (const std::uint32_t at : complex[m].points) note(at == Master::kNone ? VertexId() : complex.point(at).vertex);
+    note(complex[m].middle);
+  }
+  return made;
+}
+
+/// Else a corner of such a master would have a star with tets in it whose corners are split points: those around it
+/// would never be found, and a walk around their edges would not end.
+TEST(ClosedComplex, may_adopt_no_tet_with_a_vertex_of_one_that_was_let_go_beside_split_points) {
+  Random random(3);
+  FlaggedBody body(jittered_cube(4, 2));
+  body.toggle_some(random, 0.02);
+  body.place_points(random, 0.2);
+  body.rebuild();
+  ClosedComplex& complex = body.complex();
+  for (std::uint32_t m = 0; m < complex.size(); m += 2) complex.release(m);
+  complex.hold_vertices(body.mesh());
+  const std::set<VertexId> made = made_by(complex);
+  std::set<VertexId> beside;
+  body.mesh().for_each_tet([&](TetId tet) {
+    const TetVertices& v = body.mesh().vertices(tet);
+    const bool has_made = std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return made.count(vertex) > 0; });
+    if (has_made && complex.find(tet) == Master::kNone) beside.insert(v.begin(), v.end());
+  });
+  std::size_t free = 0, kept = 0;
+  body.mesh().for_each_tet([&](TetId tet) {
+    if (complex.find(tet) != Master::kNone) return;
+    const TetVertices& v = body.mesh().vertices(tet);
+    const bool is_near = std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return beside.count(vertex) > 0; });
+    EXPECT_TRUE(!is_near || complex.is_at_settled(body.mesh(), tet)) << tet.value;
+    ++(complex.is_at_settled(body.mesh(), tet) ? kept : free);
+  });
+  EXPECT_GT(kept, 0U);
+  EXPECT_GT(free, 0U);
+}
+
 TEST(ClosedComplex, removes_front_points_from_both_masters) {
   SomeMasters some(1.0);
   ClosedComplex& complex = some.complex;
