@@ -31,6 +31,13 @@ constexpr double kExitLead = 0.3;
 constexpr double kTrust = 1.0;
 /// Material stretches no more than this between the tip and the blade.
 constexpr double kGreatestStretch = 1.5;
+/// A point that is so many spacings from the tet that it left the body by goes with its neighbours, as before it
+/// entered: what that tet says of its place counts no more.
+constexpr double kAway = 1.0;
+/// A point that has left the body goes on by at most so many spacings to be outside of it at rest, too.
+constexpr double kFurther = 1.5;
+/// Points outside stay so many spacings off the surface at least, and are drawn by so many towards where it has them.
+constexpr double kBeside = 0.02, kDraw = 0.1;
 /// A walk from tet to tet gives up after so many.
 constexpr unsigned kMostTets = 256;
 /// Rings of cells that are looked through for the nearest surface, and rounds of drawing nearer.
@@ -61,11 +68,36 @@ Vec3 blend(const Corners& p, const std::array<double, 4>& weights) {
   return weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2] + weights[3] * p[3];
 }
 
+Vec3 shortened(const Vec3& way, double most) {
+  const double length = way.norm();
+  return length > most ? Vec3((most / length) * way) : way;
+}
+
+/// The weights of the tet's own place that is taken for the nearest to one with these weights.
+std::array<double, 4> drawn_in(std::array<double, 4> weights) {
+  double sum = 0;
+  for (double& w : weights) sum += w = std::max(w, 0.0);
+  for (double& w : weights) w /= sum;
+  return weights;
+}
+
+/// Takes a place from one shape of a tet to the other as its map does. Of a place outside the tet the map tells no more
+/// than the direction, and that material stretches a little: a tet that is nearly flat would take it anywhere.
+Vec3 taken(const Corners& from, const Corners& to, const std::array<double, 4>& weights) {
+  const Vec3 place = blend(to, weights);
+  if (*std::min_element(weights.begin(), weights.end()) >= 0) return place;
+  const std::array<double, 4> inner = drawn_in(weights);
+  const Vec3 start = blend(to, inner), way = place - start;
+  const double most = kGreatestStretch * (blend(from, weights) - blend(from, inner)).norm(), length = way.norm();
+  return length > most ? Vec3(start + (most / length) * way) : place;
+}
+
 /// A place as the body stands, taken to the rest shape as a tet's own map does; `x` where it has none.
 Vec3 to_rest(const TetMesh& mesh, TetId tet, const Vec3& x, bool& is_possible) {
   std::array<double, 4> weights{};
-  is_possible = weights_in(current_of(mesh, tet), x, weights);
-  return is_possible ? blend(rest_of(mesh, tet), weights) : x;
+  const Corners current = current_of(mesh, tet);
+  is_possible = weights_in(current, x, weights);
+  return is_possible ? taken(current, rest_of(mesh, tet), weights) : x;
 }
 
 /// Walks through tets as they stand towards a place; the tet that holds it, or none where the walk leaves the body.
@@ -154,7 +186,7 @@ void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std:
   TetId nearest;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Point& point = points_[i];
-    point.world = places[i];
+    point.world = point.reached = places[i];
     point.hint = nearest.is_valid() ? nearest : surface.nearest_as_it_stands(mesh, places[i]);
     find(mesh, surface, point, places[i]);
     nearest = point.hint;
@@ -204,20 +236,26 @@ void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point
 void MaterialBlade::find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor) {
   point.tip = point.world;
   if (point.master >= complex.size() || complex[point.master].split == nullptr) return;
-  double inside = -1e300;
+  double inside = -1e300, beyond = 0;
   for (const TetId child : complex.children(complex[point.master])) {
     std::array<double, 4> weights{};
     if (!weights_in(rest_of(mesh, child), anchor, weights)) continue;
     const double least = *std::min_element(weights.begin(), weights.end());
     if (least <= inside) continue;
     inside = least;
-    point.tip = blend(current_of(mesh, child), weights);
+    const Corners rest = rest_of(mesh, child), current = current_of(mesh, child);
+    point.tip = taken(rest, current, weights);
+    beyond = least < 0 ? (anchor - blend(rest, drawn_in(weights))).norm() : 0.0;
     if (!point.tet.is_valid() && !mesh.is_live(point.hint)) point.hint = child;
     // The direction of cutting goes with the material.
     std::array<double, 4> ahead{};
-    if (!point.rest_step.isZero(0.0) && weights_in(rest_of(mesh, child), anchor + point.rest_step, ahead)) {
-      point.direction = blend(current_of(mesh, child), ahead) - point.tip;
+    if (!point.rest_step.isZero(0.0) && weights_in(rest, anchor + point.rest_step, ahead)) {
+      point.direction = taken(rest, current, ahead) - point.tip;
     }
+  }
+  if (beyond > kAway * spacing_) {
+    point.master = Master::kNone;
+    point.has_entered = false;
   }
 }
 
@@ -250,13 +288,16 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
     const Vec3 straight = anchor + point.lead * course_;
     if ((point.candidate - straight).norm() > kTrust * spacing_) point.candidate = straight;
   }
-  point.is_accepted = push_out(mesh, surface, anchor, point.candidate);
+  const bool was_inside = incise::locate(mesh, surface, {anchor, next_key_++}).is_valid();
+  point.is_accepted =
+      was_inside ? push_out(mesh, surface, anchor, point.candidate) : keep_out(mesh, surface, anchor, point.candidate);
 }
 
-/// The blade has left the body, so its rest point must lie outside: else further along its way.
+/// The blade has left the body, so its rest point must lie outside: else a little further along its way.
 bool MaterialBlade::push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest) {
   const Vec3 way = rest - from;
   for (const double reach : {1.0, 1.5, 2.0, 3.0, 5.0}) {
+    if ((reach - 1) * way.norm() > kFurther * spacing_) return false;
     const Vec3 place = from + reach * way;
     if (incise::locate(mesh, surface, {place, next_key_++}).is_valid()) continue;
     rest = place;
@@ -265,30 +306,56 @@ bool MaterialBlade::push_out(const TetMesh& mesh, const SurfaceIndex& surface, c
   return false;
 }
 
-/// Points that have not entered the body go with the nearest one that has, so that the strip stays even.
+/// A point that is outside the body, and was, has its rest point outside: where that would be inside, beside the
+/// surface there. Returns false where a long way leads there through the body: that was not cut.
+bool MaterialBlade::keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest) {
+  Vec3 place = rest;
+  if (incise::locate(mesh, surface, {place, next_key_++}).is_valid()) {
+    Vec3 near;
+    const Side side = nearest_side(mesh, surface, rest, spacing_, near);
+    if (side.value == kInvalidIndex) return false;
+    const auto v = mesh.vertices(side);
+    const Vec3 normal = (mesh.rest(v[1]) - mesh.rest(v[0])).cross(mesh.rest(v[2]) - mesh.rest(v[0])).normalized();
+    place = near + kBeside * spacing_ * normal;
+  }
+  if ((place - from).norm() > kTrust * spacing_ && !is_clear(mesh, surface, from, place)) return false;
+  rest = place;
+  return true;
+}
+
+/// The point nearest to one that has not entered the body which has; the number of points where there is none.
+std::size_t MaterialBlade::leader_of(std::size_t point) const {
+  std::size_t leader = points_.size(), distance = points_.size();
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const std::size_t apart = k > point ? k - point : point - k;
+    if ((points_[k].has_entered || points_[k].tet.is_valid()) && apart < distance) {
+      leader = k;
+      distance = apart;
+    }
+  }
+  return leader;
+}
+
+/// Points that have not entered the body go with the nearest one that has, so that the strip stays even; but no further
+/// than they went themselves, and drawn to where the surface near them has them: errors must not add up.
 void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surface) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];
     if (point.has_entered || point.tet.is_valid()) continue;
-    std::size_t leader = points_.size(), distance = points_.size();
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      const std::size_t apart = k > i ? k - i : i - k;
-      if ((points_[k].has_entered || points_[k].tet.is_valid()) && apart < distance) {
-        leader = k;
-        distance = apart;
-      }
-    }
+    const std::size_t leader = leader_of(i);
     const bool is_free = leader == points_.size();
     if (!is_free && !points_[leader].is_accepted) continue;
     Vec3 rest = point.candidate;
     if (!is_free) {
-      rest = anchors_[i] + (points_[leader].candidate - anchors_[leader]);
+      const double most = kGreatestStretch * (point.world - point.reached).norm() + kLeastStep * spacing_;
+      Vec3 with = anchors_[i] + shortened(points_[leader].candidate - anchors_[leader], most);
       bool is_possible = false;
       const TetId tet = points_[leader].tet;
-      const Vec3 mapped = tet.is_valid() ? to_rest(mesh, tet, point.world, is_possible) : rest;
-      if (is_possible && (mapped - rest).norm() <= kTrust * spacing_) rest = mapped;
+      const Vec3 mapped = tet.is_valid() ? to_rest(mesh, tet, point.world, is_possible) : with;
+      if (is_possible && (mapped - with).norm() <= kTrust * spacing_) with = mapped;
+      rest = with + shortened(point.candidate - with, kDraw * spacing_);
     }
-    point.is_accepted = push_out(mesh, surface, anchors_[i], rest);
+    point.is_accepted = keep_out(mesh, surface, anchors_[i], rest);
     if (point.is_accepted) point.candidate = rest;
   }
 }
@@ -379,7 +446,7 @@ void MaterialBlade::take_over(const TetMesh& mesh, const SurfaceIndex& surface, 
   const std::vector<Vec3> places = divided(row, shares_);
   points_.assign(places.size(), {});
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    points_[i].world = places[i];
+    points_[i].world = points_[i].reached = places[i];
     points_[i].candidate = anchors_[i];
   }
   find_masters(mesh, surface, complex);
@@ -399,6 +466,7 @@ void MaterialBlade::advance(const TetMesh& mesh, const SurfaceIndex& surface, Cl
     if (!point.is_accepted) continue;
     const Vec3 step = point.candidate - anchors_[i];
     anchors_[i] = point.candidate;
+    point.reached = point.world;
     if (!point.tet.is_valid()) continue;
     point.rest_step = step;
     if (!mesh.is_live(point.tet)) point.tet = incise::locate(mesh, surface, {point.candidate, next_key_++});

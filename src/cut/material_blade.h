@@ -55,6 +55,7 @@ class MaterialBlade {
  private:
   struct Point {
     Vec3 world = Vec3::Zero();      ///< where it is now
+    Vec3 reached = Vec3::Zero();    ///< where it was when its anchor was last put in place
     Vec3 candidate = Vec3::Zero();  ///< the rest point there
     Vec3 tip = Vec3::Zero();        ///< where the front's rest point stands now
     Vec3 direction = Vec3::Zero();  ///< of cutting, as the body stands
@@ -69,9 +70,12 @@ class MaterialBlade {
 
   void set_shares(const TetMesh& mesh, std::span<const Vec3> row);
   void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
+  /// Where the front's rest point stands now. A point that is away from the tet that it left by follows others.
   void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);
   void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   bool push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
+  bool keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
+  [[nodiscard]] std::size_t leader_of(std::size_t point) const;
   [[nodiscard]] bool is_clear(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, const Vec3& to);
   void keep_clear(const TetMesh& mesh, const SurfaceIndex& surface, std::size_t end);
   void set_course();
