@@ -26,6 +26,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   if (s.options.coarse) s.lattice.prepare(s, h);
   const bool is_watched = 2 * report.active_vertices > s.order.moving_count();  // what flies apart is awake
   const detail::EnergyNow before = is_watched ? s.energy_now() : detail::EnergyNow();
+  if (is_watched) s.places_before = s.places;
   for (unsigned i = 0; i < s.options.substeps; ++i) {
     s.expect_motion(h);
     s.begin_substep(h);
@@ -33,7 +34,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
     s.end_substep(h, report.fastest);
     s.correct_motion(h);
   }
-  if (is_watched) s.keep_energy(before);
+  if (is_watched) s.keep_energy(before, dt);
   s.drifted += report.fastest * dt;
   report.fastest *= s.unit();
   s.fall_asleep();

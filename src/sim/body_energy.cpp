@@ -71,17 +71,36 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   return now;
 }
 
-/// Takes from the motion what a step has added to the energy.
-void DeformableBody::State::keep_energy(const detail::EnergyNow& before) {
+/// Takes from the motion what a step has added to the energy; where that was not all, the step goes less far.
+void DeformableBody::State::keep_energy(const detail::EnergyNow& before, double dt) {
   const detail::EnergyNow now = energy_now();
   const double excess = now.total - before.total - now.noise - before.noise;
-  if (!(excess > 0) || !(now.motion > 0)) return;
+  if (!(excess > 0)) return;
   const double kept = excess < now.motion ? std::sqrt(1 - excess / now.motion) : 0;
   for_each_awake([&](std::uint32_t slot) {
     const VertexId v(slot);
     const Vec3 drift = mass_of(v) * drifts[piece_of[v]];
     set_momentum(v, drift + kept * (momentum_of(v) - drift));
   });
+  const bool descends = options.relaxation != Relaxation::kPositionBased;  // which knows of no energy
+  if (descends && excess > now.motion) step_back(before.total + before.noise, dt);
+}
+
+/// Takes awake vertices back towards where they were, but for the drift of free pieces, until there is no more energy
+/// than that: a descent over tets that are turned inside out may go uphill, on ways that the sweeps do not see.
+void DeformableBody::State::step_back(double most, double dt) {
+  for (const double share : {0.5, 0.25, 0.125, 0.0}) {
+    for_each_awake([&](std::uint32_t slot) {
+      const VertexId v(slot);
+      const Vec3 drift = dt * drifts[piece_of[v]];
+      const double less = share > 0 ? 0.5 : 0.0;  // of what the last round left
+      const Vec3 way = places[slot] - places_before[slot] - drift;
+      places[slot] = places_before[slot] + drift + less * way;
+      round_place(v);
+    });
+    const detail::EnergyNow now = energy_now();
+    if (!(now.total - now.noise > most)) return;
+  }
 }
 
 }  // namespace incise::inline v0

@@ -68,7 +68,8 @@ struct DeformableBody::State {
 
   // state in time
   std::vector<Vec3> places;
-  Attributes attributes;  // mass and momentum of the vertices: kept through every edit
+  std::vector<Vec3> places_before;  // at the start of the advance under way, where its energy is watched
+  Attributes attributes;            // mass and momentum of the vertices: kept through every edit
   AttributeId mass_id, momentum_id;
   std::map<std::uint32_t, detail::Hold> holds;
   std::map<std::uint32_t, detail::Hold> lost_holds;  // of vertices that died: undo may bring them back
@@ -179,7 +180,8 @@ struct DeformableBody::State {
   // energy (body_energy.cpp)
   void find_drifts(std::vector<Vec3>& found) const;
   [[nodiscard]] detail::EnergyNow energy_now();
-  void keep_energy(const detail::EnergyNow& before);
+  void keep_energy(const detail::EnergyNow& before, double dt);
+  void step_back(double most, double dt);
 
   // free pieces (body_pieces.cpp)
   void label_pieces();
