@@ -15,8 +15,8 @@ namespace {
 
 /// The border of a sheet turns where its direction changes by more than this cosine tells.
 constexpr double kStraight = 0.94;
-/// A border that passes this close to an edge of a face without a split edge is absorbed by the vertex that stands for
-/// the crossing.
+/// A border that passes this close to an edge at the vertex that stands for the crossing is absorbed by it, where the
+/// face has no split edge: the line from there to the border runs along that edge.
 constexpr double kLeastOpen = 1e-6;
 /// Once the blade goes no further, points slide along the sheet by at most this share of the mean edge to keep off the
 /// edges of their face; what is lacking then they give way across the sheet, but at least the lesser share always.
@@ -175,8 +175,25 @@ class PointUpdate {
     if (!pierced) pierced = find_earlier_piercing(face);
     if (!pierced) return {has_split_on(master, side), false, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
     const std::array<double, 3> weights = normalised(*pierced);
-    const bool is_open = has_split_on(master, side) || *std::min_element(weights.begin(), weights.end()) > kLeastOpen;
+    const bool is_open = has_split_on(master, side) || is_off_edges(master, side, face, weights);
     return {is_open && !lies_in_older_cut(master, side, face, weights), true, weights};
+  }
+  /// Whether a place in a side without split edges lies off the edges at the vertices that stand for its crossings.
+  [[nodiscard]] static bool is_off_edges(const Master& master, unsigned side, const Face& face,
+                                         const std::array<double, 3>& weights) {
+    const auto is_off = [&](VertexId on) {
+      for (unsigned k = 0; k < 3; ++k) {
+        if (face[k] != on && weights[k] <= kLeastOpen) return false;
+      }
+      return true;
+    };
+    for (const unsigned e : kSideEdges[side]) {
+      if (((unsigned{master.flagged} >> e) & 1U) == 0) continue;
+      for (const unsigned c : kEdgeCorners[e]) {
+        if (((unsigned{master.on} >> c) & 1U) != 0 && !is_off(master.vertices[c])) return false;
+      }
+    }
+    return true;
   }
   [[nodiscard]] bool lies_in_older_cut(const Master& master, unsigned side, const Face& face,
                                        const std::array<double, 3>& weights) const {

@@ -124,7 +124,7 @@ void StrokeCut::refresh_around(std::uint32_t edge) {
 
 /// Takes the strip's crossings into the complex: an edge is flagged while it is crossed an odd number of times.
 void StrokeCut::flag(const TetMesh& mesh, const Strip& strip) {
-  const bool is_all_reached = find_reached(strip);
+  const bool is_all_reached = find_reached(mesh, strip);
   for (const StripCrossing& crossing : *crossed_) {
     if (crossing.count % 2 == 0) continue;
     const ClosedEdge& edge = complex_.edges()[crossing.edge];
@@ -191,9 +191,25 @@ void StrokeCut::take_waiting(const TetMesh& mesh) {
   }
 }
 
+/// Whether a strip, but for what reaches on, comes into a tet through its faces: it need not cross an edge there.
+bool StrokeCut::is_entered(const TetMesh& mesh, const Strip& strip, const Master& master) const {
+  const auto corner = [&](unsigned c) { return SosPoint{mesh.rest(master.vertices[c]), master.vertices[c].value}; };
+  const auto pierces = [&](const SosPoint& p, const SosPoint& q) {
+    return std::any_of(kSideCorners.begin(), kSideCorners.end(), [&](const auto& k) {
+      return segment_crosses_triangle(p, q, corner(k[0]), corner(k[1]), corner(k[2]));
+    });
+  };
+  for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) {
+    if (strip.sheet.reaches_on(t)) continue;
+    const SosPoint p = strip.sheet.point(t, 0), q = strip.sheet.point(t, 1), r = strip.sheet.point(t, 2);
+    if (pierces(p, q) || pierces(q, r) || pierces(r, p)) return true;
+  }
+  return false;
+}
+
 /// What joins a strip to an older cut may pass through that cut's wall, and must not notch the other lip: it counts
 /// only in masters that are reached through faces from those that the sheet itself is in. Returns whether all are.
-bool StrokeCut::find_reached(const Strip& strip) {
+bool StrokeCut::find_reached(const TetMesh& mesh, const Strip& strip) {
   bool reaches_on = false;
   for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) reaches_on |= strip.sheet.reaches_on(t);
   if (!reaches_on) return true;
@@ -209,7 +225,7 @@ bool StrokeCut::find_reached(const Strip& strip) {
     complex_.for_each_around(crossing.edge, reach);
   }
   for (const std::uint32_t master : *met_) {
-    if (complex_[master].flagged != 0) reach(master);
+    if (complex_[master].flagged != 0 || is_entered(mesh, strip, complex_[master])) reach(master);
   }
   for (std::size_t i = 0; i < queue.size(); ++i) {
     for (const std::uint32_t behind : complex_[queue[i]].behind) {

@@ -97,7 +97,8 @@ class StrokeCut {
   void cross(const TetMesh& mesh, const Crossed& crossed);
   void take_waiting(const TetMesh& mesh);
   [[nodiscard]] bool is_whole_around(const TetMesh& mesh, std::uint32_t edge) const;
-  bool find_reached(const Strip& strip);
+  [[nodiscard]] bool is_entered(const TetMesh& mesh, const Strip& strip, const Master& master) const;
+  bool find_reached(const TetMesh& mesh, const Strip& strip);
   [[nodiscard]] bool is_reached(std::uint32_t edge) const;
   [[nodiscard]] bool is_graze(const TetMesh& mesh, const Strip& strip, const StripCrossing& crossing) const;
   void refresh_around(std::uint32_t edge);
