@@ -58,8 +58,10 @@ SweptSurface BorderReach::from_row(const BorderPlace& from, const BorderPlace& t
     return i == 0 ? from.at : (i == parts ? to.at : SosPoint{between(a, b, i, parts), next_key_++});
   };
   const auto beyond = [&](std::size_t i) -> SosPoint {
+    if (i == 0 && from.at.key == last_.row_key) return last_.beyond;
     return {between(a, b, i, parts) + reach[i] * outwards_at(from, to, i, parts), next_key_++};
   };
+  RowEnd end;
   std::vector<SosPoint> rim = {from.at};
   for (std::size_t i = 0; i <= parts; ++i) {
     if (!(reach[i] > 0)) continue;
@@ -67,12 +69,14 @@ SweptSurface BorderReach::from_row(const BorderPlace& from, const BorderPlace& t
     while (last < parts && reach[last + 1] > 0) ++last;
     if (last > i) {
       const SosPoint p = on_border(i), q = on_border(last), r = beyond(last), s = beyond(i);
+      if (last == parts) end = {to.at.key, r};
       add_reaching_triangle(surface, p, q, r, column);
       add_reaching_triangle(surface, p, r, s, column);
       rim.insert(rim.end(), {p, q});
     }
     i = last;
   }
+  last_ = end;
   if (surface.triangles.empty()) return surface;
   rim.push_back(to.at);
   for (std::size_t k = 1; k + 1 < rim.size(); ++k) {

@@ -38,16 +38,22 @@ class BorderReach {
       : around_(around), spacing_(spacing), next_key_(next_key) {}
 
   /// From a straight border between two places, as far as it lies at an older cut; up to the skin beside it. Triangles
-  /// without area close the seam to the border as one segment. Empty where no place lies at an older cut. Cost:
+  /// without area close the seam to the border as one segment. Pieces of consecutive segments share their edge. Empty where no place lies at an older cut. Cost:
   /// O(places asked for): one on each fifth of an edge.
   [[nodiscard]] SweptSurface from_row(const BorderPlace& from, const BorderPlace& to, std::uint32_t column);
 
  private:
+  /// Where a piece ended at a point of the row: the next one goes on from there, so that no border stays between them.
+  struct RowEnd {
+    std::uint64_t row_key = 0;  ///< of that point; 0: none
+    SosPoint beyond{Vec3::Zero(), 0};
+  };
   [[nodiscard]] std::vector<double> find_reach(const BorderPlace& from, const BorderPlace& to, std::size_t parts) const;
 
   const Surroundings& around_;
   double spacing_;
   std::uint64_t& next_key_;
+  RowEnd last_;
 };
 
 /// Adds a triangle that joins a border to an older cut; none where two of its points are one.
