@@ -113,6 +113,8 @@ class Cutter::Pipeline {
     last_row_.assign(row.begin(), row.end());
     edge_ = EdgeDivision(row.size());
     is_in_material_ = has_moved;
+    is_last_ = false;
+    direction_ = Vec3::Zero();
     if (!has_moved) {
       motion_.begin(row, spacing_);
       return;
@@ -130,6 +132,7 @@ class Cutter::Pipeline {
       if (!is_in_material_) divide_edge(row);
       const std::vector<Vec3> before = std::exchange(last_row_, edge_.divided(row));
       if (is_in_material_) {
+        direction_ = direction;
         return step_in_material(mesh, journal, before, direction, times);
       }
       return follow(mesh, journal,
@@ -139,7 +142,11 @@ class Cutter::Pipeline {
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times) {
     return guarded(mesh, journal, [&] {
       Status status;
-      if (!is_in_material_) {
+      if (is_in_material_) {
+        is_last_ = true;
+        status = cut_to(mesh, journal, last_row_, direction_, times);
+        is_last_ = false;
+      } else {
         status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh), surroundings(mesh)), times);
       }
       if (status) status = follow(mesh, journal, motion_.reach_on(surroundings(mesh)), times);
@@ -253,7 +260,7 @@ class Cutter::Pipeline {
                                 const Vec3& direction, StageTimes& times) {
     const StageZone zone(times, Stage::kCollision);
     stroke_cut_.prepare(mesh, journal);
-    material_.locate(mesh, stroke_cut_.surface(), stroke_cut_.complex(), row, direction);
+    material_.locate(mesh, stroke_cut_.surface(), stroke_cut_.complex(), row, direction, is_last_);
     BladeMotion::Proposal proposal = motion_.propose(material_.wanted());
     while (!proposal.surface.triangles.empty() && hold_where_it_closes(mesh, proposal)) {
       proposal = motion_.propose(material_.wanted());
@@ -400,7 +407,8 @@ class Cutter::Pipeline {
   EdgeDivision edge_;
   std::vector<Vec3> last_row_;  // divided
   double spacing_ = 1.0;
-  bool is_in_material_ = false;
+  Vec3 direction_ = Vec3::Zero();  // of the last step in the material
+  bool is_in_material_ = false, is_last_ = false;
   std::function<void()> between_sheets_;
   std::uint32_t tag_ = 1;
   CutStatistics statistics_;  // of the stroke being cut

@@ -21,14 +21,16 @@ constexpr double kPointSpacing = 0.25;
 constexpr double kManyParts = 256, kSurroundings = 1.0;
 /// Segments within the surroundings have at most so many parts.
 constexpr double kMostParts = 4096;
-/// The front follows in steps of so many spacings of material.
-constexpr double kLeastStep = 0.1;
+/// The front follows in steps of so many spacings of material; once the blade goes no further, of so many.
+constexpr double kLeastStep = 0.1, kLeastLastStep = 1e-3;
 /// A blade cuts on where it is ahead of the tip by this share of how far it is beside it.
 constexpr double kCone = 0.5;
 /// A blade that has left the body cuts on to where it is once it is so many spacings ahead.
 constexpr double kExitLead = 0.3;
 /// What the map of a tet says of a place outside it counts within so many spacings of what is expected.
 constexpr double kTrust = 1.0;
+/// A place so many spacings from the wall of a cut lies in it: in the plane of a wall, rounding decides what is inside.
+constexpr double kInCut = 0.02;
 /// Material stretches no more than this between the tip and the blade.
 constexpr double kGreatestStretch = 1.5;
 /// A point that is so many spacings from the tet that it left the body by goes with its neighbours, as before it
@@ -267,6 +269,12 @@ bool MaterialBlade::meets_tissue(const TetMesh& mesh, const Point& point) const 
   return false;
 }
 
+/// Whether the front follows a point of the blade that is so far away in the rest shape.
+bool MaterialBlade::is_due(double step) const {
+  const bool is_long = step >= kLeastStep * spacing_;
+  return is_last_ ? !is_long && step >= kLeastLastStep * spacing_ : is_long;
+}
+
 void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor) {
   point.is_accepted = false;
   if (!point.has_entered && !point.tet.is_valid()) return;  // follows one that has
@@ -279,7 +287,7 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
     const bool is_new = !point.has_entered;
     const double step = (point.candidate - anchor).norm();
     const bool is_likely = step <= kGreatestStretch * way.norm() + kTrust * spacing_;  // else found in another part
-    point.is_accepted = is_new || (is_ahead && is_likely && step >= kLeastStep * spacing_);
+    point.is_accepted = is_new || (is_ahead && is_likely && is_due(step));
     return;
   }
   if (!is_ahead || !(point.lead > kExitLead * spacing_ || meets_tissue(mesh, point))) return;
@@ -293,24 +301,35 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
       was_inside ? push_out(mesh, surface, anchor, point.candidate) : keep_out(mesh, surface, anchor, point.candidate);
 }
 
-/// The blade has left the body, so its rest point must lie outside: else a little further along its way.
+/// Whether a rest point lies at the wall of a cut: what that has opened is air.
+bool MaterialBlade::lies_in_cut(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest) const {
+  Vec3 place;
+  const Side side = nearest_side(mesh, surface, rest, spacing_, place);
+  if (side.value == kInvalidIndex || (place - rest).norm() > kInCut * spacing_) return false;
+  const Link link = mesh.link(side);
+  return link.is_boundary() && link.tag() != 0;
+}
+
+/// The blade has left the body, so its rest point must lie outside, or in a cut: else further along its way.
 bool MaterialBlade::push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest) {
   const Vec3 way = rest - from;
   for (const double reach : {1.0, 1.5, 2.0, 3.0, 5.0}) {
     if ((reach - 1) * way.norm() > kFurther * spacing_) return false;
     const Vec3 place = from + reach * way;
-    if (incise::locate(mesh, surface, {place, next_key_++}).is_valid()) continue;
+    const bool is_inside = incise::locate(mesh, surface, {place, next_key_++}).is_valid();
+    if (is_inside && !lies_in_cut(mesh, surface, place)) continue;
     rest = place;
     return true;
   }
   return false;
 }
 
-/// A point that is outside the body, and was, has its rest point outside: where that would be inside, beside the
-/// surface there. Returns false where a long way leads there through the body: that was not cut.
+/// A point that is outside the body, and was, has its rest point outside, or in a cut: where that would be inside,
+/// beside the surface there. Returns false where a long way leads there through the body: that was not cut.
 bool MaterialBlade::keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest) {
   Vec3 place = rest;
-  if (incise::locate(mesh, surface, {place, next_key_++}).is_valid()) {
+  const bool is_inside = incise::locate(mesh, surface, {place, next_key_++}).is_valid();
+  if (is_inside && !lies_in_cut(mesh, surface, place)) {
     Vec3 near;
     const Side side = nearest_side(mesh, surface, rest, spacing_, near);
     if (side.value == kInvalidIndex) return false;
@@ -361,7 +380,8 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
 }
 
 void MaterialBlade::locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex,
-                           std::span<const Vec3> row, const Vec3& direction) {
+                           std::span<const Vec3> row, const Vec3& direction, bool is_last) {
+  is_last_ = is_last;
   const std::vector<Vec3> places = divided(row, shares_);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];

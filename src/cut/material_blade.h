@@ -36,8 +36,9 @@ class MaterialBlade {
   [[nodiscard]] bool is_graded() const { return is_graded_; }
 
   /// Looks for the blade as it stands now. `direction`: where its edge cuts, unit; zero: where it has cut so far.
+  /// `is_last`: the blade goes no further, and points that waited for it to go on do so no more; others stay.
   void locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex, std::span<const Vec3> row,
-              const Vec3& direction);
+              const Vec3& direction, bool is_last = false);
   /// The row to cut to, as far as it is not held.
   [[nodiscard]] std::vector<Vec3> wanted() const;
   /// Holds a point of the blade in this step.
@@ -72,7 +73,9 @@ class MaterialBlade {
   void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   /// Where the front's rest point stands now. A point that is away from the tet that it left by follows others.
   void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);
+  [[nodiscard]] bool is_due(double step) const;
   void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
+  [[nodiscard]] bool lies_in_cut(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest) const;
   bool push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
   bool keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
   [[nodiscard]] std::size_t leader_of(std::size_t point) const;
@@ -85,7 +88,7 @@ class MaterialBlade {
   std::vector<Point> points_;
   std::vector<Vec3> anchors_;
   std::vector<std::vector<double>> shares_;  // of each segment of the row
-  bool is_graded_ = false;
+  bool is_graded_ = false, is_last_ = false;
   Vec3 course_ = Vec3::Zero();  // of the cut at rest, unit
   double spacing_ = 1.0;
   std::uint64_t next_key_ = std::uint64_t{1} << 48U;
