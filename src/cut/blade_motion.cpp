@@ -22,6 +22,8 @@ constexpr double kCoverShare = 0.02;
 constexpr double kFrontShare = 1.5;
 /// The end of a blade draws back by less than this share of its last segment.
 constexpr double kMostRetreat = 0.5;
+/// Older walls are looked for along the blade at places so many spacings apart, but at so many at most.
+constexpr double kWallShare = 0.5, kMostParts = 1024;
 /// Strips that fold back onto earlier ones within so many spacings meet them.
 constexpr double kMeetingShare = 1e-6;
 
@@ -329,19 +331,51 @@ std::vector<Vec3> BladeMotion::drawn_back(std::span<const Vec3> row, const Surro
     const Vec3 way = row[tip] - row[next];
     const double length = way.norm();
     if (!(length > 0)) continue;
-    const double retreat = around.retreat(row[tip], way / length);
+    const double retreat = around.retreat(row[tip], way / length, length);
     if (retreat < kMostRetreat * length) drawn[tip] -= (retreat / length) * way;
   }
   return drawn;
 }
 
+/// How far a segment of a row is to stay back on its way from another row, before an older wall that it comes to.
+double BladeMotion::retreat_of(std::span<const Vec3> from, std::span<const Vec3> row, std::size_t c,
+                               const Surroundings& around) const {
+  const double parts = std::clamp(std::ceil((row[c + 1] - row[c]).norm() / (kWallShare * spacing_)), 1.0, kMostParts);
+  double retreat = 0;
+  for (double k = 0; k <= parts; ++k) {
+    const double t = k / parts;
+    const Vec3 to = row[c] + t * (row[c + 1] - row[c]);
+    const Vec3 way = to - from[c] - t * (from[c + 1] - from[c]);
+    const double length = way.norm();
+    if (length > 0) retreat = std::max(retreat, around.retreat(to, way / length, length));
+  }
+  return retreat;
+}
+
+/// Points of a row that comes from another one to an older wall, or through it by very little, stay before it: what
+/// reaches on from there goes through, and leaves the lip behind alone. If the blade goes on, so do they.
+void BladeMotion::stay_before_walls(std::span<const Vec3> from, std::vector<Vec3>& row,
+                                    const Surroundings& around) const {
+  std::vector<double> retreats(row.size(), 0.0);
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    const double retreat = retreat_of(from, row, c, around);
+    for (const std::size_t point : {c, c + 1}) retreats[point] = std::max(retreats[point], retreat);
+  }
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const Vec3 way = row[c] - from[c];
+    if (retreats[c] > 0 && way.norm() > 0) row[c] -= std::min(retreats[c] / way.norm(), 1.0) * way;
+  }
+}
+
 BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnSheet& sheet, const Touches& touches,
                                        const Surroundings& around, bool flushes) {
-  const std::vector<Vec3> row = drawn_back(given, around);
+  std::vector<Vec3> row = drawn_back(given, around);
   if (is_first_strip_ && around.has_older_cuts) {
-    const std::vector<Vec3> start = drawn_back(front(), around);
+    std::vector<Vec3> start = drawn_back(front(), around);
+    stay_before_walls(row, start, around);  // a blade that starts at a wall, or a little behind it, spares that lip
     for (std::size_t c = 0; c < start.size(); ++c) first_[c].position = front_[c].position = start[c];
   }
+  if (around.has_older_cuts) stay_before_walls(front(), row, around);
   const double least2 = flushes ? 0.0 : kLeastStep * spacing_ * kLeastStep * spacing_;
   std::vector<Vec3> wanted(row.begin(), row.end());
   std::size_t in_slit = 0;

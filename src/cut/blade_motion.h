@@ -71,6 +71,9 @@ class BladeMotion {
   [[nodiscard]] std::vector<std::array<std::uint64_t, 2>> inner_segments(const Row& to) const;
   Move leave_slit(std::span<const Vec3> before, std::span<const Vec3> row, const Touches& touches,
                   const Surroundings& around);
+  [[nodiscard]] double retreat_of(std::span<const Vec3> from, std::span<const Vec3> row, std::size_t c,
+                                  const Surroundings& around) const;
+  void stay_before_walls(std::span<const Vec3> from, std::vector<Vec3>& row, const Surroundings& around) const;
   [[nodiscard]] std::vector<Vec3> drawn_back(std::span<const Vec3> row, const Surroundings& around) const;
   void note_swept(const Row& to);
   Move move_to(const Row& to, const Surroundings& around);

@@ -14,9 +14,10 @@ struct Surroundings {
   /// How far a border at a place is to reach on into an older cut, in length units: along `outwards`, a unit vector
   /// that leads out of a sheet with this normal (of any length); 0 where there is none.
   std::function<double(const Vec3& place, const Vec3& outwards, const Vec3& normal)> reach;
-  /// How far the end of a blade at a place is to draw back, against `outwards`: to just before an older wall that it
-  /// passes by so little that a notch in the other lip would be all that comes of it; 0 where it need not.
-  std::function<double(const Vec3& place, const Vec3& outwards)> retreat;
+  /// How far a blade at a place is to draw back, against `outwards`: to just before an older wall that it comes to, or
+  /// passes by so little that a notch in the other lip would be all that comes of it; 0 where it need not. Walls are
+  /// asked for within the last `length` of its way.
+  std::function<double(const Vec3& place, const Vec3& outwards, double length)> retreat;
   std::function<bool(const Vec3& place)> is_outside;  ///< of the body
 };
 

@@ -31,10 +31,14 @@ constexpr double kWeld = 0.08;
 /// It reaches on so many spacings along that cut: further than fronts lie off their blades; or through its wall, where
 /// it meets that at an angle.
 constexpr double kReachOn = 0.3, kReachThrough = 0.12;
+/// A wall that it comes to at an angle may be so many spacings away: tissue that thin is of no use beside a cut.
+constexpr double kWeldThrough = 0.11;
 /// What a blade sweeps while it turns is made of triangles that lie within so many spacings of it.
 constexpr double kTwist = 0.1;
 /// The end of a blade that passes an older wall by less than that stays so many spacings before it.
 constexpr double kBefore = 0.02;
+/// It draws back from walls that it meets at an angle of this sine at least: those along its way are crooked.
+constexpr double kSteep = 0.4;
 /// All of this way lies in the older cut or outside the body: asked at these shares of it, the furthest first.
 constexpr std::array kReachSamples = {1.0, 0.5, 0.1, 0.25, 0.75};
 /// What lies at most so many spacings beyond the rim of an older cut lies in it: rounding, no more.
@@ -304,11 +308,12 @@ class Cutter::Pipeline {
           std::all_of(kReachSamples.begin(), kReachSamples.end(), is_open)) {
         return along;
       }
-      return older.meet(place - kInside * spacing_ * outwards, place + kWeld * spacing_ * outwards) ? across : 0.0;
+      return older.meet(place - kInside * spacing_ * outwards, place + kWeldThrough * spacing_ * outwards) ? across : 0.0;
     };
-    found.retreat = [this, older](const Vec3& place, const Vec3& outwards) {
-      const double weld = kWeld * spacing_, met = older.first_met(place - weld * outwards, place);
-      return met <= 1.0 ? (1.0 - met) * weld + kBefore * spacing_ : 0.0;
+    found.retreat = [this, older](const Vec3& place, const Vec3& outwards, double length) {
+      const double behind = std::min(kWeld * spacing_, length), before = kBefore * spacing_;
+      const double met = older.first_met(place - behind * outwards, place + before * outwards, kSteep);
+      return met <= 1.0 ? (1.0 - met) * (behind + before) : 0.0;
     };
     return found;
   }

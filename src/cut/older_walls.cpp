@@ -13,8 +13,6 @@ namespace {
 
 /// A wall whose normal has this cosine with the sheet's runs along it. Fronts are crooked: 0.9 misses their facets.
 constexpr double kAlongOlder = 0.5;
-/// A segment meets a wall at an angle of which this is the sine at least: in its plane, rounding would decide.
-constexpr double kAcross = 0.1;
 
 }  // namespace
 
@@ -59,7 +57,7 @@ bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, doub
   return does_pass;
 }
 
-double OlderWalls::first_met(const Vec3& from, const Vec3& to) const {
+double OlderWalls::first_met(const Vec3& from, const Vec3& to, double least_sine) const {
   double first = 2.0;
   if (!exist()) return first;
   surface_.for_each_near(mesh_, {from.cwiseMin(to), from.cwiseMax(to)}, [&](Side side) {
@@ -68,7 +66,7 @@ double OlderWalls::first_met(const Vec3& from, const Vec3& to) const {
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
     const double before = area.dot(from - a), after = area.dot(to - a);
-    if ((before > 0) == (after > 0) || !(std::abs(after - before) > kAcross * area.norm() * (to - from).norm())) return;
+    if ((before > 0) == (after > 0) || !(std::abs(after - before) > least_sine * area.norm() * (to - from).norm())) return;
     const double share = before / (before - after);
     const Vec3 x = from + share * (to - from);
     const bool is_in = area.dot((b - a).cross(x - a)) >= 0 && area.dot((c - b).cross(x - b)) >= 0 &&

@@ -29,10 +29,14 @@ class OlderWalls {
   [[nodiscard]] bool pass(const Vec3& place, const Vec3& normal, double beside, double beyond) const;
   /// Whether a segment at rest meets a wall, at 6 degrees or more. Cost: the cells of the surface index around it.
   [[nodiscard]] bool meet(const Vec3& from, const Vec3& to) const { return first_met(from, to) <= 1.0; }
-  /// Where it meets the first one: the share of the way; above 1 where it meets none. Cost: the same.
-  [[nodiscard]] double first_met(const Vec3& from, const Vec3& to) const;
+  /// Where it meets the first one, at an angle of `least_sine` or more: the share of the way; above 1 where it meets
+  /// none. Cost: the same.
+  [[nodiscard]] double first_met(const Vec3& from, const Vec3& to, double least_sine = kAcross) const;
 
  private:
+  /// A segment meets a wall at an angle of which this is the sine at least: in its plane, rounding would decide.
+  static constexpr double kAcross = 0.1;
+
   const TetMesh& mesh_;
   const SurfaceIndex& surface_;
   const ClosedComplex& complex_;

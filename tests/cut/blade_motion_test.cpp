@@ -32,12 +32,12 @@ class Motion {
       return reach(place, outwards);
     };
     around_.is_outside = [](const Vec3&) { return false; };
-    around_.retreat = [](const Vec3&, const Vec3&) { return 0.0; };
+    around_.retreat = [](const Vec3&, const Vec3&, double) { return 0.0; };
   }
   /// From now on there is an older wall at a plane y = `wall`, just before the blade's end.
   void pass_a_wall(double wall) {
     meet_older_cuts([](const Vec3&, const Vec3&) { return 0.0; });
-    around_.retreat = [wall](const Vec3& place, const Vec3& outwards) {
+    around_.retreat = [wall](const Vec3& place, const Vec3& outwards, double) {
       return outwards.y() > 0.9 && place.y() > wall && place.y() < wall + 0.1 ? place.y() - wall : 0.0;
     };
   }
