@@ -39,8 +39,8 @@ class BorderReach {
       : around_(around), spacing_(spacing), next_key_(next_key) {}
 
   /// From a straight border between two places, as far as it lies at an older cut; up to the skin beside it. Triangles
-  /// without area close the seam to the border as one segment. Pieces of consecutive segments share their edge. Empty where no place lies at an older cut. Cost:
-  /// O(places asked for): one on each fifth of an edge.
+  /// without area close the seam to the border as one segment. Pieces of consecutive segments share their edge. Empty
+  /// where no place lies at an older cut. Cost: O(places asked for): one on each fifth of an edge.
   [[nodiscard]] SweptSurface from_row(const BorderPlace& from, const BorderPlace& to, std::uint32_t column);
 
  private:

@@ -308,7 +308,8 @@ class Cutter::Pipeline {
           std::all_of(kReachSamples.begin(), kReachSamples.end(), is_open)) {
         return along;
       }
-      return older.meet(place - kInside * spacing_ * outwards, place + kWeldThrough * spacing_ * outwards) ? across : 0.0;
+      return older.meet(place - kInside * spacing_ * outwards, place + kWeldThrough * spacing_ * outwards) ? across
+                                                                                                           : 0.0;
     };
     found.retreat = [this, older](const Vec3& place, const Vec3& outwards, double length) {
       const double behind = std::min(kWeld * spacing_, length), before = kBefore * spacing_;
