@@ -28,11 +28,7 @@ bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
 
 bool exists_elsewhere(Care& care, std::span<const VertexId> vertices, const std::vector<TetId>& cavity) {
   const TetMesh& mesh = care.mesh;
-  const auto is_shared = [&](VertexId v) { return mesh.shape_of(v) != 0; };
   const auto is_pinched = [&](VertexId v) { return (mesh.shape_of(v) & shape::kPinched) != 0; };
-  if (!std::all_of(vertices.begin(), vertices.end(), is_shared)) {
-    return false;
-  }
   if (std::any_of(vertices.begin(), vertices.end(), is_pinched)) {
     return true;
   }

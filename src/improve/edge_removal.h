@@ -48,8 +48,9 @@ class FaceRemover {
   RemeshPlan plan_;
 };
 
-/// Whether an edge or face, given by its vertices, may exist in tets other than those of a cavity. Only on a boundary
-/// can it: a vertex may belong to both lips of a cut, or of several, and a pinched one to tets that no walk finds.
+/// Whether an edge or face, given by its vertices, may exist in tets other than those of a cavity: a vertex may belong
+/// to both lips of a cut, or of several; input that overlaps itself may have it inside; a pinched vertex belongs to
+/// tets that no walk finds. Cost: O(star).
 [[nodiscard]] bool exists_elsewhere(Care& care, std::span<const VertexId> vertices, const std::vector<TetId>& cavity);
 
 /// Whether tets that stand upright now give way to such: true at rest.

@@ -3,6 +3,7 @@
 #include "incise/improve/maintainer.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "improve/insertion.h"
 #include "improve/peeling.h"
 #include "improve/smooth.h"
+#include "improve/split_trial.h"
 
 namespace incise::inline v0 {
 
@@ -22,6 +24,14 @@ namespace {
 constexpr double kGoal = kRegularLr / 11.0;
 /// Tets with an L/r above this come first of all; of those beside the cut no others are worked on.
 constexpr double kBad = kRegularLr / 18.0;
+/// Tets with an L/r above this that no single operation mends are split for trial.
+constexpr double kTried = kRegularLr / 22.0;
+/// A tet with a vertex that so many trials in turn led to is left as it is: nothing may be refined for ever.
+constexpr unsigned kMostSplits = 4;
+/// Trials may take this share of the work that all else took, and so many units besides, 5 ms: where a body was bad
+/// before it was cut, few of them help.
+constexpr double kTrialShare = 0.5;
+constexpr std::uint64_t kTrialWork = 50'000;
 /// Vertices that cuts made are tried so often: a merge makes room for others.
 constexpr unsigned kThinningRounds = 3;
 /// Where a cut goes on from an older one, thinning out may cost shape down to this L/r: there all is in good shape
@@ -42,11 +52,15 @@ struct Waiting {
   bool operator<(const Waiting& o) const { return ratio != o.ratio ? ratio > o.ratio : o.tet.value < tet.value; }
 };
 
-/// A bad tet that nothing could mend, at a time in changes.
+/// A bad tet that no operation by itself could mend, at a time in changes.
 struct Hopeless {
   TetId tet;
   double ratio;
   std::uint64_t time;
+  unsigned trials = 0;  ///< of splits at its edges, so far
+
+  [[nodiscard]] bool is_worse_than(const Hopeless& o) const { return ratio != o.ratio ? ratio < o.ratio : tet < o.tet; }
+  [[nodiscard]] bool waits_for_trial() const { return ratio < kTried && trials < kEdgeCorners.size(); }
 };
 
 /// A vertex, by slot and generation: slots are used again.
@@ -131,6 +145,7 @@ class Maintainer::Queue {
     if (!has_work()) {
       ++epoch_;
       hopeless_.clear();  // none of them is in care any more
+      trial_work_ = other_work_ = 0;
     }
     for (std::size_t i = first_step; i < journal.position(); ++i) {
       const Step& step = journal.step(i);
@@ -172,18 +187,21 @@ class Maintainer::Queue {
     work_units_ = work_units;
     should_stop_ = &should_stop;
     const std::size_t tets_before = mesh.tet_count();
-    if (is_due()) references_.skin().follow(mesh, journal);
-    while (is_due() && has_budget()) {
-      run_step(mesh, journal, times);
-      references_.skin().skip(journal);
-      if (!is_due()) take_hopeless(mesh);
+    if (is_due() || waits_for_trials()) references_.skin().follow(mesh, journal);
+    while (has_budget()) {
+      if (is_due()) {
+        run_step(mesh, journal, times);
+        if (!is_due()) take_hopeless(mesh);
+      } else if (is_locked || !try_next_split(mesh, journal, times)) {
+        break;
+      }
     }
-    statistics_.waiting_tets = heap_.size();
+    statistics_.waiting_tets = heap_.size() + (waits_for_trials() ? 1 : 0);
     statistics_.created_tets = static_cast<std::int64_t>(mesh.tet_count()) - static_cast<std::int64_t>(tets_before);
     return statistics_;
   }
   [[nodiscard]] bool has_work() const {
-    return is_due() || !touched_.empty() || !held_.empty() || crowd_.has_waiting();
+    return is_due() || waits_for_trials() || !touched_.empty() || !held_.empty() || crowd_.has_waiting();
   }
   void forget(std::size_t position) {
     references_.skin().rewind(position);
@@ -201,6 +219,9 @@ class Maintainer::Queue {
   }
 
  private:
+  [[nodiscard]] bool waits_for_trials() const {
+    return std::any_of(hopeless_.begin(), hopeless_.end(), std::mem_fn(&Hopeless::waits_for_trial));
+  }
   /// Whether there is something to be done now.
   [[nodiscard]] bool is_due() const { return !heap_.empty() || !crowd_.is_empty(); }
   /// A bad tet that nothing could mend is tried again once something has changed at one of its vertices.
@@ -363,6 +384,7 @@ class Maintainer::Queue {
 
   /// One journal step: bad tets first, then what the cut made needlessly dense, then the tets that could be better.
   void run_step(TetMesh& mesh, Journal& journal, StageTimes& times) {
+    const std::uint64_t spent = statistics_.work_units;
     Transaction transaction(mesh, true);
     Care care{transaction, mesh, references_, walker_, statistics_, false, {}, changed_, is_locked_};
     for (std::uint64_t changes = 0; is_due() && has_budget() && changes < kChangesPerStep;) {
@@ -375,7 +397,9 @@ class Maintainer::Queue {
     }
     if (Step step = transaction.commit(); !step.is_empty()) {
       journal.append(std::move(step));
+      references_.skin().skip(journal);
     }
+    other_work_ += statistics_.work_units - spent;
   }
   bool improve_worst(Care& care, StageTimes& times) {
     const Waiting worst = pop();
@@ -409,6 +433,65 @@ class Maintainer::Queue {
     crowd_.advance();
     return is_there && collapser_.thin_out(care, current.vertex, is_at_seam_ ? kEnough : 1.0);
   }
+  /// The worst of the tets that wait for a trial; none where there is none.
+  Hopeless* find_trial(const TetMesh& mesh) {
+    Hopeless* next = nullptr;
+    for (Hopeless& entry : hopeless_) {
+      if (!entry.waits_for_trial() || (next != nullptr && !entry.is_worse_than(*next))) continue;
+      const bool is_there = mesh.is_live(entry.tet) && inradius_ratio(mesh, mesh.vertices(entry.tet)) == entry.ratio;
+      if (is_there && is_of_cut(mesh, entry.tet) && splits_at(mesh, entry.tet) < kMostSplits) next = &entry;
+    }
+    return next;
+  }
+  /// Whether cuts made a tet: it has a vertex that the input did not have.
+  static bool is_of_cut(const TetMesh& mesh, TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
+    return std::any_of(v.begin(), v.end(), [&](VertexId id) { return !mesh.origin(id).is_valid(); });
+  }
+  /// How many trials in turn led to a tet.
+  [[nodiscard]] unsigned splits_at(const TetMesh& mesh, TetId tet) const {
+    unsigned splits = 0;
+    for (const VertexId v : mesh.vertices(tet)) {
+      const bool is_known = v.value < splits_.capacity() && splits_[v.value] / 8 == epoch_;
+      splits = std::max(splits, is_known ? splits_[v.value] % 8 : 0);
+    }
+    return splits;
+  }
+  /// The worst of the tets that nothing mends is split at its next edge for trial. Returns false when none is left.
+  bool try_next_split(TetMesh& mesh, Journal& journal, StageTimes& times) {
+    const StageZone zone(times, Stage::kImprove);
+    const double most = kTrialShare * static_cast<double>(other_work_) + static_cast<double>(kTrialWork);
+    const bool may_try = options_.improve && static_cast<double>(trial_work_) < most;
+    Hopeless* const next = may_try ? find_trial(mesh) : nullptr;
+    if (next == nullptr) {
+      for (Hopeless& entry : hopeless_) entry.trials = kEdgeCorners.size();  // gone, or not to be improved
+      return false;
+    }
+    Transaction transaction(mesh, true);
+    Care care{transaction, mesh, references_, walker_, statistics_, true, {}, changed_, is_locked_};
+    const MaintainStatistics before = statistics_;
+    const unsigned splits = splits_at(mesh, next->tet) + 1;
+    if (trial_.improve(care, next->tet, next->trials++)) {
+      for (const VertexId born : trial_.born()) {
+        take_born(born);
+        splits_.ensure(std::size_t{born.value} + 1);
+        splits_[born.value] = epoch_ * 8 + splits;
+      }
+      requeue(care);
+      journal.append(transaction.commit());
+      references_.skin().skip(journal);
+      return true;
+    }
+    trial_work_ += statistics_.work_units - before.work_units;
+    const std::uint64_t spent = statistics_.work_units;
+    statistics_ = before;  // the transaction is rolled back
+    statistics_.work_units = spent;
+    return true;
+  }
+  void take_born(VertexId vertex) {
+    in_care_.ensure(std::size_t{vertex.value} + 1);
+    in_care_[vertex.value] = epoch_ * 4 + 2;
+  }
   /// The first remedy that helps; collapses first, since they leave fewer tets behind.
   bool improve(Care& care, TetId tet, StageTimes& times) {
     return collapse(care, tet, times) || reshape(care, tet, times) || merge_close(care, tet, times);
@@ -434,8 +517,7 @@ class Maintainer::Queue {
   /// What the last operation changed is judged anew, as far as it is in care.
   void requeue(Care& care) {
     if (care.born.is_valid()) {
-      in_care_.ensure(std::size_t{care.born.value} + 1);
-      in_care_[care.born.value] = epoch_ * 4 + 2;
+      take_born(care.born);
       care.born = {};
     }
     ++time_;
@@ -453,8 +535,9 @@ class Maintainer::Queue {
   std::vector<Waiting> heap_;
   std::vector<TetId> changed_;
   std::vector<Hopeless> hopeless_;
-  std::uint64_t time_ = 0;                 // changes so far
-  ZeroedArray<std::uint64_t> changed_at_;  // the time of the last change at a vertex, by its slot
+  std::uint64_t trial_work_ = 0, other_work_ = 0;  // units spent since all was done last
+  std::uint64_t time_ = 0;                         // changes so far
+  ZeroedArray<std::uint64_t> changed_at_;          // the time of the last change at a vertex, by its slot
   Crowd crowd_;
   std::vector<VertexId> touched_;   // by steps of the journal; not taken into care yet, since tets there are locked
   std::vector<OpenedFace> opened_;  // likewise
@@ -466,6 +549,7 @@ class Maintainer::Queue {
   std::uint64_t work_units_ = 0;  // of the run in progress
   const ShouldStop* should_stop_ = nullptr;
   ZeroedArray<std::uint32_t> in_care_;   // per vertex slot: 4 · the epoch that took it up + nearness
+  ZeroedArray<std::uint32_t> splits_;    // likewise: 8 · epoch + the trials in turn that led to it
   ZeroedArray<std::uint8_t> is_pushed_;  // scratch of `push_stars`, zero between calls
   std::uint32_t epoch_ = 1;
   StarWalker walker_;
@@ -475,6 +559,7 @@ class Maintainer::Queue {
   Smoother smoother_;
   Peeler peeler_;
   VertexInserter inserter_;
+  SplitTrial trial_;
   CloseMerger merger_;
 };
 

@@ -198,6 +198,11 @@ class TetMesh {
   /// Bytes held by the arrays, as used (not as reserved).
   [[nodiscard]] std::size_t memory_bytes() const;
 
+  /// Whether the lips of a cut meet at the edge between the corners `corner` and (`corner` + 1) mod 3 of a wall's
+  /// `vertices(wall)`: the next boundary face around the edge is a wall that lies on this one, and the body is all
+  /// around. Cost: O(tets around the edge).
+  [[nodiscard]] bool is_front_edge(Side wall, unsigned corner) const;
+
  private:
   friend class Transaction;
   friend class Journal;
@@ -208,7 +213,6 @@ class TetMesh {
   void link_faces();
   void tag_walls(const std::vector<SoupWall>& walls);
   void mark_shapes();
-  [[nodiscard]] bool is_front_edge(Side wall, unsigned corner) const;
   void mark_fronts(const TetSoup& soup);
   void find_loose_edges();
   [[nodiscard]] bool is_folded(Side side) const;
