@@ -256,8 +256,8 @@ class ClosedComplex {
   void rename_point(FrontPoint& point, VertexId from, VertexId to);
   void retire_rank(VertexId vertex);
   void flood_star(const TetMesh& mesh, VertexId vertex, std::size_t from);
-  /// Whether a master had a vertex as a split point or a front point when `hold_vertices` was called last, or a tet that
-  /// was let go has both.
+  /// Whether a master had a vertex as a split point or a front point when `hold_vertices` was called last, or a tet
+  /// that was let go has both.
   [[nodiscard]] bool is_made(VertexId vertex) const {
     return vertex.value < made_.capacity() && made_[vertex.value] == hold_;
   }

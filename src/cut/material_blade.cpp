@@ -38,8 +38,9 @@ constexpr double kGreatestStretch = 1.5;
 constexpr double kAway = 1.0;
 /// A point that has left the body goes on by at most so many spacings to be outside of it at rest, too.
 constexpr double kFurther = 1.5;
-/// Points outside stay so many spacings off the surface at least, and are drawn by so many towards where it has them.
-constexpr double kBeside = 0.02, kDraw = 0.1;
+/// Points outside stay so many spacings off the surface at least. Those that are off by so many from where it has them
+/// are drawn there, by so many a step: less would only make the strip uneven.
+constexpr double kBeside = 0.02, kOff = 0.3, kDraw = 0.1;
 /// A walk from tet to tet gives up after so many.
 constexpr unsigned kMostTets = 256;
 /// Rings of cells that are looked through for the nearest surface, and rounds of drawing nearer.
@@ -217,11 +218,13 @@ void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point
   if (point.hint.is_valid() && mesh.is_live(point.hint)) accept(walk_to(mesh, point.hint, point.world));
   if (point.tet.is_valid()) return;
   Vec3 rest = anchor;
+  point.is_mapped = false;
   for (unsigned round = 0; round < kMostRounds; ++round) {
     if (point.hint.is_valid() && mesh.is_live(point.hint)) {
       bool is_possible = false;
       const Vec3 mapped = to_rest(mesh, point.hint, point.world, is_possible);
       if (is_possible) rest = mapped;
+      point.is_mapped = is_possible;
     }
     const TetId inside = incise::locate(mesh, surface, {rest, next_key_++});
     if (inside.is_valid() && accept(walk_to(mesh, inside, point.world))) return;
@@ -296,7 +299,8 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
     const Vec3 straight = anchor + point.lead * course_;
     if ((point.candidate - straight).norm() > kTrust * spacing_) point.candidate = straight;
   }
-  const bool was_inside = incise::locate(mesh, surface, {anchor, next_key_++}).is_valid();
+  const bool was_inside =
+      incise::locate(mesh, surface, {anchor, next_key_++}).is_valid() || lies_in_cut(mesh, surface, anchor);
   point.is_accepted =
       was_inside ? push_out(mesh, surface, anchor, point.candidate) : keep_out(mesh, surface, anchor, point.candidate);
 }
@@ -372,7 +376,9 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
       const TetId tet = points_[leader].tet;
       const Vec3 mapped = tet.is_valid() ? to_rest(mesh, tet, point.world, is_possible) : with;
       if (is_possible && (mapped - with).norm() <= kTrust * spacing_) with = mapped;
-      rest = with + shortened(point.candidate - with, kDraw * spacing_);
+      const Vec3 off = point.candidate - with;
+      const bool is_off = point.is_mapped && off.norm() > kOff * spacing_;
+      rest = is_off ? Vec3(with + shortened(off, kDraw * spacing_)) : with;
     }
     point.is_accepted = keep_out(mesh, surface, anchors_[i], rest);
     if (point.is_accepted) point.candidate = rest;

@@ -65,6 +65,7 @@ class MaterialBlade {
     TetId tet;                             ///< that holds it, if it is in tissue
     TetId hint;                            ///< a live tet near it
     std::uint32_t master = Master::kNone;  ///< that holds the anchor, if it is in tissue
+    bool is_mapped = false;                ///< outside, `candidate` is what the map of a tet says
     bool has_entered = false;
     bool is_accepted = false;
   };

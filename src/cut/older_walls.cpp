@@ -66,7 +66,8 @@ double OlderWalls::first_met(const Vec3& from, const Vec3& to, double least_sine
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
     const double before = area.dot(from - a), after = area.dot(to - a);
-    if ((before > 0) == (after > 0) || !(std::abs(after - before) > least_sine * area.norm() * (to - from).norm())) return;
+    if ((before > 0) == (after > 0) || !(std::abs(after - before) > least_sine * area.norm() * (to - from).norm()))
+      return;
     const double share = before / (before - after);
     const Vec3 x = from + share * (to - from);
     const bool is_in = area.dot((b - a).cross(x - a)) >= 0 && area.dot((c - b).cross(x - b)) >= 0 &&

@@ -72,7 +72,7 @@ struct Short {
   double lr, growth;   ///< at most
 };
 
-constexpr std::array<Short, 25> kShort = {{
+constexpr std::array<Short, 26> kShort = {{
     {Body::kKuhn, Stance::kRest, "gap oblique 0.1", 1, 34, 1.3},
     {Body::kKuhn, Stance::kRest, "ends on the skin", 2, 71, 1.3},
     {Body::kKuhn, Stance::kRest, "ends just below the skin", 2, 53, 1.3},
@@ -90,13 +90,14 @@ constexpr std::array<Short, 25> kShort = {{
     {Body::kKuhn, Stance::kStretched, "ring 2", 1, 29, 1.3},
     {Body::kKuhn, Stance::kStretched, "ring 5", 1, 117, 1.3},
     {Body::kKuhn, Stance::kStretched, "parallel 0.25", 2, 31, 1.3},
-    {Body::kKuhn, Stance::kSwaying, "abutting oblique 14", 1, 61, 1.4},
-    {Body::kKuhn, Stance::kSwaying, "abutting oblique 28", 1, 29, 1.3},
+    {Body::kKuhn, Stance::kSwaying, "abutting oblique 14", 1, 117, 1.4},
+    {Body::kKuhn, Stance::kSwaying, "abutting oblique 28", 1, 29, 1.4},
     {Body::kKuhn, Stance::kSwaying, "abutting straight 3", 1, 32, 1.3},
     {Body::kKuhn, Stance::kSwaying, "abutting straight 28", 1, 39, 1.7},
     {Body::kKuhn, Stance::kSwaying, "ends on mesh planes", 1, 66, 1.3},
     {Body::kKuhn, Stance::kSwaying, "ends just below the skin", 1, 129, 1.3},
-    {Body::kKuhn, Stance::kSwaying, "ring 2", 1, 25, 1.3},
+    {Body::kKuhn, Stance::kSwaying, "ring 2", 1, 56, 1.3},
+    {Body::kKuhn, Stance::kSwaying, "ring 5", 1, 56, 1.3},
     {Body::kKuhn, Stance::kSwaying, "parallel 0.25", 2, 31, 1.3},
 }};
 
