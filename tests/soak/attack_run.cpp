@@ -18,7 +18,7 @@ EngineOptions engine_options(const AttackOptions& options) {
   engine.cut.profile = options.is_paper ? Profile::kPaper : Profile::kIncise;
   engine.cut.snap = options.snap;
   engine.maintain.merge = engine.maintain.improve = options.maintains;
-  engine.maintain.work_units = 0;  // after each stroke, in a call of its own
+  if (options.is_paper || !options.maintains) engine.maintain.work_units = 0;
   return engine;
 }
 
