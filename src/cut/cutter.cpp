@@ -130,6 +130,7 @@ class Cutter::Pipeline {
     is_in_material_ = has_moved;
     is_last_ = false;
     is_at_front_ = AtFront::kUnknown;
+    has_ended_ = false;
     direction_ = Vec3::Zero();
     if (!has_moved) {
       motion_.begin(row, spacing_);
@@ -163,8 +164,9 @@ class Cutter::Pipeline {
     return guarded(mesh, journal, [&] {
       Status status;
       if (is_in_material_) {
+        if (motion_.is_at_start()) status = cut_to(mesh, journal, last_row_, direction_, times, true);
         is_last_ = true;
-        status = cut_to(mesh, journal, last_row_, direction_, times);
+        if (status && !has_ended_) status = cut_to(mesh, journal, last_row_, direction_, times, true);
         is_last_ = false;
       } else if (goes_on_shortly(mesh, last_row_)) {
         status = end_shortly(mesh, journal, last_row_, times);
@@ -268,10 +270,19 @@ class Cutter::Pipeline {
     material_.begin(mesh, stroke_cut_.surface(), row, spacing_, stroke_cut_.complex());
     motion_.begin(material_.anchors(), spacing_);
   }
-  Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction,
-                StageTimes& times) {
+  /// `ends`: a stroke that is short ends there.
+  Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction, StageTimes& times,
+                bool ends = false) {
     BladeMotion::Proposal proposal = propose(mesh, journal, row, direction, times);
     if (proposal.surface.triangles.empty()) return {};
+    std::vector<Vec3> to;
+    for (const SosPoint& p : proposal.row) to.push_back(p.position);
+    if (goes_on_shortly(mesh, to)) {
+      has_ended_ = ends;
+      if (ends) return end_shortly(mesh, journal, to, times);
+      carry_along(mesh, journal, to);
+      return {};
+    }
     BladeMotion::Move move;
     move.strip = motion_.accept(proposal, surroundings(mesh));
     material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
@@ -352,16 +363,20 @@ class Cutter::Pipeline {
   [[nodiscard]] bool lies_at_front(const TetMesh& mesh, std::span<const Vec3> start, std::span<const Vec3> row) const {
     const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
     if (!older.exist()) return false;
+    const auto is_inside = [&](const Vec3& place) {
+      return locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid();
+    };
     bool is_at_front = false;
     for (std::size_t c = 0; c + 1 < row.size(); ++c) {
       const Vec3 along = start[c + 1] - start[c];
+      const Vec3 beside = kStartShare * spacing_ * along.normalized();  // the skin is near: fronts end off it
       const double parts = std::clamp(std::ceil(along.norm() / (kStartShare * spacing_)), 1.0, kMostStarts);
       for (double k = 0; k <= parts; ++k) {
         const Vec3 place = start[c] + (k / parts) * along;
         const Vec3 normal = (row[c] + (k / parts) * (row[c + 1] - row[c]) - place).cross(along);
         const bool is_at = normal.squaredNorm() > 0 &&
                            older.pass(place, normal, kBesideWall * spacing_, kAtFront * spacing_);
-        if (!is_at && locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid()) return false;
+        if (!is_at && is_inside(place) && is_inside(place - beside) && is_inside(place + beside)) return false;
         is_at_front |= is_at;
       }
     }
@@ -510,6 +525,7 @@ class Cutter::Pipeline {
   Vec3 direction_ = Vec3::Zero();  // of the last step in the material
   bool is_in_material_ = false, is_last_ = false;
   enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
+  bool has_ended_ = false;                   // a short stroke in the material
   AtFront is_at_front_ = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
   std::function<void()> between_sheets_;
   std::uint32_t tag_ = 1;
