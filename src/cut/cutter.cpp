@@ -374,8 +374,8 @@ class Cutter::Pipeline {
       for (double k = 0; k <= parts; ++k) {
         const Vec3 place = start[c] + (k / parts) * along;
         const Vec3 normal = (row[c] + (k / parts) * (row[c + 1] - row[c]) - place).cross(along);
-        const bool is_at = normal.squaredNorm() > 0 &&
-                           older.pass(place, normal, kBesideWall * spacing_, kAtFront * spacing_);
+        const bool is_at =
+            normal.squaredNorm() > 0 && older.pass(place, normal, kBesideWall * spacing_, kAtFront * spacing_);
         if (!is_at && is_inside(place) && is_inside(place - beside) && is_inside(place + beside)) return false;
         is_at_front |= is_at;
       }

@@ -112,7 +112,8 @@ class FrontCarrier {
   }
   /// The way of a vertex of the front to the blade, in the skin where it is part of that, and such that the star keeps
   /// its volume: the walls of an older cut need not lie on each other any more. None where that would lead elsewhere.
-  [[nodiscard]] std::optional<Vec3> way_of(VertexId vertex, const BladePlace& place, std::span<const TetId> star) const {
+  [[nodiscard]] std::optional<Vec3> way_of(VertexId vertex, const BladePlace& place,
+                                           std::span<const TetId> star) const {
     const Vec3 x = mesh_.rest(vertex);
     Vec3 way = place.on - x, growth = Vec3::Zero();
     for (const TetId tet : star) growth -= area_of(Side(tet, mesh_.corner_of(tet, vertex)));
@@ -203,7 +204,7 @@ class FrontCarrier {
 }  // namespace
 
 double carry_front(Transaction& transaction, const SurfaceIndex& surface, std::span<const Vec3> from,
-                         std::span<const Vec3> to, double spacing) {
+                   std::span<const Vec3> to, double spacing) {
   return FrontCarrier(transaction, surface, from, to, spacing).run();
 }
 

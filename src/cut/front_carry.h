@@ -16,6 +16,6 @@ namespace incise::inline v0 {
 /// edge. No tet around a vertex that moves gets worse than L/r 14, or than it was, and skin keeps its shape: vertices
 /// that cannot go all the way go half of it, or stay. Cost: O(boundary sides that the blade passes · rounds).
 double carry_front(Transaction& transaction, const SurfaceIndex& surface, std::span<const Vec3> from,
-                         std::span<const Vec3> to, double spacing);
+                   std::span<const Vec3> to, double spacing);
 
 }  // namespace incise::inline v0

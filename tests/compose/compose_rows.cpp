@@ -171,7 +171,7 @@ class Table {
       add(named("abutting cylinder", count), arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, count),
           arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, 1));
     }
-    add("short steps cylinder 0.1", arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, 109),
+    add("abutting cylinder 109", arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, 109),
         arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, 1));
     for (const unsigned count : {1U, 2U, 5U}) {
       add(named("ring", count), arcs_of(middle, 0.31, 0, 2 * kPi, count), arcs_of(middle, 0.31, 0, 2 * kPi, 1));
