@@ -153,7 +153,7 @@ class Cutter::Pipeline {
         return step_in_material(mesh, journal, before, direction, times);
       }
       if (goes_on_shortly(mesh, last_row_)) {
-        carry_along(mesh, journal, last_row_);
+        static_cast<void>(carry_along(mesh, journal, last_row_));
         return {};
       }
       return follow(mesh, journal,
@@ -280,7 +280,7 @@ class Cutter::Pipeline {
     if (goes_on_shortly(mesh, to)) {
       has_ended_ = ends;
       if (ends) return end_shortly(mesh, journal, to, times);
-      carry_along(mesh, journal, to);
+      static_cast<void>(carry_along(mesh, journal, to));
       return {};
     }
     BladeMotion::Move move;
@@ -401,7 +401,7 @@ class Cutter::Pipeline {
   Status end_shortly(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times) {
     if (carry_along(mesh, journal, row) <= kLag * spacing_) return {};
     const std::vector<Vec3> back = drawn_back(motion_.front(), row);
-    carry(mesh, journal, row, back);
+    static_cast<void>(carry(mesh, journal, row, back));
     stroke_cut_.begin(tag_, spacing_);
     stroke_cut_.prepare(mesh, journal);
     motion_.begin(back, spacing_);
@@ -412,7 +412,7 @@ class Cutter::Pipeline {
     if (status) status = follow(mesh, journal, motion_.reach_on(surroundings(mesh)), times);
     if (!status) return status;
     finish_sheet(mesh, journal, times);
-    carry(mesh, journal, back, row);
+    static_cast<void>(carry(mesh, journal, back, row));
     stroke_cut_.begin(tag_, spacing_);
     motion_.begin(row, spacing_);
     return {};

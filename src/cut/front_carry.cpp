@@ -36,7 +36,6 @@ constexpr double kThere = 1e-4;
 struct BladePlace {
   Vec3 on;          ///< the nearest point of the blade as it stands now
   Vec3 along;       ///< the blade's direction there, unit
-  Vec3 way;         ///< from where the blade was
   double behind;    ///< how far the place is behind the blade
   double distance;  ///< from `on`
   bool is_beside;   ///< in the sheet between both
@@ -99,7 +98,7 @@ class FrontCarrier {
       if (!(distance < best.distance)) continue;
       const Vec3 way = on - (from_[c] + t * (from_[c + 1] - from_[c]));
       const double travel = way.norm();
-      best = {on, edge / std::sqrt(length2), way, 0.0, distance, false};
+      best = {on, edge / std::sqrt(length2), 0.0, distance, false};
       if (!(travel > 0)) continue;
       const Vec3 normal = best.along.cross(way).normalized();
       const Vec3 ahead = normal.cross(best.along);
@@ -160,6 +159,8 @@ class FrontCarrier {
     const BladePlace place = place_beside(mesh_.rest(vertex));
     if (!place.is_beside) return false;
     const std::vector<TetId>& star = walker_.star(mesh_, vertex);
+    const auto is_other = [&](TetId tet) { return mesh_.region(tet) != mesh_.region(star.front()); };
+    if (std::any_of(star.begin(), star.end(), is_other)) return false;  // a border between regions stays
     const std::optional<Vec3> way = way_of(vertex, place, star);
     if (!way) return false;
     for (const double share : {1.0, 0.5, 0.25, 0.1}) {
@@ -185,7 +186,7 @@ class FrontCarrier {
         p[c] = v == vertex ? moved : old[c];
       }
       const double lr = longest_edge_over_inradius(p[0], p[1], p[2], p[3]);
-      if (lr > kWorstLr && lr > longest_edge_over_inradius(old[0], old[1], old[2], old[3])) return false;
+      if (!(lr <= kWorstLr || lr < longest_edge_over_inradius(old[0], old[1], old[2], old[3]))) return false;
       before += signed_volume6(old[0], old[1], old[2], old[3]);
       after += signed_volume6(p[0], p[1], p[2], p[3]);
     }
