@@ -46,6 +46,8 @@ class BladeMotion {
   /// Divides the segments of the front, and of all rows to come, at shares of their lengths, the last one 1.
   void refine(const std::vector<std::vector<double>>& shares);
   [[nodiscard]] std::vector<Vec3> front() const;
+  /// Whether no strip was laid yet.
+  [[nodiscard]] bool is_at_start() const { return is_first_strip_; }
 
   /// The strip that is left over at the end: to the last row, as far as it was held for moving too little.
   Move end(const OwnSheet& sheet, const Touches& touches, const Surroundings& around);

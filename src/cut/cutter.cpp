@@ -10,6 +10,7 @@
 
 #include "cut/blade_motion.h"
 #include "cut/far_blade.h"
+#include "cut/front_carry.h"
 #include "cut/material_blade.h"
 #include "cut/paper_cut.h"
 #include "cut/stroke_cut.h"
@@ -52,6 +53,16 @@ constexpr double kNearBody = 0.1;
 constexpr double kGiveWay = 0.75;
 /// One that would come back to what it has left is on another way only if it is as far ahead as this.
 constexpr double kTurnBack = 2.0;
+/// A stroke that goes on from an older front by less than so many spacings takes that front along.
+constexpr double kCarry = 0.3;
+/// The blade starts at an older front where that ends so many spacings behind it at most; and has taken it along where
+/// none of it is left further behind than that.
+constexpr double kAtFront = 0.2, kLag = 0.12;
+/// Where a front cannot follow it is drawn back by so many spacings, and cut from there: nothing that is cut anew is
+/// shorter.
+constexpr double kDrawBack = 0.8;
+/// Whether a blade starts at an older front is asked at places so many spacings apart, but at so many at most.
+constexpr double kStartShare = 0.2, kMostStarts = 1024.0;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
 
@@ -118,6 +129,9 @@ class Cutter::Pipeline {
     edge_ = EdgeDivision(row.size());
     is_in_material_ = has_moved;
     is_last_ = false;
+    is_at_front_ = AtFront::kUnknown;
+    has_ended_ = false;
+    carried_to_.clear();
     direction_ = Vec3::Zero();
     if (!has_moved) {
       motion_.begin(row, spacing_);
@@ -139,6 +153,11 @@ class Cutter::Pipeline {
         direction_ = direction;
         return step_in_material(mesh, journal, before, direction, times);
       }
+      if (goes_on_shortly(mesh, last_row_)) {
+        static_cast<void>(carry_along(mesh, journal, last_row_));
+        return {};
+      }
+      put_front_back(mesh, journal);
       return follow(mesh, journal,
                     motion_.advance(last_row_, stroke_cut_.sheet(), touches(mesh), surroundings(mesh), false), times);
     });
@@ -147,9 +166,12 @@ class Cutter::Pipeline {
     return guarded(mesh, journal, [&] {
       Status status;
       if (is_in_material_) {
+        if (motion_.is_at_start()) status = cut_to(mesh, journal, last_row_, direction_, times, true);
         is_last_ = true;
-        status = cut_to(mesh, journal, last_row_, direction_, times);
+        if (status && !has_ended_) status = cut_to(mesh, journal, last_row_, direction_, times, true);
         is_last_ = false;
+      } else if (goes_on_shortly(mesh, last_row_)) {
+        status = end_shortly(mesh, journal, last_row_, times);
       } else {
         status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh), surroundings(mesh)), times);
       }
@@ -250,10 +272,20 @@ class Cutter::Pipeline {
     material_.begin(mesh, stroke_cut_.surface(), row, spacing_, stroke_cut_.complex());
     motion_.begin(material_.anchors(), spacing_);
   }
-  Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction,
-                StageTimes& times) {
+  /// `ends`: a stroke that is short ends there.
+  Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction, StageTimes& times,
+                bool ends = false) {
     BladeMotion::Proposal proposal = propose(mesh, journal, row, direction, times);
     if (proposal.surface.triangles.empty()) return {};
+    std::vector<Vec3> to;
+    for (const SosPoint& p : proposal.row) to.push_back(p.position);
+    if (goes_on_shortly(mesh, to)) {
+      has_ended_ = ends;
+      if (ends) return end_shortly(mesh, journal, to, times);
+      static_cast<void>(carry_along(mesh, journal, to));
+      return {};
+    }
+    put_front_back(mesh, journal);
     BladeMotion::Move move;
     move.strip = motion_.accept(proposal, surroundings(mesh));
     material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
@@ -317,6 +349,94 @@ class Cutter::Pipeline {
       return met <= 1.0 ? (1.0 - met) * (behind + before) : 0.0;
     };
     return found;
+  }
+  /// Whether a stroke has only begun, at the front of older cuts.
+  [[nodiscard]] bool goes_on_shortly(const TetMesh& mesh, std::span<const Vec3> row) {
+    if (!motion_.is_at_start() || options_.snap <= 0 || is_at_front_ == AtFront::kNo) return false;
+    const std::vector<Vec3> start = motion_.front();
+    double travel = 0;
+    for (std::size_t c = 0; c < row.size(); ++c) travel = std::max(travel, (row[c] - start[c]).norm());
+    if (!(travel > 0) || travel > kCarry * spacing_) return false;
+    if (is_at_front_ == AtFront::kUnknown) {
+      is_at_front_ = lies_at_front(mesh, start, row) ? AtFront::kYes : AtFront::kNo;
+    }
+    return is_at_front_ == AtFront::kYes;
+  }
+  /// Whether all of a row that is in the body lies at the front of older cuts, seen along its way to another row.
+  [[nodiscard]] bool lies_at_front(const TetMesh& mesh, std::span<const Vec3> start, std::span<const Vec3> row) const {
+    const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    if (!older.exist()) return false;
+    const auto is_inside = [&](const Vec3& place) {
+      return locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid();
+    };
+    bool is_at_front = false;
+    for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+      const Vec3 along = start[c + 1] - start[c];
+      const Vec3 beside = kStartShare * spacing_ * along.normalized();  // the skin is near: fronts end off it
+      const double parts = std::clamp(std::ceil(along.norm() / (kStartShare * spacing_)), 1.0, kMostStarts);
+      for (double k = 0; k <= parts; ++k) {
+        const Vec3 place = start[c] + (k / parts) * along;
+        const Vec3 normal = (row[c] + (k / parts) * (row[c + 1] - row[c]) - place).cross(along);
+        const bool is_at =
+            normal.squaredNorm() > 0 && older.pass(place, normal, kBesideWall * spacing_, kAtFront * spacing_);
+        if (!is_at && is_inside(place) && is_inside(place - beside) && is_inside(place + beside)) return false;
+        is_at_front |= is_at;
+      }
+    }
+    return is_at_front;
+  }
+  /// Takes the front of older cuts along from one row to another. Returns how far the last of it is left behind.
+  double carry(TetMesh& mesh, Journal& journal, std::span<const Vec3> from, std::span<const Vec3> to) {
+    stroke_cut_.prepare(mesh, journal);
+    Transaction transaction(mesh, true);
+    const double left = carry_front(transaction, stroke_cut_.surface(), from, to, spacing_);
+    Step step = transaction.commit();
+    if (!step.is_empty()) journal.append(std::move(step));
+    return left;
+  }
+  /// The same for the blade as it stands; what it swept is what walls are judged by.
+  double carry_along(TetMesh& mesh, Journal& journal, std::span<const Vec3> row) {
+    note_swept(motion_.propose(row).surface);
+    carried_to_.assign(row.begin(), row.end());
+    return carry(mesh, journal, motion_.front(), row);
+  }
+  /// The stroke is not short: the front goes back to where it began, and all of the way is cut.
+  void put_front_back(TetMesh& mesh, Journal& journal) {
+    if (carried_to_.empty()) return;
+    static_cast<void>(carry(mesh, journal, carried_to_, motion_.front()));
+    carried_to_.clear();
+    stroke_cut_.prepare(mesh, journal);
+  }
+  /// Ends a short stroke. A front that cannot follow is drawn back and cut from there; what was drawn back in vain
+  /// follows as far as it can.
+  Status end_shortly(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times) {
+    if (carry_along(mesh, journal, row) <= kLag * spacing_) return {};
+    const std::vector<Vec3> back = drawn_back(motion_.front(), row);
+    static_cast<void>(carry(mesh, journal, row, back));
+    stroke_cut_.begin(tag_, spacing_);
+    stroke_cut_.prepare(mesh, journal);
+    motion_.begin(back, spacing_);
+    BladeMotion::Move move;
+    move.strip = motion_.accept(motion_.propose(row), surroundings(mesh));
+    if (is_in_material_) material_.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    Status status = follow(mesh, journal, std::move(move), times);
+    if (status) status = follow(mesh, journal, motion_.reach_on(surroundings(mesh)), times);
+    if (!status) return status;
+    finish_sheet(mesh, journal, times);
+    static_cast<void>(carry(mesh, journal, back, row));
+    stroke_cut_.begin(tag_, spacing_);
+    motion_.begin(row, spacing_);
+    return {};
+  }
+  /// A row that is about an element behind another one, against its way.
+  [[nodiscard]] std::vector<Vec3> drawn_back(std::vector<Vec3> row, std::span<const Vec3> to) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t c = 0; c < row.size(); ++c) sum += to[c] - row[c];
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const Vec3 way = to[c] - row[c];
+      row[c] -= kDrawBack * spacing_ * (way.squaredNorm() > 0 ? way : sum).normalized();
+    }
+    return row;
   }
   void finish_sheet(TetMesh& mesh, Journal& journal, StageTimes& times) {
     stroke_cut_.finish(mesh, journal, rules(), statistics_, times);
@@ -415,6 +535,11 @@ class Cutter::Pipeline {
   double spacing_ = 1.0;
   Vec3 direction_ = Vec3::Zero();  // of the last step in the material
   bool is_in_material_ = false, is_last_ = false;
+  enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
+  std::vector<Vec3>
+      carried_to_;          // the row to which the front was taken along, until the stroke turns out not to be short
+  bool has_ended_ = false;  // a short stroke in the material
+  AtFront is_at_front_ = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
   std::function<void()> between_sheets_;
   std::uint32_t tag_ = 1;
   CutStatistics statistics_;  // of the stroke being cut

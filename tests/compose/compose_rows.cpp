@@ -71,7 +71,8 @@ class Table {
     parallel(oblique_plane());
     tees(oblique_plane());
     crosses(oblique_plane());
-    short_steps();
+    short_steps(straight_plane(), 0.55);
+    short_steps(oblique_plane(), 0.9);
     return std::move(rows_);
   }
 
@@ -170,6 +171,8 @@ class Table {
       add(named("abutting cylinder", count), arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, count),
           arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, 1));
     }
+    add("abutting cylinder 109", arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, 109),
+        arcs_of(outside, 0.77, 0.8 * kPi, 1.7 * kPi, 1));
     for (const unsigned count : {1U, 2U, 5U}) {
       add(named("ring", count), arcs_of(middle, 0.31, 0, 2 * kPi, count), arcs_of(middle, 0.31, 0, 2 * kPi, 1));
     }
@@ -240,15 +243,15 @@ class Table {
     add("star of 8 half planes", halves, planes, 8);
   }
 
-  void short_steps() {
-    for (const double step : {0.02, 0.1, 0.5}) {
-      const Plane plane = straight_plane();
-      const auto count = static_cast<unsigned>(std::ceil(1.1 / (step * kElement)));
+  /// From outside the body through it.
+  void short_steps(const Plane& plane, double reach) {
+    for (const double step : {0.02, 0.1, 0.2, 0.5}) {
+      const auto count = static_cast<unsigned>(std::ceil(2 * reach / (step * kElement)));
       BladePaths strokes;
       for (unsigned i = 0; i < count; ++i) {
-        strokes.push_back(plane.sweep(-0.55 + step * kElement * i, -0.55 + step * kElement * (i + 1)));
+        strokes.push_back(plane.sweep(-reach + step * kElement * i, -reach + step * kElement * (i + 1)));
       }
-      add(named("short steps", step), strokes, {plane.whole()});
+      add(named("short steps " + plane.name, step), strokes, {plane.whole()});
     }
   }
 

@@ -20,7 +20,7 @@ TetSoup soup_of(Body body) {
   return soup;
 }
 
-constexpr std::array<std::string_view, 36> kRows = {"abutting oblique 2",
+constexpr std::array<std::string_view, 38> kRows = {"abutting oblique 2",
                                                     "abutting oblique 14",
                                                     "abutting oblique 28",
                                                     "abutting straight 3",
@@ -55,7 +55,9 @@ constexpr std::array<std::string_view, 36> kRows = {"abutting oblique 2",
                                                     "T to its wall, degrees 30, off 0",
                                                     "cross, degrees 90",
                                                     "cross, degrees 30",
-                                                    "star of 4 planes"};
+                                                    "star of 4 planes",
+                                                    "short steps straight 0.1",
+                                                    "short steps oblique 0.2"};
 
 /// What a row gives today that falls short of what it must give (compose_rows.h; L/r at most 25): it is not to get
 /// worse. A row that has come to hold is to be taken out.
@@ -123,6 +125,18 @@ void expect_rows(Body body, Stance stance) {
         << outcome.pieces << " pieces";
     EXPECT_LE(outcome.lr, today == nullptr ? kMostLr : today->lr);
     EXPECT_LE(figures.growth, today == nullptr ? row.growth : today->growth);
+  }
+}
+
+TEST(ComposeTable, short_steps_take_the_front_along) {
+  for (const Body body : {Body::kKuhn, Body::kJittered}) {
+    for (const ComposeRow& row : compose_rows()) {
+      if (row.name.rfind("short steps", 0) != 0) continue;
+      SCOPED_TRACE(row.name);
+      const ComposeFigures figures = measure_row(soup_of(body), row, Stance::kRest, true);
+      EXPECT_TRUE(holds(row, figures)) << figures.outcome.pieces << " pieces, L/r " << figures.outcome.lr;
+      EXPECT_NEAR(figures.area, 1.0, 0.01);
+    }
   }
 }
 
