@@ -131,7 +131,6 @@ class Cutter::Pipeline {
     is_last_ = false;
     is_at_front_ = AtFront::kUnknown;
     has_ended_ = false;
-    carried_to_.clear();
     direction_ = Vec3::Zero();
     if (!has_moved) {
       motion_.begin(row, spacing_);
@@ -153,11 +152,7 @@ class Cutter::Pipeline {
         direction_ = direction;
         return step_in_material(mesh, journal, before, direction, times);
       }
-      if (goes_on_shortly(mesh, last_row_)) {
-        static_cast<void>(carry_along(mesh, journal, last_row_));
-        return {};
-      }
-      put_front_back(mesh, journal);
+      if (goes_on_shortly(mesh, last_row_)) return {};
       return follow(mesh, journal,
                     motion_.advance(last_row_, stroke_cut_.sheet(), touches(mesh), surroundings(mesh), false), times);
     });
@@ -281,11 +276,8 @@ class Cutter::Pipeline {
     for (const SosPoint& p : proposal.row) to.push_back(p.position);
     if (goes_on_shortly(mesh, to)) {
       has_ended_ = ends;
-      if (ends) return end_shortly(mesh, journal, to, times);
-      static_cast<void>(carry_along(mesh, journal, to));
-      return {};
+      return ends ? end_shortly(mesh, journal, to, times) : Status{};
     }
-    put_front_back(mesh, journal);
     BladeMotion::Move move;
     move.strip = motion_.accept(proposal, surroundings(mesh));
     material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
@@ -397,15 +389,7 @@ class Cutter::Pipeline {
   /// The same for the blade as it stands; what it swept is what walls are judged by.
   double carry_along(TetMesh& mesh, Journal& journal, std::span<const Vec3> row) {
     note_swept(motion_.propose(row).surface);
-    carried_to_.assign(row.begin(), row.end());
     return carry(mesh, journal, motion_.front(), row);
-  }
-  /// The stroke is not short: the front goes back to where it began, and all of the way is cut.
-  void put_front_back(TetMesh& mesh, Journal& journal) {
-    if (carried_to_.empty()) return;
-    static_cast<void>(carry(mesh, journal, carried_to_, motion_.front()));
-    carried_to_.clear();
-    stroke_cut_.prepare(mesh, journal);
   }
   /// Ends a short stroke. A front that cannot follow is drawn back and cut from there; what was drawn back in vain
   /// follows as far as it can.
@@ -536,8 +520,6 @@ class Cutter::Pipeline {
   Vec3 direction_ = Vec3::Zero();  // of the last step in the material
   bool is_in_material_ = false, is_last_ = false;
   enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
-  std::vector<Vec3>
-      carried_to_;          // the row to which the front was taken along, until the stroke turns out not to be short
   bool has_ended_ = false;  // a short stroke in the material
   AtFront is_at_front_ = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
   std::function<void()> between_sheets_;

@@ -171,6 +171,7 @@ class FrontCarrier {
         const MaterialPlace in = place_in(mesh_, tet, moved);
         if (in.inside > best.inside) best = in;
       }
+      if (!stands(vertex, current_after_move(mesh_, vertex, moved, best.basis, best.weights), star)) continue;
       transaction_.move(vertex, moved, best.basis, best.weights);
       return true;
     }
@@ -191,6 +192,18 @@ class FrontCarrier {
       after += signed_volume6(p[0], p[1], p[2], p[3]);
     }
     return std::abs(after - before) <= 10 * kVolumeTolerance * before;
+  }
+  /// Whether tets that stand upright now stay so.
+  [[nodiscard]] bool stands(VertexId vertex, const Vec3& moved, std::span<const TetId> star) const {
+    return std::all_of(star.begin(), star.end(), [&](TetId tet) {
+      std::array<Vec3, 4> now, p;
+      for (unsigned c = 0; c < 4; ++c) {
+        const VertexId v = mesh_.vertices(tet)[c];
+        now[c] = mesh_.current(v);
+        p[c] = v == vertex ? moved : now[c];
+      }
+      return signed_volume6(p[0], p[1], p[2], p[3]) > 0 || !(signed_volume6(now[0], now[1], now[2], now[3]) > 0);
+    });
   }
 
   Transaction& transaction_;
