@@ -283,7 +283,7 @@ TEST_F(Replay, leaves_the_figures_of_a_cut_job_alone) {
   EXPECT_EQ(report.step_ms.size(), 9U);
   EXPECT_EQ(report.stage_ms.size(), 9U);
   EXPECT_EQ(report.units_per_stroke.size(), 2U);
-  EXPECT_EQ(report.cut.steps, 8U);
+  EXPECT_EQ(report.cut.steps, 9U);
   EXPECT_EQ(report.after.components, 2U);
   double sum = 0;
   double stages = 0;
