@@ -192,42 +192,48 @@ std::vector<std::string> options_of(const CLI::App& command) {
   return names;
 }
 
-/// The command that was asked for; none where it is not known.
-const CLI::App* command_in(const CLI::App& root, const std::vector<std::string>& words) {
+const CLI::App* command_named(const CLI::App& root, const std::string& name) {
   for (const CLI::App* command : root.get_subcommands({})) {
-    if (std::find(words.begin(), words.end(), command->get_name()) != words.end()) return command;
+    if (command->get_name() == name) return command;
   }
   return nullptr;
 }
 
-/// What is wrong with the words of a call, in one line.
+/// Where the command is to be: at the first word that is no option. What comes before takes no values.
+std::vector<std::string>::const_iterator command_word(const std::vector<std::string>& words) {
+  return std::find_if(words.begin(), words.end(), [](const auto& word) { return !word.empty() && word[0] != '-'; });
+}
+
+/// Says that a command is not known; empty where it is, or where none is named.
+std::string unknown_command(const CLI::App& root, const std::vector<std::string>& words) {
+  const auto word = command_word(words);
+  if (word == words.end() || command_named(root, *word) != nullptr) return "";
+  return "'" + *word + "' is no command" + suggestion(*word, commands_of(root)) + "; see incise help";
+}
+
+/// What is wrong with the words of a call whose command, if it names one, is known: in one line.
 std::string explain(const CLI::App& root, const std::vector<std::string>& words, const CLI::ParseError& error) {
-  const CLI::App* command = command_in(root, words);
-  const auto is_word = [](const std::string& word) { return !word.empty() && word[0] != '-'; };
-  const auto first = std::find_if(words.begin(), words.end(), is_word);
-  if (command == nullptr && first != words.end()) {
-    return "'" + *first + "' is no command" + suggestion(*first, commands_of(root)) + "; see incise help";
+  const auto command = command_word(words);
+  std::vector<std::string> known = options_of(root);
+  std::string text = error.what(), see = "; see incise help";
+  if (command != words.end()) {
+    const std::vector<std::string> more = options_of(*command_named(root, *command));
+    known.insert(known.end(), more.begin(), more.end());
+    see += " " + *command;
   }
-  std::string text = error.what();
-  std::string see = "; see incise help";
-  if (command != nullptr) {
-    std::vector<std::string> known = options_of(*command);
-    const std::vector<std::string> general = options_of(root);
-    known.insert(known.end(), general.begin(), general.end());
-    for (const std::string& word : words) {
-      const std::string name = word.substr(0, word.find('='));
-      const bool is_unknown = name.rfind("--", 0) == 0 && std::find(known.begin(), known.end(), name) == known.end();
-      if (is_unknown) text += suggestion(name, known);
-    }
-    see += " " + command->get_name();
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    const bool is_unknown = name.rfind("--", 0) == 0 && std::find(known.begin(), known.end(), name) == known.end();
+    if (is_unknown) text += suggestion(name, known);
   }
   return text + see;
 }
 
 /// `incise help` and `incise help COMMAND` are `--help` of either.
 void take_help(std::vector<std::string>& words) {
-  if (words.empty() || words[0] != "help") return;
-  words.erase(words.begin());
+  const auto word = command_word(words);
+  if (word == words.end() || *word != "help") return;
+  words.erase(std::remove(words.begin(), words.end(), "help"), words.end());
   words.emplace_back("--help");
 }
 
@@ -260,8 +266,12 @@ int run(int argc, char** argv) {
   add_simulate(root, arguments);
   add_replay(root, arguments);
   add_convert(root, arguments);
-  std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   take_help(words);
+  if (const std::string unknown = unknown_command(root, words); !unknown.empty()) {
+    terminal.error(unknown);
+    return kUsage;
+  }
   try {
     root.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes the last word first
   } catch (const CLI::Success& asked) {

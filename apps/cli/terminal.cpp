@@ -44,7 +44,11 @@ constexpr std::size_t kLongest = 480, kEnd = 160;
 std::string shortened(std::string_view text) {
   std::string line(text);
   if (line.size() > kLongest) {
-    line = std::string(text.substr(0, kLongest - kEnd - 5)) + " ... " + std::string(text.substr(text.size() - kEnd));
+    const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
+    std::size_t head = kLongest - kEnd - 5, tail = text.size() - kEnd;  // not within a character of several bytes
+    while (head > 0 && is_inside(head)) --head;
+    while (tail < text.size() && is_inside(tail)) ++tail;
+    line = std::string(text.substr(0, head)) + " ... " + std::string(text.substr(tail));
   }
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
   std::replace_if(line.begin(), line.end(), is_control, ' ');

@@ -189,6 +189,9 @@ TEST(Cli, helps) {
   EXPECT_EQ(cut.code, 0);
   EXPECT_EQ(cut.out, run({"cut", "--help"}).out);
   EXPECT_NE(cut.out.find("--plane"), std::string::npos);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"-q", "help"}, {"help", "help"}}) {
+    EXPECT_EQ(run(words).out, help.out);
+  }
   EXPECT_EQ(run({"help", "cat"}).err, "incise: error: 'cat' is no command (did you mean cut?); see incise help\n");
 }
 

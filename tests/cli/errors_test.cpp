@@ -66,6 +66,10 @@ TEST_F(CliErrors, say_what_was_meant) {
   const Outcome option = run({"cut", cube_, "--plan=1,0,0,0.5"});
   EXPECT_NE(option.err.find("(did you mean --plane?); see incise help cut"), std::string::npos) << option.err;
   EXPECT_EQ(option.err.rfind("incise: error: ", 0), 0U) << option.err;
+  const Outcome named_like_one = run({"cut", "info", "--plan=1,0,0,0.5"});
+  EXPECT_NE(named_like_one.err.find("see incise help cut"), std::string::npos) << named_like_one.err;
+  EXPECT_NE(run({"--hlp"}).err.find("(did you mean --help?)"), std::string::npos);
+  EXPECT_EQ(run({"cutt", "--help"}).err, carve.err);
   EXPECT_EQ(run({"zzzzzzzz"}).err, "incise: error: 'zzzzzzzz' is no command; see incise help\n");
 }
 
