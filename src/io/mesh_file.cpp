@@ -69,7 +69,8 @@ bool is_nastran(std::string_view bytes) {
 const char* unsupported_numbers(std::string_view bytes) {
   std::vector<double> first;
   any_line(bytes, [&](std::string_view line) {
-    if (line.empty() || line[0] == '#') return false;
+    line = trim(line.substr(0, line.find('#')));  // without its comment
+    if (line.empty()) return false;
     for (std::size_t at = 0; at < line.size();) {
       const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
       double number = 0;
@@ -158,9 +159,10 @@ Error complete(Error error) {
   return error;
 }
 
-/// Whether lines end in carriage returns alone, as old programs of the Macintosh write them.
+/// Whether this is text whose lines end in carriage returns alone, as old programs of the Macintosh write them.
 bool ends_lines_by_return(std::string_view bytes) {
-  return bytes.find('\r') != std::string_view::npos && bytes.find('\n') == std::string_view::npos;
+  const auto has = [&](char c) { return bytes.find(c) != std::string_view::npos; };
+  return has('\r') && !has('\n') && !has('\0');
 }
 
 std::string with_line_feeds(std::string_view bytes) {

@@ -245,6 +245,7 @@ TEST(ReadMesh, tetgen_counts_must_match_and_chastes_binary_is_refused) {
   };
   const std::string node = "4 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
   EXPECT_EQ(message("1 4\n0 0 1 2 3\n", node), "");
+  EXPECT_EQ(message("1 4 # the only one of 1 3 5\n0 0 1 2 3\n", node), "") << "numbers of a comment count nothing";
   EXPECT_NE(message("2 4\n0 0 1 2 3\n", node), "");
   EXPECT_NE(message("0 4\n0 0 1 2 3\n", node).find("more rows"), std::string::npos);
   EXPECT_NE(message("1 4\n0 0 1 2 4\n", node).find("not among"), std::string::npos);
