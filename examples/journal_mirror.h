@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <deque>
 #include <iterator>
@@ -43,7 +44,11 @@ class JournalMirror {
 
   /// Copies a mesh as it stands; velocities are zero. Cost: O(slots).
   explicit JournalMirror(const TetMesh& mesh, const Journal& journal = {}, Reading reading = Reading::kEdits)
-      : reading_(reading), base_(journal.position()), vertices_(mesh.vertex_slots()), tets_(mesh.tet_slots()) {
+      : reading_(reading),
+        base_(journal.position()),
+        base_serial_(journal.serial_before(journal.position())),
+        vertices_(mesh.vertex_slots()),
+        tets_(mesh.tet_slots()) {
     mesh.for_each_vertex([&](VertexId v) { vertices_[v.value] = {mesh.rest(v), mesh.current(v), Vec3::Zero(), true}; });
     mesh.for_each_tet([&](TetId t) { tets_[t.value] = {mesh.vertices(t), mesh.region(t), {}}; });
   }
@@ -53,11 +58,12 @@ class JournalMirror {
   void follow(const Journal& journal) {
     fresh_.clear();
     expect(journal.first() <= position(), "the journal has trimmed steps that the mirror has not seen");
+    if (!fault_.empty()) return;
     while (applied_ > 0 && !is_applied(journal)) go_back();
-    expect(position() <= journal.position(), "the journal goes back behind the place where the mirror began");
+    expect(is_applied(journal), "the journal goes back behind the place where the mirror began");
     if (!fault_.empty()) return;
     while (position() < journal.position()) go_forward(journal.step(position()));
-    for (; base_ < journal.first(); ++base_, --applied_) past_.pop_front();  // no undo leads there
+    forget_trimmed(journal);
     std::sort(fresh_.begin(), fresh_.end());
     fresh_.erase(std::unique(fresh_.begin(), fresh_.end()), fresh_.end());
     std::erase_if(fresh_, [&](VertexId v) { return v.value >= vertices_.size() || !vertices_[v.value].is_live; });
@@ -66,7 +72,7 @@ class JournalMirror {
   [[nodiscard]] std::size_t position() const { return base_ + applied_; }
   /// Whether `follow` would change nothing.
   [[nodiscard]] bool has_caught_up(const Journal& journal) const {
-    return position() == journal.position() && (applied_ == 0 || is_applied(journal));
+    return position() == journal.position() && is_applied(journal);
   }
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
@@ -110,10 +116,17 @@ class JournalMirror {
     Image before, after;
   };
 
-  /// Whether the last step that the mirror applied is applied in the journal too.
+  /// Whether the last step that the mirror applied, or began after, is applied in the journal too.
   [[nodiscard]] bool is_applied(const Journal& journal) const {
     return position() <= journal.position() && position() >= journal.first() &&
-           journal.serial_before(position()) == past_[applied_ - 1].serial;
+           journal.serial_before(position()) == (applied_ == 0 ? base_serial_ : past_[applied_ - 1].serial);
+  }
+  /// No undo leads behind what the journal keeps.
+  void forget_trimmed(const Journal& journal) {
+    for (; base_ < journal.first(); ++base_, --applied_) {
+      base_serial_ = past_.front().serial;
+      past_.pop_front();
+    }
   }
   /// An undone step, known by its serial, comes back as it was left. A new one drops those that were undone.
   void go_forward(const Step& step) {
@@ -282,6 +295,7 @@ class JournalMirror {
 
   Reading reading_;
   std::size_t base_, applied_ = 0;
+  std::uint64_t base_serial_;  // of the step before base_
   std::vector<Vertex> vertices_;
   std::vector<Tet> tets_;
   std::deque<Past> past_;  // those from applied_ on are undone

@@ -10,6 +10,7 @@
 #include "cut/support.h"
 #include "incise/engine/engine.h"
 #include "incise/mesh/journal_cursor.h"
+#include "mesh/mirror_checks.h"
 
 namespace incise::test {
 namespace {
@@ -86,6 +87,37 @@ TEST(EngineHistory, keeps_what_maintenance_has_yet_to_see) {
     EXPECT_TRUE(few.undo());
     EXPECT_FALSE(few.undo()) << "only what maintenance waited for was kept longer";
   }
+}
+
+TEST(EngineHistory, is_followed_by_the_mirror_of_the_examples_as_far_as_it_is_kept) {
+  Engine engine = new_engine();
+  const std::vector<Stroke> strokes = six_strokes(engine);
+  ASSERT_TRUE(engine.cut(strokes[0]).ok());
+  JournalMirror mirror(engine.mesh(), engine.journal()), late = mirror;
+  ASSERT_TRUE(engine.keep_undo(1).ok());
+  for (const std::size_t i : {1U, 2U, 3U}) {
+    ASSERT_TRUE(engine.cut(strokes[i]).ok());
+    expect_follows(mirror, engine.journal(), engine.mesh());
+  }
+  ASSERT_TRUE(engine.undo());
+  expect_follows(mirror, engine.journal(), engine.mesh());
+  ASSERT_TRUE(engine.redo());
+  expect_follows(mirror, engine.journal(), engine.mesh());
+  EXPECT_EQ(mirror.fault(), "");
+  late.follow(engine.journal());
+  EXPECT_NE(late.fault().find("trimmed"), std::string::npos) << late.fault();
+}
+
+TEST(EngineHistory, behind_which_a_mirror_began_is_noticed_even_when_it_has_grown_again) {
+  Engine engine = new_engine();
+  const std::vector<Stroke> strokes = six_strokes(engine);
+  ASSERT_TRUE(engine.cut(strokes[0]).ok());
+  JournalMirror mirror(engine.mesh(), engine.journal());
+  ASSERT_TRUE(engine.undo());
+  for (const std::size_t i : {1U, 2U}) ASSERT_TRUE(engine.cut(strokes[i]).ok());
+  ASSERT_GE(engine.journal().position(), mirror.position());
+  mirror.follow(engine.journal());
+  EXPECT_NE(mirror.fault().find("behind the place"), std::string::npos) << mirror.fault();
 }
 
 /// Puts one vertex that a step has touched nowhere, as whoever writes into the mesh behind the engine's back might.
