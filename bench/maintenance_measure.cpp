@@ -223,7 +223,7 @@ bool cut_once(Engine& engine, const Stroke& stroke, Measurement& out) {
 }
 
 void maintain_once(Engine& engine, Measurement& out) {
-  const double ms = time_ms([&] { out.maintain_work = engine.maintain().maintain; });
+  const double ms = time_ms([&] { out.maintain_work = engine.maintain()->maintain; });
   out.maintain_ms = std::min(out.maintain_ms, ms);
 }
 
@@ -351,7 +351,7 @@ void note_anytime(Engine& engine, const std::vector<double>& times, std::vector<
   double spent = 0, last = 0, worst = worst_touched(engine);
   for (std::size_t i = 0; i < times.size(); ++i) {
     while (engine.has_maintenance() && spent + last < times[i]) {
-      last = time_ms([&] { engine.maintain(kChunk); });
+      last = time_ms([&] { (void)engine.maintain(kChunk); });
       spent += last;
     }
     if (spent < 1.1 * times[i]) {

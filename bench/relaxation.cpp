@@ -81,7 +81,7 @@ Result<DeformableBody> hanging_body(const TetMesh& mesh, unsigned threads) {
   options.iterations = kIterations;
   options.sleep_below = 0;  // every tet counts in every iteration
   options.threads = threads;
-  Result<DeformableBody> body = DeformableBody::create(mesh, 0, materials, options);
+  Result<DeformableBody> body = DeformableBody::create(mesh, {}, materials, options);
   if (body.ok()) {
     for (const VertexId v : held_end(mesh)) {
       (void)body->hold(v, std::numeric_limits<double>::infinity());

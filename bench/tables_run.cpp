@@ -51,7 +51,7 @@ bool cut_once(Engine& engine, const std::vector<Stroke>& strokes, CutResult& out
       return false;
     }
     out.stages += report->times;
-    out.stages += engine.maintain().times;
+    out.stages += engine.maintain()->times;
     out.cut += report->cut;
     out.cut_ms += middle - start;
     out.maintain_ms += thread_ms() - middle;

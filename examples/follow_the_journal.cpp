@@ -82,7 +82,7 @@ int main() {
   pair.follow("undo");
   pair.engine.redo();  // and rises again: everything is as it was when it was undone
   pair.follow("redo");
-  pair.engine.improve();
+  if (!pair.engine.improve().ok()) return 1;
   pair.follow("improve");
   std::printf("%s\n", pair.is_equal ? "bit for bit the same throughout" : "not the same");
   return pair.is_equal ? 0 : 1;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <deque>
 #include <iterator>
 #include <span>
 #include <string>
@@ -19,8 +21,8 @@ namespace incise::examples {
 
 /// Vertices and tets as a solver sees them, by slot, one journal step behind at most.
 ///
-/// Call `follow` after every call of the engine that may change the mesh: an undo and a new cut in its place cannot be
-/// told from each other later. Memory: what the steps touched, for undo. Not thread-safe.
+/// Call `follow` whenever you need the mesh as it stands, between two calls of the engine. Memory: what the steps that
+/// the journal keeps touched, for undo. Not thread-safe.
 class JournalMirror {
  public:
   struct Vertex {
@@ -40,9 +42,13 @@ class JournalMirror {
     kLists,  ///< the net effect: enough for the mesh itself, velocities are approximate
   };
 
-  /// Copies a mesh whose journal stands at `position`, with nothing to redo; velocities are zero. Cost: O(slots).
-  explicit JournalMirror(const TetMesh& mesh, std::size_t position = 0, Reading reading = Reading::kEdits)
-      : reading_(reading), base_(position), vertices_(mesh.vertex_slots()), tets_(mesh.tet_slots()) {
+  /// Copies a mesh as it stands; velocities are zero. Cost: O(slots).
+  explicit JournalMirror(const TetMesh& mesh, const Journal& journal = {}, Reading reading = Reading::kEdits)
+      : reading_(reading),
+        base_(journal.position()),
+        base_serial_(journal.serial_before(journal.position())),
+        vertices_(mesh.vertex_slots()),
+        tets_(mesh.tet_slots()) {
     mesh.for_each_vertex([&](VertexId v) { vertices_[v.value] = {mesh.rest(v), mesh.current(v), Vec3::Zero(), true}; });
     mesh.for_each_tet([&](TetId t) { tets_[t.value] = {mesh.vertices(t), mesh.region(t), {}}; });
   }
@@ -51,15 +57,23 @@ class JournalMirror {
   /// Cost: O(size of the steps).
   void follow(const Journal& journal) {
     fresh_.clear();
-    while (position() > journal.position() && applied_ > 0) go_back();
-    expect(position() <= journal.position(), "the journal goes back behind the place where the mirror began");
+    expect(journal.first() <= position(), "the journal has trimmed steps that the mirror has not seen");
+    if (!fault_.empty()) return;
+    while (applied_ > 0 && !is_applied(journal)) go_back();
+    expect(is_applied(journal), "the journal goes back behind the place where the mirror began");
+    if (!fault_.empty()) return;
     while (position() < journal.position()) go_forward(journal.step(position()));
+    forget_trimmed(journal);
     std::sort(fresh_.begin(), fresh_.end());
     fresh_.erase(std::unique(fresh_.begin(), fresh_.end()), fresh_.end());
     std::erase_if(fresh_, [&](VertexId v) { return v.value >= vertices_.size() || !vertices_[v.value].is_live; });
   }
 
   [[nodiscard]] std::size_t position() const { return base_ + applied_; }
+  /// Whether `follow` would change nothing.
+  [[nodiscard]] bool has_caught_up(const Journal& journal) const {
+    return position() == journal.position() && is_applied(journal);
+  }
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
   /// A solver writes `current` and `velocity`, and hands the places on by `Engine::set_positions`.
@@ -98,18 +112,30 @@ class JournalMirror {
   };
   /// Both sides of a step: as all was when the step came first, and when it was last undone.
   struct Past {
+    std::uint64_t serial = 0;  // of the step
     Image before, after;
   };
 
-  /// An undone step has its image `after`: it comes back as it was left. A new one drops those that were undone.
+  /// Whether the last step that the mirror applied, or began after, is applied in the journal too.
+  [[nodiscard]] bool is_applied(const Journal& journal) const {
+    return position() <= journal.position() && position() >= journal.first() &&
+           journal.serial_before(position()) == (applied_ == 0 ? base_serial_ : past_[applied_ - 1].serial);
+  }
+  /// No undo leads behind what the journal keeps.
+  void forget_trimmed(const Journal& journal) {
+    for (; base_ < journal.first(); ++base_, --applied_) {
+      base_serial_ = past_.front().serial;
+      past_.pop_front();
+    }
+  }
+  /// An undone step, known by its serial, comes back as it was left. A new one drops those that were undone.
   void go_forward(const Step& step) {
-    const bool was_undone = !step.after.tets.empty() || !step.after.vertices.empty();
-    if (was_undone && applied_ < past_.size()) {
+    if (applied_ < past_.size() && past_[applied_].serial == step.serial) {
       restore(past_[applied_++].after);
       return;
     }
     past_.resize(applied_++);
-    past_.push_back({image_before(step), {}});
+    past_.push_back({step.serial, image_before(step), {}});
     apply(step);
   }
   void go_back() {
@@ -269,9 +295,10 @@ class JournalMirror {
 
   Reading reading_;
   std::size_t base_, applied_ = 0;
+  std::uint64_t base_serial_;  // of the step before base_
   std::vector<Vertex> vertices_;
   std::vector<Tet> tets_;
-  std::vector<Past> past_;  // those from applied_ on are undone
+  std::deque<Past> past_;  // those from applied_ on are undone
   std::vector<VertexId> fresh_;
   std::string fault_;
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command `incise`: reads arguments, runs one command, returns its exit code.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.h"
@@ -148,6 +150,93 @@ void add_convert(CLI::App& root, Arguments& a) {
   convert->add_option("OUT", a.convert.out, "File to write; the extension names the format")->required();
 }
 
+/// How many letters must be changed, added or left out to make one word of another.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, changed}));
+    }
+  }
+  return row[b.size()];
+}
+
+/// " (did you mean ...?)" with the known word nearest to one that is not known; empty where none is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  const std::string* nearest = nullptr;
+  for (const std::string& candidate : known) {
+    const std::size_t steps = distance(word, candidate);
+    if (steps < least) {
+      least = steps;
+      nearest = &candidate;
+    }
+  }
+  return nearest == nullptr ? "" : " (did you mean " + *nearest + "?)";
+}
+
+std::vector<std::string> commands_of(const CLI::App& root) {
+  std::vector<std::string> names = {"help"};
+  for (const CLI::App* command : root.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+const CLI::App* command_named(const CLI::App& root, const std::string& name) {
+  for (const CLI::App* command : root.get_subcommands({})) {
+    if (command->get_name() == name) return command;
+  }
+  return nullptr;
+}
+
+/// Where the command is to be: at the first word that is no option. What comes before takes no values.
+std::vector<std::string>::const_iterator command_word(const std::vector<std::string>& words) {
+  return std::find_if(words.begin(), words.end(), [](const auto& word) { return !word.empty() && word[0] != '-'; });
+}
+
+/// Says that a command is not known; empty where it is, or where none is named.
+std::string unknown_command(const CLI::App& root, const std::vector<std::string>& words) {
+  const auto word = command_word(words);
+  if (word == words.end() || command_named(root, *word) != nullptr) return "";
+  return "'" + *word + "' is no command" + suggestion(*word, commands_of(root)) + "; see incise help";
+}
+
+/// What is wrong with the words of a call whose command, if it names one, is known: in one line.
+std::string explain(const CLI::App& root, const std::vector<std::string>& words, const CLI::ParseError& error) {
+  const auto command = command_word(words);
+  std::vector<std::string> known = options_of(root);
+  std::string text = error.what(), see = "; see incise help";
+  if (command != words.end()) {
+    const std::vector<std::string> more = options_of(*command_named(root, *command));
+    known.insert(known.end(), more.begin(), more.end());
+    see += " " + *command;
+  }
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    const bool is_unknown = name.rfind("--", 0) == 0 && std::find(known.begin(), known.end(), name) == known.end();
+    if (is_unknown) text += suggestion(name, known);
+  }
+  return text + see;
+}
+
+/// `incise help` and `incise help COMMAND` are `--help` of either.
+void take_help(std::vector<std::string>& words) {
+  const auto word = command_word(words);
+  if (word == words.end() || *word != "help") return;
+  words.erase(std::remove(words.begin(), words.end(), "help"), words.end());
+  words.emplace_back("--help");
+}
+
 int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
   if (root.got_subcommand("info")) return run_info(a.info, terminal);
   if (root.got_subcommand("check")) return run_check(a.check, terminal);
@@ -167,7 +256,8 @@ int run(int argc, char** argv) {
   root.add_flag("-q,--quiet", terminal.is_quiet, "Print errors and asked-for data only");
   root.add_flag("-v,--verbose", terminal.is_verbose, "Print more of what happens");
   root.require_subcommand(1);
-  root.footer(std::string("Examples:\n  incise info liver.msh\n  incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
+  root.footer(std::string("incise help COMMAND tells more of a command.\n\nExamples:\n  incise info liver.msh\n  "
+                          "incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
                           "  incise improve halves.vtu -o better.vtu\n  incise cut --help\n\n") +
               kExitCodes);
   add_info(root, arguments);
@@ -176,10 +266,19 @@ int run(int argc, char** argv) {
   add_simulate(root, arguments);
   add_replay(root, arguments);
   add_convert(root, arguments);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  take_help(words);
+  if (const std::string unknown = unknown_command(root, words); !unknown.empty()) {
+    terminal.error(unknown);
+    return kUsage;
+  }
   try {
-    root.parse(argc, argv);
+    root.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes the last word first
+  } catch (const CLI::Success& asked) {
+    return root.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return root.exit(error) == 0 ? kDone : kUsage;
+    terminal.error(explain(root, words, error));
+    return kUsage;
   }
   return dispatch(root, arguments, terminal);
 }

@@ -37,6 +37,24 @@ void print(std::FILE* file, std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), file);
 }
 
+/// No message is longer; one that would be keeps its beginning and, with the remedy, its end.
+constexpr std::size_t kLongest = 480, kEnd = 160;
+
+/// One line of readable characters.
+std::string shortened(std::string_view text) {
+  std::string line(text);
+  if (line.size() > kLongest) {
+    const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
+    std::size_t head = kLongest - kEnd - 5, tail = text.size() - kEnd;  // not within a character of several bytes
+    while (head > 0 && is_inside(head)) --head;
+    while (tail < text.size() && is_inside(tail)) ++tail;
+    line = std::string(text.substr(0, head)) + " ... " + std::string(text.substr(tail));
+  }
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+  std::replace_if(line.begin(), line.end(), is_control, ' ');
+  return line;
+}
+
 void print_line(std::string_view label, std::string_view colour, std::string_view text) {
   std::string line = "incise: ";
   if (!label.empty()) {
@@ -46,7 +64,7 @@ void print_line(std::string_view label, std::string_view colour, std::string_vie
     if (is_coloured) line += "\033[0m";
     line += ": ";
   }
-  print(stderr, line.append(text).append("\n"));
+  print(stderr, line.append(shortened(text)).append("\n"));
 }
 
 }  // namespace
@@ -93,6 +111,9 @@ incise::LogSink Terminal::log_sink() const {
 void catch_interrupts() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is answered like a full disk
+#endif
 }
 
 bool interrupt_waits() {

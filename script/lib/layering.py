@@ -18,6 +18,8 @@ MAY_INCLUDE = {
     "render": LOWEST + ("app",),
 }
 FRONT_ENDS = ("apps", "bindings", "bench", "examples")
+# It names public headers for those who want all of them.
+UMBRELLA = os.path.join("include", "incise", "incise.h")
 # Third-party headers, and the modules whose .cpp files may include them. No public header may, but for Eigen.
 PRIVATE_HEADERS = {
     "tbb/": ("core",),  # behind core/parallel.h
@@ -38,6 +40,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
 def sources(root, folder):
+    if os.path.isfile(os.path.join(root, folder)):
+        yield folder
     for where, folders, names in os.walk(os.path.join(root, folder)):
         folders.sort()
         for name in sorted(names):
@@ -93,6 +97,8 @@ def main(root):
     checked, wrong = 0, []
     for base in ("include/incise", "src"):
         for path in sources(root, base):
+            if path == UMBRELLA:
+                continue
             module = path.split(os.sep)[2 if base != "src" else 1]
             if module not in MAY_INCLUDE:
                 wrong.append("%s: there is no module '%s'" % (path, module))
@@ -102,7 +108,7 @@ def main(root):
                 complaint = check_module_file(module, path, header)
                 if complaint:
                     wrong.append("%s:%d: %s" % (path, number, complaint))
-    for base in FRONT_ENDS:
+    for base in FRONT_ENDS + (UMBRELLA,):
         for path in sources(root, base):
             checked += 1
             for number, header in includes(root, path):

@@ -84,11 +84,12 @@ EngineOptions engine_options(const CutJob& job) {
   return goes_by_steps(job) && job.budget_us == 0 ? job.engine : detail::without_upkeep(job.engine);
 }
 
-/// Says of all blades whether they keep within reach, before anything is cut.
+/// Says of all blades whether they sweep something and keep within reach, before anything is cut.
 Status check_blades(const CutJob& job, const Box& body) {
   for (std::size_t i = 0; i < job.strokes.size(); ++i) {
     Stroke stroke = job.strokes[i];
     stroke.name.clear();  // `in_stroke` says it
+    if (const Status status = check(stroke); !status.ok()) return in_stroke(status.error(), job, i);
     if (const Status status = check_reach(stroke, body); !status.ok()) return in_stroke(status.error(), job, i);
   }
   return {};

@@ -33,24 +33,21 @@ std::array<float, QualityFigures::kBins> bin_floors() {
 
 }  // namespace
 
-QualityMonitor::QualityMonitor(const TetMesh& mesh, const Journal& journal) {
+QualityMonitor::QualityMonitor(const TetMesh& mesh, const Journal& journal) : cursor_(journal) {
   measure_all(mesh);
-  position_ = journal.position();
-  rewinds_ = journal.rewinds();
   before_ = now_;
 }
 
 bool QualityMonitor::follow(const TetMesh& mesh, const Journal& journal) {
-  const bool has_rewound = rewinds_ != journal.rewinds() || position_ > journal.position();
-  if (!has_rewound && position_ == journal.position()) return false;
-  if (has_rewound) {
+  const JournalCursor::Way way = cursor_.way_to(journal);
+  if (way == JournalCursor::Way::kNone) return false;
+  if (way == JournalCursor::Way::kElsewhere) {
     measure_all(mesh);
   } else {
-    for (std::size_t i = position_; i < journal.position(); ++i) apply(journal.step(i), mesh);
+    for (std::size_t i = cursor_.position(); i < journal.position(); ++i) apply(journal.step(i), mesh);
     sum();
   }
-  position_ = journal.position();
-  rewinds_ = journal.rewinds();
+  cursor_.move_to(journal);
   return true;
 }
 

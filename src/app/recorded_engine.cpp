@@ -91,9 +91,8 @@ Result<MaintainReport> RecordedEngine::maintain(std::uint64_t work_units, const 
   bool is_told = false;
   ShouldStop counted;
   if (should_stop) counted = [&] { return is_told || (++asked, is_told = should_stop()); };
-  Result<MaintainReport> report =
-      timed([&]() -> Result<MaintainReport> { return engine_.maintain(work_units, counted); });
-  const std::uint64_t spent = report->maintain.work_units;
+  Result<MaintainReport> report = timed([&] { return engine_.maintain(work_units, counted); });
+  const std::uint64_t spent = report.ok() ? report->maintain.work_units : 0;
   return recorded(CallKind::kMaintain, std::move(report), [&](RecordedCall& call) {
     call.limit = work_units;
     if (is_told) call.stop_ask = asked;
@@ -102,8 +101,8 @@ Result<MaintainReport> RecordedEngine::maintain(std::uint64_t work_units, const 
 }
 
 Result<MaintainReport> RecordedEngine::improve() {
-  Result<MaintainReport> report = timed([&]() -> Result<MaintainReport> { return engine_.improve(); });
-  const std::uint64_t spent = report->maintain.work_units;
+  Result<MaintainReport> report = timed([&] { return engine_.improve(); });
+  const std::uint64_t spent = report.ok() ? report->maintain.work_units : 0;
   return recorded(CallKind::kImprove, std::move(report), [&](RecordedCall& call) { call.work_units = spent; });
 }
 

@@ -42,8 +42,9 @@ Outcome outcome_of(bool is_done) {
   return {Error{ErrorCode::kBadArgument, "there is nothing to undo or redo", {}}, {}};
 }
 
-Outcome outcome_of(const MaintainReport& report) {
-  return {{}, report.maintain.work_units};
+Outcome outcome_of(const Result<MaintainReport>& report) {
+  if (!report.ok()) return {report.error(), {}};
+  return {{}, report->maintain.work_units};
 }
 
 Outcome maintain(Engine& engine, const RecordedCall& call) {

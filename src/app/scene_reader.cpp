@@ -412,7 +412,9 @@ class SceneReader {
               const std::vector<SceneStroke>& others) {
     const double frame = scene_.options.frame_seconds;
     const double first = stroke.times.front();
-    if (!check(stroke).ok()) return read_.fail(value, path, "has times that are equal in the scene; stretch them");
+    const bool has_times = stroke.times.size() > 1;  // else it lasts no frame
+    if (has_times && !check(stroke).ok())
+      return read_.fail(value, path, "has times that are equal in the scene; stretch them");
     if (!(first >= 0)) return read_.fail(value, path, "begins before 0 s; start it later");
     if (!(stroke.times.back() - first >= frame)) {
       return read_.fail(value, path, "lasts less than a frame; stretch it, or give it two times");

@@ -71,8 +71,8 @@ struct SessionThread::State {
   std::optional<SurfaceView> surface;
   std::optional<QualityMonitor> quality;
   std::optional<ValidityMonitor> validity;
-  std::vector<TetId> worst;                       // tets, as many as are shown
-  std::pair<std::size_t, std::uint64_t> checked;  // where the journal stood
+  std::vector<TetId> worst;  // tets, as many as are shown
+  JournalCursor checked;     // where the journal stood
   SessionView view;
   std::optional<std::pair<Side, std::uint32_t>> probed;  // with the generation of its tet
   std::uint64_t log_seen = 0;
@@ -158,7 +158,7 @@ void SessionThread::State::look_at_session() {
   surface->set_options(surface_options);
   quality.emplace(engine.mesh(), engine.journal());
   validity.emplace(engine.mesh(), volume_tolerance(engine.options()));
-  checked = {engine.journal().position(), engine.journal().rewinds()};
+  checked.move_to(engine.journal());
   find_worst();
   probed.reset();
   view.score.reset();
@@ -263,8 +263,8 @@ void SessionThread::State::publish() {
 
 void SessionThread::State::check_validity() {
   const Engine& engine = session.engine();
-  const std::pair now(engine.journal().position(), engine.journal().rewinds());
-  if (now != checked && !engine.is_in_stroke() && validity->check(engine.mesh())) checked = now;
+  const bool has_changed = checked.way_to(engine.journal()) != JournalCursor::Way::kNone;
+  if (has_changed && !engine.is_in_stroke() && validity->check(engine.mesh())) checked.move_to(engine.journal());
   view.validity = validity->light();
 }
 

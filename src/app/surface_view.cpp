@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "incise/geom/quality.h"
+#include "incise/mesh/journal_cursor.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/star.h"
 
@@ -69,8 +70,7 @@ struct SurfaceView::State {
   StarWalker walker;                   // scratch
   std::vector<std::uint32_t> touched;  // tet slots, scratch
   std::uint32_t newest = 0;            // the greatest tag of a wall
-  std::size_t position = 0;
-  std::uint64_t rewinds = 0;
+  JournalCursor cursor;
   bool is_stale = true;  // the options changed
 
   void rebuild(const TetMesh& mesh);
@@ -316,18 +316,16 @@ void SurfaceView::set_options(const SurfaceOptions& options) {
 
 bool SurfaceView::follow(const TetMesh& mesh, const Journal& journal) {
   State& s = *state_;
-  const bool has_rewound = s.rewinds != journal.rewinds() || s.position > journal.position();
-  const bool has_moved = has_rewound || s.position != journal.position();
-  if (!has_moved && !s.is_stale) return false;
-  if (has_rewound || s.is_stale || s.options.clip) {
+  const JournalCursor::Way way = s.cursor.way_to(journal);
+  if (way == JournalCursor::Way::kNone && !s.is_stale) return false;
+  if (way == JournalCursor::Way::kElsewhere || s.is_stale || s.options.clip) {
     s.rebuild(mesh);
   } else {
     // What a step did to a tet that later steps changed again no longer matters: the mesh tells.
-    for (std::size_t i = s.position; i < journal.position(); ++i) s.apply(journal.step(i), mesh);
+    for (std::size_t i = s.cursor.position(); i < journal.position(); ++i) s.apply(journal.step(i), mesh);
     s.publish(mesh);
   }
-  s.position = journal.position();
-  s.rewinds = journal.rewinds();
+  s.cursor.move_to(journal);
   s.is_stale = false;
   return true;
 }

@@ -205,9 +205,7 @@ class Cutter::Pipeline {
     }
     if (status) return statistics_;
     stroke_cut_.forget();
-    while (journal.position() > start) {
-      journal.undo(mesh);
-    }
+    journal.take_back(mesh, start);
     return status.error();
   }
   [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const {

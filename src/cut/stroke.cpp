@@ -64,8 +64,12 @@ Vec3 tangent_of(const Vec3& n) {
 
 Status check(const Stroke& stroke) {
   const std::size_t times = stroke.times.size();
-  if (times == 0 || stroke.edges.size() != times) {
-    return bad_stroke(stroke, "needs one polyline per time, and at least one time");
+  if (stroke.edges.size() != times) {
+    return bad_stroke(stroke, "needs one polyline per time; it has " + std::to_string(stroke.edges.size()) + " for " +
+                                  std::to_string(times) + " times");
+  }
+  if (times < 2) {
+    return bad_stroke(stroke, "needs at least two times: a blade sweeps, and cuts, what lies between two places");
   }
   for (std::size_t i = 0; i < times; ++i) {
     if (!std::isfinite(stroke.times[i]) || (i > 0 && !(stroke.times[i] > stroke.times[i - 1]))) {
@@ -84,16 +88,37 @@ Status check(const Stroke& stroke) {
   return {};
 }
 
-Status check_reach(const Stroke& stroke, const Box& body, std::size_t first_time) {
+namespace {
+
+Error out_of_reach(const std::string& place, double reach) {
+  return {ErrorCode::kBadArgument,
+          place + " lies " + in_short(reach) + " times the body's size away from it; " + in_short(kGreatestReach) +
+              " is the most: bring the blade nearer, or to the unit of the mesh",
+          {}};
+}
+
+/// The first point of an edge that is too far away; one past the last where none is.
+std::size_t first_out_of_reach(std::span<const Vec3> edge, const Box& body) {
+  std::size_t k = 0;
+  while (k < edge.size() && reach_of(edge[k], body) <= kGreatestReach) ++k;
+  return k;
+}
+
+}  // namespace
+
+Status check_reach(std::span<const Vec3> edge, const Box& body, const std::string& name) {
+  const std::size_t k = first_out_of_reach(edge, body);
+  if (k == edge.size()) return {};
+  return out_of_reach(name + ": point " + std::to_string(k), reach_of(edge[k], body));
+}
+
+Status check_reach(const Stroke& stroke, const Box& body) {
   for (std::size_t i = 0; i < stroke.edges.size(); ++i) {
-    for (std::size_t k = 0; k < stroke.edges[i].size(); ++k) {
-      const double reach = reach_of(stroke.edges[i][k], body);
-      if (reach <= kGreatestReach) continue;
-      return bad_stroke(stroke, "point " + std::to_string(k) + " at time " + std::to_string(first_time + i) + " lies " +
-                                    in_short(reach) + " times the body's size away from it; " +
-                                    in_short(kGreatestReach) + " is the most: bring the blade nearer, or to the " +
-                                    "unit of the mesh");
-    }
+    const std::size_t k = first_out_of_reach(stroke.edges[i], body);
+    if (k == stroke.edges[i].size()) continue;
+    const std::string name = stroke.name.empty() ? "" : "stroke \"" + stroke.name + "\": ";
+    return out_of_reach(name + "point " + std::to_string(k) + " at time " + std::to_string(i),
+                        reach_of(stroke.edges[i][k], body));
   }
   return {};
 }

@@ -25,13 +25,13 @@ Box box_of(const TetMesh& mesh, Side side) {
 
 void SurfaceIndex::follow(const TetMesh& mesh, const Journal& journal) {
   const bool has_grown_much = entries_.size() > 4 * built_entries_ + 100000;
-  if (!is_built_ || journal.rewinds() != rewinds_ || journal.position() < position_ || has_grown_much) {
+  const bool is_elsewhere = cursor_.way_to(journal) == JournalCursor::Way::kElsewhere;
+  if (!is_built_ || is_elsewhere || has_grown_much) {
     build(mesh);
   } else {
-    for (std::size_t i = position_; i < journal.position(); ++i) add_changed(mesh, journal.step(i));
+    for (std::size_t i = cursor_.position(); i < journal.position(); ++i) add_changed(mesh, journal.step(i));
   }
-  position_ = journal.position();
-  rewinds_ = journal.rewinds();
+  cursor_.move_to(journal);
 }
 
 /// The sides that a step may have made boundary, or moved.

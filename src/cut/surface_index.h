@@ -5,7 +5,7 @@
 
 #include "incise/core/grow_array.h"
 #include "incise/geom/box.h"
-#include "incise/mesh/journal.h"
+#include "incise/mesh/journal_cursor.h"
 #include "incise/mesh/star.h"
 
 namespace incise::inline v0 {
@@ -75,8 +75,7 @@ class SurfaceIndex {
   mutable GrowArray<Entry> entries_;
   mutable std::uint32_t free_ = 0;  // entries to be used again: 1 + index of the first
   StarWalker walker_;
-  std::size_t position_ = 0;  // of the journal
-  std::uint64_t rewinds_ = 0;
+  JournalCursor cursor_;
   std::size_t built_entries_ = 0;
   bool has_walls_ = false;
   bool is_built_ = false;

@@ -78,37 +78,69 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   const std::size_t first_step = journal_.position();
   Result<CutStatistics> cut = cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
   if (!cut) {
+    forget_lost_redo();
     return cut.error();
+  }
+  const std::size_t first_maintaining = journal_.position();
+  Status status = check_steps(first_step);
+  if (status) {
+    maintainer_.begin_reference(report.stroke);
+    take_up(swept_triangles(stroke), report.stroke, first_step);
+    report.maintain = maintain(options_.maintain.work_units, report.times, {});
+    status = check_steps(first_maintaining);
+  }
+  if (!status) {
+    take_back(first_step);
+    return status.error();
   }
   report.cut = *cut;
   tell(options_.log, *cut);
-  maintainer_.begin_reference(report.stroke);
-  take_up(swept_triangles(stroke), report.stroke, first_step);
-  report.maintain = maintain(options_.maintain.work_units, report.times, {});
   report.step_ms.push_back(milliseconds_since(start));
   push_operation(true);
   return report;
 }
 
-namespace {
-
-/// A stroke of one or two poses, to be checked like any other.
-Stroke stroke_of(const BladePose& first, const BladePose* second) {
-  Stroke stroke;
-  stroke.times = {0.0};
-  stroke.edges = {first.edge};
-  if (second != nullptr) {
-    stroke.times.push_back(1.0);
-    stroke.edges.push_back(second->edge);
-  }
-  return stroke;
+/// What a call committed is checked by whom the options name.
+Status Engine::check_steps(std::size_t first_step) {
+  const bool has_steps = journal_.position() > first_step;
+  return has_steps && options_.check_step ? options_.check_step(mesh_, journal_, first_step) : Status{};
 }
 
-Status check(const BladePose& first, const BladePose* second) {
-  if (!(second == nullptr ? first : *second).direction.allFinite()) {
-    return Error{ErrorCode::kBadArgument, "the blade's direction is not finite", {}};
+/// After a call that failed: as the mesh was before its first step.
+void Engine::take_back(std::size_t first_step) {
+  journal_.take_back(mesh_, first_step);
+  cutter_.forget();
+  maintainer_.forget(first_step);
+  paper_first_step_ = kNothingWaits;
+  forget_lost_redo();
+}
+
+/// What was undone before a call that then failed has left the journal for its steps.
+void Engine::forget_lost_redo() {
+  if (!undone_.empty() && undone_.front().end > journal_.size()) {
+    undone_.clear();
   }
-  return check(stroke_of(first, second));
+}
+
+namespace {
+
+Error bad_pose(const std::string& name, const std::string& what) {
+  return {ErrorCode::kBadArgument, name + ": " + what, {}};
+}
+
+std::string points(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " point" : " points");
+}
+
+Status check(const BladePose& pose, const std::string& name) {
+  if (pose.edge.size() < 2) {
+    return bad_pose(name, "its edge has " + points(pose.edge.size()) + "; it needs at least 2");
+  }
+  for (std::size_t k = 0; k < pose.edge.size(); ++k) {
+    if (!pose.edge[k].allFinite()) return bad_pose(name, "point " + std::to_string(k) + " of its edge is not finite");
+  }
+  if (!pose.direction.allFinite()) return bad_pose(name, "its direction is not finite");
+  return {};
 }
 
 Vec3 direction_of(const BladePose& pose) {
@@ -120,20 +152,25 @@ Error no_stroke() {
   return {ErrorCode::kBadArgument, "no stroke is under way; begin one first", {}};
 }
 
+Error in_stroke(const std::string& call) {
+  return {ErrorCode::kBadArgument, call + ": a stroke is under way, and maintained as it goes; end it first", {}};
+}
+
 }  // namespace
 
+std::string Engine::name_of_next_pose() const {
+  return "pose " + std::to_string(is_in_stroke_ ? open_.steps + 1 : 0) + " of stroke " + std::to_string(next_stroke());
+}
+
 Status Engine::check_pose(const BladePose& pose) const {
-  Stroke stroke = stroke_of(pose, nullptr);
-  stroke.name = std::to_string(stroke_count() + 1);
-  return check_reach(stroke, box_, is_in_stroke_ ? open_.steps + 1 : 0);
+  const std::string name = name_of_next_pose();
+  if (Status status = check(pose, name); !status) return status;
+  return check_reach(pose.edge, box_, name);
 }
 
 Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
   if (is_in_stroke_) {
     return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
-  }
-  if (Status status = check(pose, nullptr); !status) {
-    return status.error();
   }
   if (Status status = check_pose(pose); !status) {
     return status.error();
@@ -154,11 +191,13 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   if (!is_in_stroke_) {
     return no_stroke();
   }
-  if (Status status = check(open_.poses.front(), &pose); !status) {
-    return status.error();
-  }
   if (Status status = check_pose(pose); !status) {
     return status.error();
+  }
+  if (const std::size_t count = open_.poses.front().edge.size(); pose.edge.size() != count) {
+    return bad_pose(name_of_next_pose(), "its edge has " + points(pose.edge.size()) +
+                                             "; all poses of a stroke have as many as its first, " +
+                                             std::to_string(count));
   }
   ++open_.steps;
   if (is_paper()) {
@@ -166,14 +205,22 @@ Result<StepReport> Engine::step(const BladePose& pose) {
     return StepReport{};
   }
   const auto start = std::chrono::steady_clock::now();
+  const std::size_t first_step = journal_.position();
   StepReport report;
   maintain_between_sheets(report.maintain, report.times);
   Result<CutStatistics> cut = cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
   if (!cut) {
-    return abort_stroke(cut.error());
+    return abort_stroke(first_step, cut.error());
   }
   report.cut = *cut;
+  if (Status status = check_steps(first_step); !status) {
+    return abort_stroke(first_step, status.error());
+  }
+  const std::size_t first_maintaining = journal_.position();
   maintain_wake(busy(), report.maintain, report.times);
+  if (Status status = check_steps(first_maintaining); !status) {
+    return abort_stroke(first_step, status.error());
+  }
   open_.report.cut += *cut;
   open_.report.maintain += report.maintain;
   open_.report.times += report.times;
@@ -200,9 +247,9 @@ void Engine::maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, S
 
 /// A step that failed leaves the stroke as it was before; what it had found out about the mesh is lost, so that the
 /// stroke ends there.
-Error Engine::abort_stroke(Error error) {
+Error Engine::abort_stroke(std::size_t first_step, Error error) {
   is_in_stroke_ = false;
-  maintainer_.forget();
+  take_back(first_step);
   push_operation(true);
   return error;
 }
@@ -214,31 +261,40 @@ Result<StrokeReport> Engine::end_stroke() {
   if (is_paper()) {
     return end_stroke_as_paper();
   }
+  const std::size_t first_step = journal_.position();
   if (Status status = close_stroke(); !status) {
-    return status.error();
+    return abort_stroke(first_step, status.error());
   }
-  maintain_wake({}, open_.report.maintain, open_.report.times);
-  operations_.back().end = journal_.position();
+  is_in_stroke_ = false;
+  push_operation(true);
   tell(options_.log, open_.report.cut);
   return std::move(open_.report);
 }
 
-/// The stroke becomes an operation, cut to where the blade was last.
+/// Cuts to where the blade was last, and maintains what is left.
 Status Engine::close_stroke() {
-  is_in_stroke_ = false;
+  const std::size_t first_step = journal_.position();
   maintain_between_sheets(open_.report.maintain, open_.report.times);
   Result<CutStatistics> cut = cutter_.end(mesh_, journal_, open_.report.times);
-  push_operation(true);
   if (!cut) {
     return cut.error();
   }
   open_.report.cut += *cut;
-  return {};
+  if (Status status = check_steps(first_step); !status) {
+    return status;
+  }
+  const std::size_t first_maintaining = journal_.position();
+  maintain_wake({}, open_.report.maintain, open_.report.times);
+  return check_steps(first_maintaining);
 }
 
 /// The paper's profile cuts a stroke as a whole, once its sweep is known.
 Result<StrokeReport> Engine::end_stroke_as_paper() {
   is_in_stroke_ = false;
+  if (open_.poses.size() < 2) {  // the blade was lifted where it was put down
+    push_operation(true);
+    return std::move(open_.report);
+  }
   Stroke stroke;
   for (const BladePose& pose : open_.poses) {
     stroke.times.push_back(static_cast<double>(stroke.times.size()));
@@ -300,12 +356,17 @@ MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times,
   return maintain_as_paper(mesh_, journal_, first_step, options_.maintain, times);
 }
 
-MaintainReport Engine::maintain(std::uint64_t work_units, const ShouldStop& should_stop) {
-  MaintainReport report;
+Result<MaintainReport> Engine::maintain(std::uint64_t work_units, const ShouldStop& should_stop) {
   if (is_in_stroke_) {
-    return report;
+    return in_stroke("maintain");
   }
+  MaintainReport report;
+  const std::size_t first_step = journal_.position();
   report.maintain = maintain(work_units, report.times, should_stop);
+  if (Status status = check_steps(first_step); !status) {
+    take_back(first_step);
+    return status.error();
+  }
   if (!operations_.empty()) {
     operations_.back().end = journal_.position();
   }
@@ -316,16 +377,21 @@ bool Engine::has_maintenance() const {
   return is_paper() ? paper_first_step_ != kNothingWaits : maintainer_.has_work();
 }
 
-MaintainReport Engine::improve(const ShouldStop& should_stop) {
-  MaintainReport report;
+Result<MaintainReport> Engine::improve(const ShouldStop& should_stop) {
   if (is_in_stroke_) {
-    return report;
+    return in_stroke("improve");
   }
+  MaintainReport report;
+  const std::size_t first_step = journal_.position();
   if (maintains() && is_paper()) {
     report.maintain = maintain_all_as_paper(mesh_, journal_, options_.maintain, report.times);
   } else if (maintains()) {
     maintainer_.take_up_all(mesh_);
     report.maintain = maintainer_.run(mesh_, journal_, options_.maintain.work_units, report.times, should_stop);
+  }
+  if (Status status = check_steps(first_step); !status) {
+    take_back(first_step);
+    return status.error();
   }
   push_operation(false);
   return report;
@@ -335,6 +401,32 @@ void Engine::push_operation(bool is_stroke) {
   operations_.push_back({journal_.position(), is_stroke});
   undone_.clear();
   stroke_count_ += is_stroke ? 1U : 0U;
+  trim_history();
+}
+
+Status Engine::keep_undo(std::size_t operations) {
+  if (operations == 0) {
+    return Error{ErrorCode::kBadArgument,
+                 "the history keeps at least 1 operation: followers need the steps of the last one",
+                 {}};
+  }
+  kept_operations_ = operations;
+  trim_history();
+  return {};
+}
+
+/// Whoever in the engine reads the journal has read what is forgotten, or keeps it from being so.
+void Engine::trim_history() {
+  if (operations_.size() <= kept_operations_) {
+    return;
+  }
+  for (; operations_.size() > kept_operations_; operations_.pop_front()) {
+    oldest_position_ = operations_.front().end;
+  }
+  if (maintains()) {
+    maintainer_.follow(mesh_, journal_);
+  }
+  journal_.trim(std::min(oldest_position_, paper_first_step_));
 }
 
 bool Engine::undo() {
@@ -349,7 +441,7 @@ bool Engine::undo() {
   undone_.push_back(operations_.back());
   operations_.pop_back();
   stroke_count_ -= undone_.back().is_stroke ? 1U : 0U;
-  const std::size_t target = operations_.empty() ? 0 : operations_.back().end;
+  const std::size_t target = operations_.empty() ? oldest_position_ : operations_.back().end;
   while (journal_.position() > target) {
     journal_.undo(mesh_);
   }

@@ -114,7 +114,7 @@ struct Simulation::State {
   Status relax(FrameReport& report);
   Status cut(const FrameInput& input, FrameReport& report);
   Status lift_blade(FrameReport& report);
-  void maintain(FrameReport& report);
+  Status maintain(FrameReport& report);
   Status follow(FrameReport& report);
   Status follow_mesh();
   Status hand_over();
@@ -131,7 +131,7 @@ Result<FrameReport> Simulation::frame(const FrameInput& input) {
   if (Status status = s.relax(report); !status) return status.error();
   report.hook_forces = s.hook_forces(input);
   if (Status status = s.cut(input, report); !status) return status.error();
-  s.maintain(report);
+  if (Status status = s.maintain(report); !status) return status.error();
   if (Status status = s.follow(report); !status) return status.error();
   report.stroke = s.is_in_stroke ? s.engine.stroke_count() + 1 : 0;
   ++s.frames;
@@ -295,11 +295,13 @@ Status Simulation::State::lift_blade(FrameReport& report) {
 }
 
 /// What a stroke's maintenance has left goes on in the frames after it.
-void Simulation::State::maintain(FrameReport& report) {
-  if (is_in_stroke || !engine.has_maintenance() || report.maintain.work_units > 0) return;
-  const MaintainReport more = engine.maintain(options.engine.maintain.work_units);
-  report.maintain += more.maintain;
-  report.times += more.times;
+Status Simulation::State::maintain(FrameReport& report) {
+  if (is_in_stroke || !engine.has_maintenance() || report.maintain.work_units > 0) return {};
+  const Result<MaintainReport> more = engine.maintain(options.engine.maintain.work_units);
+  if (!more) return more.error();
+  report.maintain += more->maintain;
+  report.times += more->times;
+  return {};
 }
 
 Status Simulation::State::follow(FrameReport& report) {
@@ -325,7 +327,7 @@ Status Simulation::State::follow_mesh() {
 
 Result<Simulation> Simulation::create(TetMesh mesh, SimulationOptions options) {
   if (Status status = check(options); !status) return status.error();
-  Result<DeformableBody> body = DeformableBody::create(mesh, 0, options.materials, options.body);
+  Result<DeformableBody> body = DeformableBody::create(mesh, {}, options.materials, options.body);
   if (!body) return body.error();
   const double spacing = mean_edge(mesh);
   Result<Engine> engine = Engine::create(std::move(mesh), options.engine);

@@ -589,6 +589,10 @@ MaintainStatistics Maintainer::run(TetMesh& mesh, Journal& journal, std::uint64_
 bool Maintainer::has_work() const {
   return queue_->has_work();
 }
+void Maintainer::follow(const TetMesh& mesh, const Journal& journal) {
+  queue_->references().skin().follow(mesh, journal);
+}
+
 void Maintainer::forget(std::size_t position) {
   queue_->forget(position);
 }

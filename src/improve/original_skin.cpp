@@ -51,7 +51,8 @@ std::size_t OriginalSkin::CellHash::operator()(const Cell& cell) const {
 
 void OriginalSkin::begin(const TetMesh& mesh, const Journal& journal) {
   if (has_begun_) return;
-  tet_slots_ = journal.size() > 0 ? journal.step(0).before.tet_slots : mesh.tet_slots();
+  const bool has_steps = journal.size() > journal.first();
+  tet_slots_ = has_steps ? journal.step(journal.first()).before.tet_slots : mesh.tet_slots();
   has_begun_ = true;
 }
 

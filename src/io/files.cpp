@@ -56,6 +56,9 @@ Result<std::string> load_file(const fs::path& path, const ReadLimits& limits) {
   if (fs::is_directory(path, code)) {
     return io_error(ErrorCode::kBadFile, path, "is a folder; give the file in it");
   }
+  if (fs::is_character_file(path, code) || fs::is_block_file(path, code)) {
+    return io_error(ErrorCode::kBadFile, path, "is a device, which may have no end; give a file, or a pipe");
+  }
   const File file(std::fopen(path.string().c_str(), "rb"));
   if (!file) {
     return io_error(ErrorCode::kBadFile, path,

@@ -20,6 +20,8 @@ namespace {
 
 constexpr int kGzipWindow = 15 + 16;
 constexpr std::size_t kMaxChunk = std::size_t{1} << 30U;
+/// Meshes shrink to a tenth, in regular boxes to a fiftieth. What grows further than this, and beyond 64 MiB, is none.
+constexpr std::uint64_t kMostGrowth = 200, kSmall = std::uint64_t{64} << 20U;
 
 Bytef* as_bytes(const char* p) {
   return reinterpret_cast<Bytef*>(const_cast<char*>(p));
@@ -69,11 +71,14 @@ bool gunzip(std::string_view bytes, std::uint64_t max_bytes, std::string& out, s
   Inflater inflater(bytes, kGzipWindow);
   if (!inflater.ready()) return why = "zlib cannot start", false;
   std::size_t filled = 0;
+  max_bytes = std::min<std::uint64_t>(max_bytes, std::max<std::uint64_t>(kSmall, kMostGrowth * bytes.size()));
   out.resize(std::min<std::uint64_t>(max_bytes, 4 * bytes.size() + 1024));
   for (;;) {
     if (filled == out.size()) {
       if (filled >= max_bytes)
-        return why = "grows beyond " + std::to_string(max_bytes) + " bytes; gunzip it yourself", false;
+        return why = "gunzips to more than " + std::to_string(max_bytes) + " bytes, the most that is taken of " +
+                     std::to_string(bytes.size()) + "; gunzip it yourself",
+               false;
       out.resize(std::min<std::uint64_t>(max_bytes, 2 * out.size()));
     }
     std::size_t got = 0;

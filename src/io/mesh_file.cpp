@@ -2,8 +2,10 @@
 // Finds the format of a mesh from its content, and gets bytes from the disk.
 #include "incise/io/mesh_file.h"
 
+#include <algorithm>
 #include <new>
 #include <system_error>
+#include <vector>
 
 #include "io/files.h"
 #include "io/gzip.h"
@@ -34,9 +36,63 @@ const char* unsupported_kind(std::string_view bytes) {
   if (starts_with(bytes, "MATLAB 5.0")) return "MATLAB (.mat)";
   if (starts_with(bytes, "\1\0\0\0"sv) || starts_with(bytes, "\0\0\0\1"sv)) return "binary MEDIT (.meshb)";
   if (starts_with(bytes, "PK\3\4")) return "a zip archive";
+  if (starts_with(bytes, "\4\x22M\x18")) return "an LZ4 archive";
   if (starts_with(bytes, "solid ") || starts_with(bytes, "OFF")) return "a surface (it holds no tets)";
   if (starts_with(bytes, "CDF") || starts_with(bytes, "NRRD")) return "this kind of file";
   return nullptr;
+}
+
+/// How many lines are looked at to tell one kind of text from another.
+constexpr unsigned kLinesToTell = 200;
+
+/// Calls `visit(line)` with the first lines, trimmed, until it returns true; returns whether it did.
+template <class Visit>
+bool any_line(std::string_view bytes, Visit&& visit) {
+  std::size_t at = 0;
+  for (unsigned i = 0; at < bytes.size() && i < kLinesToTell; ++i) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    if (visit(trim(bytes.substr(at, end - at)))) return true;
+    at = end + 1;
+  }
+  return false;
+}
+
+/// A bulk data file of finite elements; its comments begin with '$', as the sections of Gmsh do.
+bool is_nastran(std::string_view bytes) {
+  return any_line(bytes, [](std::string_view line) {
+    return starts_with(line, "BEGIN BULK") || starts_with(line, "GRID") || starts_with(line, "CTETRA") ||
+           starts_with(line, "CEND");
+  });
+}
+
+/// What a text that begins with numbers alone is, where that is known and of no use here.
+const char* unsupported_numbers(std::string_view bytes) {
+  std::vector<double> first;
+  any_line(bytes, [&](std::string_view line) {
+    line = trim(line.substr(0, line.find('#')));  // without its comment
+    if (line.empty()) return false;
+    for (std::size_t at = 0; at < line.size();) {
+      const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+      double number = 0;
+      if (end > at && parse_double(line.substr(at, end - at), number)) first.push_back(number);
+      at = end + 1;
+    }
+    return true;
+  });
+  if (first.size() == 1 && first[0] == -1) return "I-DEAS universal (.unv)";
+  if (first.size() == 5) return "AVS UCD (.inp)";
+  const bool is_tetgen = first.size() > 1 && (first[1] == 3 || first[1] == 4 || first[1] == 10);
+  if (first.size() == 3 && !is_tetgen) return "FreeFem (.msh of a plane mesh)";
+  return nullptr;
+}
+
+/// Known formats of text that are of no use here.
+const char* unsupported_text(std::string_view bytes) {
+  const bool is_gmsh = any_line(bytes, [](std::string_view line) {
+    return starts_with(line, "$MeshFormat") || starts_with(line, "$NOD") || starts_with(line, "$Nodes");
+  });
+  if (!is_gmsh && is_nastran(bytes)) return "Nastran bulk data (.bdf, .nas)";
+  return unsupported_numbers(bytes);
 }
 
 // Lines that begin with '*' tell Vega from Abaqus.
@@ -90,6 +146,9 @@ bool run(Job& job) {
   const std::string_view trimmed = trim(job.bytes.substr(0, 64));
   if (starts_with(trimmed, "{") || starts_with(trimmed, "[")) return refuse(job, "JSON");
   const Reader reader = find_reader(job.bytes);
+  if (reader == nullptr || reader == read_msh || reader == read_tetgen) {  // what looks like these may be others
+    if (const char* kind = unsupported_text(job.bytes)) return refuse(job, kind);
+  }
   if (reader == nullptr) return refuse(job, "this kind of file");
   return reader(job) && finish(job);
 }
@@ -100,8 +159,29 @@ Error complete(Error error) {
   return error;
 }
 
-Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, const SiblingLoader& sibling,
+/// Whether this is text whose lines end in carriage returns alone, as old programs of the Macintosh write them.
+bool ends_lines_by_return(std::string_view bytes) {
+  const auto has = [&](char c) { return bytes.find(c) != std::string_view::npos; };
+  return has('\r') && !has('\n') && !has('\0');
+}
+
+std::string with_line_feeds(std::string_view bytes) {
+  std::string text(bytes);
+  std::replace(text.begin(), text.end(), '\r', '\n');
+  return text;
+}
+
+Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, const SiblingLoader& load,
                             const ReadLimits& limits) {
+  std::string converted;
+  if (ends_lines_by_return(bytes)) bytes = converted = with_line_feeds(bytes);
+  SiblingLoader sibling;
+  if (load) {
+    sibling = [&load](const std::string& other) {
+      Result<std::string> loaded = load(other);
+      return loaded.ok() && ends_lines_by_return(*loaded) ? Result<std::string>(with_line_feeds(*loaded)) : loaded;
+    };
+  }
   Job job{name, bytes, sibling, limits, {}, {}};
   if (!run(job)) return complete(std::move(job.error));
   return std::move(job.out);

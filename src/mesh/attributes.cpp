@@ -10,8 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "incise/core/hash.h"
-
 namespace incise::inline v0 {
 
 namespace {
@@ -20,47 +18,6 @@ constexpr TetVertices kNoVertices{};
 constexpr std::uint32_t kMaxWidth = 64;
 /// Volumes that differ by less than this share are equal up to rounding.
 constexpr double kVolumeRounding = 1e-9;
-
-void add(StateHash& hash, const Vec3& point) {
-  for (int axis = 0; axis < 3; ++axis) {
-    hash.add(point[axis]);
-  }
-}
-
-void add(StateHash& hash, const TetVertices& vertices) {
-  hash.add((std::uint64_t{vertices[0].value} << 32U) | vertices[1].value);
-  hash.add((std::uint64_t{vertices[2].value} << 32U) | vertices[3].value);
-}
-
-/// Tells a step from one that took its place in the journal.
-std::uint64_t fingerprint_of(const Step& step) {
-  StateHash hash;
-  for (const BornVertex& v : step.born) {
-    hash.add(std::uint64_t{v.id.value});
-    add(hash, v.rest);
-  }
-  for (const MovedVertex& v : step.moved) {
-    hash.add(std::uint64_t{v.id.value});
-    add(hash, v.rest);
-  }
-  for (const CopiedVertex& v : step.copied) hash.add((std::uint64_t{v.id.value} << 32U) | v.source.value);
-  for (const ConsumedTet& t : step.consumed) hash.add(std::uint64_t{t.id.value});
-  for (const ProducedTet& t : step.produced) {
-    hash.add((std::uint64_t{t.id.value} << 32U) | t.parent.value);
-    add(hash, t.vertices);
-  }
-  for (const RewiredTet& t : step.rewired) {
-    hash.add(std::uint64_t{t.id.value});
-    add(hash, t.vertices);
-  }
-  for (const VertexId v : step.died) hash.add(std::uint64_t{v.value});
-  for (const Edit& e : step.edits) hash.add((std::uint64_t{e.consumed_end} << 32U) | e.produced_end);
-  for (const ProducedTet& t : step.edit_produced) {
-    hash.add((std::uint64_t{t.id.value} << 32U) | t.parent.value);
-    add(hash, t.vertices);
-  }
-  return hash.value();
-}
 
 /// A sorted table of the elements that a step names; find() in O(log n).
 template <class IdType, class T>
@@ -701,7 +658,8 @@ class Attributes::Stepper {
   std::vector<double> before_, after_;  // volumes, by star
 };
 
-Attributes::Attributes(const TetMesh& mesh, std::size_t position) : base_(position) {
+Attributes::Attributes(const TetMesh& mesh, const Journal& journal)
+    : base_(journal.position()), base_serial_(journal.serial_before(journal.position())) {
   resize(mesh.vertex_slots(), mesh.tet_slots());
   mesh.for_each_vertex([&](VertexId v) { rest_[v] = mesh.rest(v); });
   mesh.for_each_tet([&](TetId tet) {
@@ -750,44 +708,66 @@ AttributeId Attributes::find(const std::string& name) const {
   return {};
 }
 
+/// How many of the applied steps are applied still; none where the journal does not tell any more.
+std::optional<std::size_t> Attributes::common_with(const Journal& journal) const {
+  if (journal.position() < base_) return std::nullopt;
+  for (std::size_t common = std::min(journal.position() - base_, applied_); base_ + common >= journal.first();
+       --common) {
+    const std::uint64_t serial = common == 0 ? base_serial_ : records_[common - 1].serial;
+    if (journal.serial_before(base_ + common) == serial) return common;
+    if (common == 0) break;
+  }
+  return std::nullopt;
+}
+
 Status Attributes::follow(const Journal& journal, const TetMesh& mesh) {
-  if (journal.position() < base_) {
+  const std::optional<std::size_t> common = common_with(journal);
+  if (!common) {
     return Error{ErrorCode::kBadArgument,
-                 "the journal stands at step " + std::to_string(journal.position()) +
-                     ", before the attributes began at step " + std::to_string(base_) + ": construct them anew",
-                 {journal.position(), base_}};
+                 "the journal stands at step " + std::to_string(journal.position()) + " and keeps those from " +
+                     std::to_string(journal.first()) + " on: the attributes, which began at step " +
+                     std::to_string(base_) + " and stand at step " + std::to_string(position()) +
+                     ", cannot get there; construct them anew",
+                 {journal.position(), journal.first(), base_, position()}};
   }
-  const std::size_t target = journal.position() - base_;
-  std::size_t common = std::min(target, applied_);
-  while (common > 0 && fingerprint_of(journal.step(base_ + common - 1)) != records_[common - 1].fingerprint) {
-    --common;
-  }
-  while (applied_ > common) {
+  while (applied_ > *common) {
     swap_with(records_[--applied_]);
   }
-  while (applied_ < target) {
-    const Step& step = journal.step(base_ + applied_);
-    const std::uint64_t fingerprint = fingerprint_of(step);
-    if (applied_ < records_.size() && records_[applied_].fingerprint == fingerprint) {
-      swap_with(records_[applied_++]);
-      continue;
-    }
-    records_.resize(applied_);
-    Record& record = records_.emplace_back();
-    record.fingerprint = fingerprint;
-    record.vertex_slots = static_cast<std::uint32_t>(rest_.size());
-    record.tet_slots = static_cast<std::uint32_t>(tets_.size());
-    record.values.resize(attributes_.size());
-    std::uint32_t vertex_slots = record.vertex_slots, tet_slots = record.tet_slots;
-    for (const VertexId v : step.new_vertices) vertex_slots = std::max(vertex_slots, v.value + 1);
-    for (const TetId t : step.new_tets) tet_slots = std::max(tet_slots, t.value + 1);
-    resize(vertex_slots, tet_slots);
-    Stepper(*this, step, record).run();
-    mark(record, false);
-    ++applied_;
+  while (position() < journal.position()) {
+    apply(journal.step(position()));
   }
   recompute_last(mesh);
+  forget_trimmed(journal);
   return {};
+}
+
+/// An undone step comes back as it was left; a new one drops those that were undone.
+void Attributes::apply(const Step& step) {
+  if (applied_ < records_.size() && records_[applied_].serial == step.serial) {
+    swap_with(records_[applied_++]);
+    return;
+  }
+  records_.resize(applied_);
+  Record& record = records_.emplace_back();
+  record.serial = step.serial;
+  record.vertex_slots = static_cast<std::uint32_t>(rest_.size());
+  record.tet_slots = static_cast<std::uint32_t>(tets_.size());
+  record.values.resize(attributes_.size());
+  std::uint32_t vertex_slots = record.vertex_slots, tet_slots = record.tet_slots;
+  for (const VertexId v : step.new_vertices) vertex_slots = std::max(vertex_slots, v.value + 1);
+  for (const TetId t : step.new_tets) tet_slots = std::max(tet_slots, t.value + 1);
+  resize(vertex_slots, tet_slots);
+  Stepper(*this, step, record).run();
+  mark(record, false);
+  ++applied_;
+}
+
+/// What the journal cannot undo needs no record.
+void Attributes::forget_trimmed(const Journal& journal) {
+  for (; base_ < journal.first(); ++base_, --applied_) {
+    base_serial_ = records_.front().serial;
+    records_.pop_front();
+  }
 }
 
 void Attributes::resize(std::uint32_t vertex_slots, std::uint32_t tet_slots) {

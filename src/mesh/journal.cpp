@@ -1,19 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/mesh/journal.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace incise::inline v0 {
 
 void Journal::append(Step step) {
-  steps_.resize(position_);
+  steps_.resize(position_ - first_);
+  step.serial = ++newest_serial_;
   steps_.push_back(std::move(step));
   ++position_;
 }
 
-void Journal::clear() {
-  steps_.clear();
-  position_ = 0;
+void Journal::take_back(TetMesh& mesh, std::size_t position) {
+  while (position_ > position && undo(mesh)) {
+  }
+  steps_.resize(position_ - first_);
+}
+
+void Journal::trim(std::size_t position) {
+  const std::size_t end = std::min(position, position_);
+  for (; first_ < end; ++first_) {
+    trimmed_serial_ = steps_.front().serial;
+    steps_.pop_front();
+  }
+}
+
+namespace {
+
+template <class... Lists>
+std::size_t bytes_of(const Lists&... lists) {
+  return (... + (lists.capacity() * sizeof(typename Lists::value_type)));
+}
+
+std::size_t bytes_of_image(const StepImage& image) {
+  return bytes_of(image.tets, image.vertices, image.free_tets, image.free_vertices);
+}
+
+}  // namespace
+
+std::size_t Journal::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const Step& s : steps_) {
+    bytes += sizeof(Step) + bytes_of_image(s.before) + bytes_of_image(s.after);
+    bytes += bytes_of(s.born, s.moved, s.copied, s.consumed, s.produced, s.rewired, s.opened, s.closed, s.died);
+    bytes += bytes_of(s.edits, s.edit_consumed, s.edit_produced, s.new_tets, s.new_vertices);
+  }
+  return bytes;
 }
 
 namespace {
@@ -56,11 +90,10 @@ void restore_free_list(GrowArray<std::uint32_t>& list, std::size_t common, const
 }  // namespace
 
 bool Journal::undo(TetMesh& mesh) {
-  if (position_ == 0) {
+  if (position_ == first_) {
     return false;
   }
-  ++rewinds_;
-  Step& step = steps_[--position_];
+  Step& step = steps_[--position_ - first_];
   step.after = image_of(mesh, step, mesh.free_tets_, mesh.free_vertices_);
   for (const TetId id : step.new_tets) {
     if (mesh.is_live(id)) {
@@ -81,11 +114,10 @@ bool Journal::undo(TetMesh& mesh) {
 }
 
 bool Journal::redo(TetMesh& mesh) {
-  if (position_ == steps_.size()) {
+  if (position_ == size()) {
     return false;
   }
-  ++rewinds_;
-  Step& step = steps_[position_++];
+  Step& step = steps_[position_++ - first_];
   restore(mesh, step, step.after);
   return true;
 }

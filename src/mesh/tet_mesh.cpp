@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "incise/core/hash.h"
+#include "incise/geom/predicates.h"
 #include "incise/geom/quality.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/star.h"
@@ -144,6 +145,9 @@ Result<TetMesh> TetMesh::build(TetSoup soup) {
   if (Status status = mesh.check_extent(); !status) {
     return status.error();
   }
+  if (Status status = mesh.check_orientation(); !status) {
+    return status.error();
+  }
   mesh.link_faces();
   mesh.tag_walls(soup.walls);
   mesh.find_loose_edges();
@@ -230,6 +234,18 @@ Status TetMesh::check_extent() const {
   }
   if (extent > 0 && !(extent >= kLeastExtent)) {
     return bad_extent("the mesh extends over " + in_short(extent) + " only");
+  }
+  return {};
+}
+
+Status TetMesh::check_orientation() const {
+  for (std::uint32_t slot = 0; slot < tet_slots(); ++slot) {
+    const TetVertices& v = tet_vertices_[TetId(slot)];
+    if (orient3d(rest_[v[0]], rest_[v[1]], rest_[v[2]], rest_[v[3]]) < 0) {
+      return bad_tet(slot,
+                     "is inverted: its volume is negative; exchange two of its corners, or let normalise() "
+                     "turn all such tets before the mesh is built");
+    }
   }
   return {};
 }

@@ -68,11 +68,11 @@ Status check(const Pull& pull, std::size_t index, const DeformableBody::State& s
 
 }  // namespace
 
-Result<DeformableBody> DeformableBody::create(const TetMesh& mesh, std::size_t position, const Materials& materials,
+Result<DeformableBody> DeformableBody::create(const TetMesh& mesh, const Journal& journal, const Materials& materials,
                                               const BodyOptions& options) {
   if (Status status = check(materials); !status) return status.error();
   if (Status status = check(options); !status) return status.error();
-  auto state = std::make_unique<State>(mesh, position, materials, options);
+  auto state = std::make_unique<State>(mesh, journal, materials, options);
   state->build(mesh);
   return DeformableBody(std::move(state));
 }

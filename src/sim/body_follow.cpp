@@ -184,7 +184,6 @@ void DeformableBody::State::build(const TetMesh& mesh) {
   momentum_id = *attributes.add(mesh, {"momentum", Domain::kVertex, 3, Transfer::kConserve, {}, {}});
   std::copy(mass.begin(), mass.end(), masses());
   for (std::uint32_t v = 0; v < rest.size(); ++v) settle_vertex(VertexId(v));
-  position = attributes.position();
   centre();
   label_pieces();
 }
@@ -279,8 +278,9 @@ bool DeformableBody::State::differs(const TetMesh& mesh, TetId t) const {
 Result<FollowReport> DeformableBody::follow(const Journal& journal, const TetMesh& mesh) {
   State& s = *state_;
   FollowReport report;
-  if (journal.position() == s.position && journal.rewinds() == s.rewinds) return report;
-  const bool has_rewound = journal.rewinds() != s.rewinds;
+  const JournalCursor::Way way = s.cursor.way_to(journal);
+  if (way == JournalCursor::Way::kNone) return report;
+  const bool has_rewound = way == JournalCursor::Way::kElsewhere;
   detail::Rewind rewind;
   if (has_rewound) rewind.begin(s);
   if (Status status = s.attributes.follow(journal, mesh); !status) return status.error();
@@ -291,17 +291,15 @@ Result<FollowReport> DeformableBody::follow(const Journal& journal, const TetMes
   s.is_fresh.ensure(vertex_slots);
   s.has_changed_star.ensure(vertex_slots);
   if (has_rewound) {
-    s.attributes.forget_undone();  // a later step may be the same as one undone, but momenta are others by then
     rewind.compare(s, mesh);
   } else {
-    for (std::size_t i = s.position; i < journal.position(); ++i) {
+    for (std::size_t i = s.cursor.position(); i < journal.position(); ++i) {
       s.note(journal.step(i));
       s.hand_on(journal.step(i));
     }
   }
   s.drop_lost_pulls(mesh);
-  s.position = journal.position();
-  s.rewinds = journal.rewinds();
+  s.cursor.move_to(journal);
   s.remove_touched(mesh, report);
   s.put_fresh(mesh);
   s.add_touched(mesh, report);

@@ -7,6 +7,7 @@
 
 #include "incise/core/parallel.h"
 #include "incise/mesh/attributes.h"
+#include "incise/mesh/journal_cursor.h"
 #include "incise/sim/body.h"
 #include "sim/coarse_lattice.h"
 #include "sim/star_kernel.h"
@@ -54,8 +55,12 @@ struct Touched {
 
 /// Arrays go by slot. Units: the mesh's length unit L, kg and s: so forces are in kg L/s², energies in kg L²/s².
 struct DeformableBody::State {
-  State(const TetMesh& mesh, std::size_t journal_position, Materials given, const BodyOptions& chosen)
-      : options(chosen), materials(std::move(given)), attributes(mesh, journal_position), pair(chosen.threads) {}
+  State(const TetMesh& mesh, const Journal& journal, Materials given, const BodyOptions& chosen)
+      : options(chosen),
+        materials(std::move(given)),
+        attributes(mesh, journal),
+        pair(chosen.threads),
+        cursor(journal) {}
 
   BodyOptions options;
   Materials materials;
@@ -64,7 +69,6 @@ struct DeformableBody::State {
   IdArray<TetId, TetVertices> tets;  // the first one is invalid where the slot is free
   IdArray<TetId, std::int32_t> regions;
   IdArray<VertexId, Vec3> rest;
-  std::uint64_t rewinds = 0;
 
   // state in time
   std::vector<Vec3> places;
@@ -100,7 +104,7 @@ struct DeformableBody::State {
   std::vector<std::uint32_t> resting;  // live vertices that are held or asleep
   std::vector<Vec3> drifts;            // by piece: mean velocity of the free ones
 
-  std::size_t position = 0;  // in the journal
+  JournalCursor cursor;
 
   // of one `follow`
   detail::Touched touched;

@@ -145,7 +145,7 @@ TEST(Maintenance, bounded_by_a_clock_can_be_done_again_from_the_report) {
   Engine engine = Engine::create(load(rough_cube()).mesh, job.engine).value();
   for (std::size_t i = 0; i < 3; ++i) {
     ASSERT_TRUE(engine.cut(job.strokes[i]).ok());
-    EXPECT_EQ(engine.maintain(report.units_per_stroke[i]).maintain.work_units, report.units_per_stroke[i]);
+    EXPECT_EQ(engine.maintain(report.units_per_stroke[i])->maintain.work_units, report.units_per_stroke[i]);
   }
   EXPECT_EQ(engine.mesh().hash(), report.hash);
 }

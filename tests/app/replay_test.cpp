@@ -277,13 +277,13 @@ TEST_F(Replay, leaves_the_figures_of_a_cut_job_alone) {
     stroke.edges.push_back(pose_at(-0.3 + 0.2 * i).edge);
   }
   job.strokes = {stroke, stroke};
-  job.strokes[1].edges.resize(1);  // a single time sweeps nothing
-  job.strokes[1].times.resize(1);
+  job.strokes[1].edges.resize(2);  // before it meets the body
+  job.strokes[1].times.resize(2);
   const app::JobReport report = app::run_cut(app::load_mesh(mesh).value(), job, false)->report;
   EXPECT_EQ(report.step_ms.size(), 9U);
   EXPECT_EQ(report.stage_ms.size(), 9U);
   EXPECT_EQ(report.units_per_stroke.size(), 2U);
-  EXPECT_EQ(report.cut.steps, 8U);
+  EXPECT_EQ(report.cut.steps, 9U);
   EXPECT_EQ(report.after.components, 2U);
   double sum = 0;
   double stages = 0;

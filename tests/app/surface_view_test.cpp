@@ -163,10 +163,10 @@ TEST(SurfaceView, FollowsEachStepOfTheBladeAndMaintenance) {
   ASSERT_TRUE(v.engine().end_stroke().ok());
   v.check();
   for (int i = 0; i < 200 && v.engine().has_maintenance(); ++i) {
-    v.engine().maintain(200);
+    EXPECT_TRUE(v.engine().maintain(200).ok());
     v.check();
   }
-  v.engine().improve();
+  EXPECT_TRUE(v.engine().improve().ok());
   v.check();
   while (v.engine().undo()) v.check();
 }

@@ -180,6 +180,21 @@ TEST(Cli, improves_within_a_budget_and_to_stdout) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"cube.mesh"}));
 }
 
+TEST(Cli, helps) {
+  const Outcome help = run({"help"});
+  EXPECT_EQ(help.code, 0);
+  EXPECT_EQ(help.out, run({"--help"}).out);
+  EXPECT_NE(help.out.find("Exit codes"), std::string::npos);
+  const Outcome cut = run({"help", "cut"});
+  EXPECT_EQ(cut.code, 0);
+  EXPECT_EQ(cut.out, run({"cut", "--help"}).out);
+  EXPECT_NE(cut.out.find("--plane"), std::string::npos);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"-q", "help"}, {"help", "help"}}) {
+    EXPECT_EQ(run(words).out, help.out);
+  }
+  EXPECT_EQ(run({"help", "cat"}).err, "incise: error: 'cat' is no command (did you mean cut?); see incise help\n");
+}
+
 TEST(Cli, quiet_says_nothing) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(2));

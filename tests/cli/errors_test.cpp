@@ -60,6 +60,40 @@ TEST_F(CliErrors, usage) {
   EXPECT_EQ(run({"convert", cube_}).code, 2);
 }
 
+TEST_F(CliErrors, say_what_was_meant) {
+  const Outcome carve = run({"cutt", cube_});
+  EXPECT_EQ(carve.err, "incise: error: 'cutt' is no command (did you mean cut?); see incise help\n");
+  const Outcome option = run({"cut", cube_, "--plan=1,0,0,0.5"});
+  EXPECT_NE(option.err.find("(did you mean --plane?); see incise help cut"), std::string::npos) << option.err;
+  EXPECT_EQ(option.err.rfind("incise: error: ", 0), 0U) << option.err;
+  const Outcome named_like_one = run({"cut", "info", "--plan=1,0,0,0.5"});
+  EXPECT_NE(named_like_one.err.find("see incise help cut"), std::string::npos) << named_like_one.err;
+  EXPECT_NE(run({"--hlp"}).err.find("(did you mean --help?)"), std::string::npos);
+  EXPECT_EQ(run({"cutt", "--help"}).err, carve.err);
+  EXPECT_EQ(run({"zzzzzzzz"}).err, "incise: error: 'zzzzzzzz' is no command; see incise help\n");
+}
+
+TEST_F(CliErrors, are_short_lines_whatever_the_arguments) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"info", std::string(3000, 'x')},
+        std::vector<std::string>{"cut", cube_, "--profile", std::string(3000, 'x')},
+        std::vector<std::string>{std::string(3000, 'x')}, std::vector<std::string>{"info", "two\nlines\033[31m"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.err.rfind("incise: error: ", 0), 0U) << outcome.err;
+    EXPECT_LE(outcome.err.size(), 500U);
+    EXPECT_EQ(outcome.err.find_first_of("\n\033"), outcome.err.size() - 1) << outcome.err;
+  }
+}
+
+TEST_F(CliErrors, a_file_that_may_not_grow_is_answered_like_a_full_disk) {
+  const std::string large = folder_.write("large.mesh", cube_mesh(8));
+  const auto before = folder_.names();
+  const Outcome outcome = run_limited({"convert", large, folder_ / "out.vtu"}, 4096);
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("is the disk full?"), std::string::npos) << outcome.err;
+  EXPECT_EQ(folder_.names(), before);
+}
+
 TEST_F(CliErrors, pictures_have_names_of_their_own) {
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--picture=p.jpg"}, 2, "pictures are .png");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--record=p.png", "--picture=p.png"}, 2, "name of its own");

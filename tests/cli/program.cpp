@@ -2,6 +2,7 @@
 #include "cli/program.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,13 +26,18 @@ namespace {
   _exit(127);
 }
 
-/// Sends a signal, if one is given, after `seconds`.
-Outcome run_until(const std::vector<std::string>& arguments, int signal_number, double seconds) {
+/// Sends a signal, if one is given, after `seconds`; no file grows beyond `bytes`.
+Outcome run_until(const std::vector<std::string>& arguments, int signal_number, double seconds,
+                  rlim_t bytes = RLIM_INFINITY) {
   const Folder folder;
   const std::string out = folder / "stdout";
   const std::string err = folder / "stderr";
   const pid_t child = fork();
-  if (child == 0) become_program(arguments, out, err);
+  if (child == 0) {
+    const rlimit limit{bytes, RLIM_INFINITY};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    become_program(arguments, out, err);
+  }
   if (signal_number != 0) {
     usleep(static_cast<useconds_t>(seconds * 1e6));
     kill(child, signal_number);
@@ -49,6 +55,10 @@ Outcome run(const std::vector<std::string>& arguments) {
 
 Outcome run_interrupted(const std::vector<std::string>& arguments, double seconds) {
   return run_until(arguments, SIGINT, seconds);
+}
+
+Outcome run_limited(const std::vector<std::string>& arguments, unsigned long bytes) {
+  return run_until(arguments, 0, 0, bytes);
 }
 
 Outcome run_killed(const std::vector<std::string>& arguments, double seconds) {

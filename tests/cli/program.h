@@ -18,6 +18,8 @@ struct Outcome {
 Outcome run(const std::vector<std::string>& arguments);
 /// The same, and sends SIGINT after `seconds`.
 Outcome run_interrupted(const std::vector<std::string>& arguments, double seconds);
+/// The same with no file growing beyond `bytes`.
+Outcome run_limited(const std::vector<std::string>& arguments, unsigned long bytes);
 /// The same with SIGKILL, which no program can hear.
 Outcome run_killed(const std::vector<std::string>& arguments, double seconds);
 

@@ -226,8 +226,8 @@ TEST_P(Strokes, that_stop_and_go_or_hesitate_give_two_pieces) {
 TEST_P(Strokes, without_motion_change_nothing) {
   const std::vector<Vec3> blade = {Vec3(0.4, 0.5, kLow), Vec3(0.45, 0.55, kHigh)};
   const std::vector<Vec3> shifted = {blade[0] + 0.25 * (blade[1] - blade[0]), blade[1] + 0.25 * (blade[1] - blade[0])};
-  for (const Stroke& stroke : {stroke_of({blade}), stroke_of({blade, blade}), stroke_of({blade, blade, blade}),
-                               stroke_of({blade, shifted}), stroke_of({blade, {blade[1], blade[0]}})}) {
+  for (const Stroke& stroke : {stroke_of({blade, blade}), stroke_of({blade, blade, blade}), stroke_of({blade, shifted}),
+                               stroke_of({blade, {blade[1], blade[0]}})}) {
     Engine engine = engine_on(kuhn_cube(4));
     const std::uint64_t hash = engine.mesh().hash();
     cut(engine, stroke);

@@ -52,7 +52,7 @@ Vec3 SoftBody::held_place(const Vec3& rest) const {
 
 FollowReport SoftBody::follow(const Journal& journal) {
   FollowReport report;
-  if (journal.position() == mirror_.position()) return report;
+  if (mirror_.has_caught_up(journal)) return report;
   report.has_changed = true;
   report.energy_before = elastic_energy();
   mirror_.follow(journal);

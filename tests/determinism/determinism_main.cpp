@@ -161,9 +161,9 @@ bool run_maintained(const Scene& scene, const Upkeep& upkeep, unsigned threads) 
   for (const Stroke& stroke : scene.strokes) is_sound &= engine.cut(stroke).ok();
   is_sound &= print(scene.name, upkeep.name, "maintained", engine.mesh());
   if (engine.has_maintenance()) {
-    for (const std::uint64_t units : {1U, 700U, 3000U}) engine.maintain(units);
+    for (const std::uint64_t units : {1U, 700U, 3000U}) is_sound &= engine.maintain(units).ok();
     is_sound &= print(scene.name, upkeep.name, "portions", engine.mesh());
-    engine.maintain();
+    is_sound &= engine.maintain().ok();
     is_sound &= print(scene.name, upkeep.name, "rest", engine.mesh());
   }
   while (engine.undo()) {
@@ -175,8 +175,7 @@ bool run_improved(const Upkeep& upkeep, unsigned threads) {
   TetSoup soup = kuhn_cube(6);
   jitter(soup, 0.3, 8);
   Engine engine = make_engine(std::move(soup), upkeep, threads);
-  engine.improve();
-  return print("rough", upkeep.name, "improved", engine.mesh());
+  return engine.improve().ok() & print("rough", upkeep.name, "improved", engine.mesh());
 }
 
 bool run_all_maintained(unsigned threads) {

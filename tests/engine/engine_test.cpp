@@ -180,7 +180,7 @@ TEST(EngineMaintenance, in_portions_belongs_to_the_last_stroke) {
   EXPECT_EQ(report->maintain.work_units, 0U);
   MaintainStatistics sum;
   while (engine.has_maintenance()) {
-    const MaintainReport portion = engine.maintain(100);
+    const MaintainReport portion = *engine.maintain(100);
     ASSERT_GT(portion.maintain.work_units, 0U) << "what waits must be worked on";
     sum += portion.maintain;
   }
@@ -202,7 +202,7 @@ TEST(EngineMaintenance, that_waits_is_dropped_by_an_undo) {
     ASSERT_TRUE(engine.cut(plane(engine, Vec3(1, 0.1, 0.2), 0.57)).ok());
     ASSERT_TRUE(engine.undo());
     EXPECT_FALSE(engine.has_maintenance());
-    EXPECT_EQ(engine.maintain().maintain.work_units, 0U);
+    EXPECT_EQ(engine.maintain()->maintain.work_units, 0U);
     EXPECT_EQ(engine.mesh().hash(), before);
     expect_valid(engine.mesh(), 1.0);
   }
@@ -213,9 +213,9 @@ TEST(EngineMaintenance, switched_off_does_nothing_when_asked) {
     Engine engine = make_engine(jittered_cube(4, 9), 0.0, profile);
     cut(engine, plane(engine, Vec3(1, 0.1, 0.2), 0.57));
     const std::uint64_t hash = engine.mesh().hash();
-    engine.maintain();
+    EXPECT_TRUE(engine.maintain().ok());
     EXPECT_EQ(engine.mesh().hash(), hash);
-    engine.improve();
+    EXPECT_TRUE(engine.improve().ok());
     EXPECT_EQ(engine.mesh().hash(), hash);
   }
 }
@@ -224,7 +224,7 @@ TEST(EngineMaintenance, of_the_whole_mesh_is_an_operation_but_no_stroke) {
   for (const Profile profile : {Profile::kIncise, Profile::kPaper}) {
     Engine engine = make_maintaining_engine(kUnlimitedWork, profile);
     const std::uint64_t before = engine.mesh().hash();
-    engine.improve();
+    EXPECT_TRUE(engine.improve().ok());
     const std::uint64_t after = engine.mesh().hash();
     expect_valid(engine.mesh(), 1.0, tolerance_of(profile));
     EXPECT_EQ(engine.stroke_count(), 0U);
@@ -281,9 +281,74 @@ TEST(Engine, refuses_malformed_strokes_and_names_them) {
   for (auto& edge : bad.edges) edge.resize(1);
   expect_refused(bad);
   bad = good;
+  bad.times.resize(1);
+  bad.edges.resize(1);
+  expect_refused(bad);
   bad.times.clear();
   bad.edges.clear();
   expect_refused(bad);
+}
+
+void expect_bad_pose(const Status& status, const std::string& message) {
+  ASSERT_FALSE(status.ok()) << message;
+  EXPECT_EQ(status.error().code, ErrorCode::kBadArgument);
+  EXPECT_EQ(status.error().message, message);
+}
+
+Status status_of(const Result<StepReport>& report) {
+  return report.ok() ? Status() : Status(report.error());
+}
+
+TEST(Engine, says_which_pose_is_malformed_and_how) {
+  Engine engine = make_engine(kuhn_cube(2));
+  cut(engine, plane(engine, Vec3(1, 0, 0), 0.3));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const BladePose good{{Vec3(0.6, -0.1, 1.1), Vec3(0.6, 1.1, 1.1)}};
+  expect_bad_pose(engine.check_pose({}), "pose 0 of stroke 2: its edge has 0 points; it needs at least 2");
+  ASSERT_TRUE(engine.begin_stroke(good).ok());
+  ASSERT_TRUE(engine.step({{Vec3(0.6, -0.1, 0.8), Vec3(0.6, 1.1, 0.8)}}).ok());
+  const std::uint64_t hash = engine.mesh().hash();
+  BladePose bad = good;
+  bad.edge.pop_back();
+  expect_bad_pose(status_of(engine.step(bad)), "pose 2 of stroke 2: its edge has 1 point; it needs at least 2");
+  bad.edge.assign(3, Vec3(0.6, 0.5, 0.5));
+  expect_bad_pose(status_of(engine.step(bad)),
+                  "pose 2 of stroke 2: its edge has 3 points; all poses of a stroke have as many as its first, 2");
+  bad = good;
+  bad.edge[1].z() = nan;
+  expect_bad_pose(status_of(engine.step(bad)), "pose 2 of stroke 2: point 1 of its edge is not finite");
+  bad = good;
+  bad.direction.x() = nan;
+  expect_bad_pose(status_of(engine.step(bad)), "pose 2 of stroke 2: its direction is not finite");
+  EXPECT_EQ(engine.mesh().hash(), hash);
+  EXPECT_TRUE(engine.is_in_stroke());
+  expect_valid(engine.mesh(), 1.0);
+}
+
+TEST(Engine, refuses_maintenance_while_a_stroke_is_under_way) {
+  Engine engine = make_engine(kuhn_cube(2));
+  ASSERT_TRUE(engine.begin_stroke({{Vec3(0.6, -0.1, 1.1), Vec3(0.6, 1.1, 1.1)}}).ok());
+  for (const Result<MaintainReport>& report : {engine.maintain(), engine.improve()}) {
+    ASSERT_FALSE(report.ok());
+    EXPECT_EQ(report.error().code, ErrorCode::kBadArgument);
+    EXPECT_NE(report.error().message.find("end it first"), std::string::npos) << report.error().message;
+  }
+  EXPECT_TRUE(engine.is_in_stroke());
+  ASSERT_TRUE(engine.end_stroke().ok());
+  EXPECT_TRUE(engine.maintain().ok());
+  EXPECT_TRUE(engine.improve().ok());
+}
+
+TEST(Engine, lifts_a_blade_where_it_was_put_down) {
+  for (const Profile profile : {Profile::kIncise, Profile::kPaper}) {
+    Engine engine = make_engine(kuhn_cube(2), 0.2, profile);
+    const std::uint64_t hash = engine.mesh().hash();
+    ASSERT_TRUE(engine.begin_stroke({{Vec3(0.6, -0.1, 0.5), Vec3(0.6, 1.1, 0.5)}}).ok());
+    ASSERT_TRUE(engine.end_stroke().ok());
+    EXPECT_EQ(engine.mesh().hash(), hash);
+    EXPECT_EQ(engine.stroke_count(), 1U);
+    EXPECT_TRUE(engine.undo());
+  }
 }
 
 TEST(Engine, gives_the_same_mesh_on_any_number_of_threads) {
@@ -404,13 +469,13 @@ TEST(EngineFarBlades, beyond_a_million_bodies_are_refused_and_change_nothing) {
     const Result<StrokeReport> whole = engine.cut(stroke);
     ASSERT_FALSE(whole.ok());
     EXPECT_EQ(whole.error().code, ErrorCode::kBadArgument);
-    EXPECT_NE(whole.error().message.find("stroke \"slip\": point 1 at time 2"), std::string::npos)
+    EXPECT_NE(whole.error().message.find("stroke \"slip\": point 1 at time 2 lies"), std::string::npos)
         << whole.error().message;
     ASSERT_TRUE(engine.begin_stroke({stroke.edges[0]}).ok());
     ASSERT_TRUE(engine.step({stroke.edges[1]}).ok());
     const Result<StepReport> step = engine.step({stroke.edges[2]});
     ASSERT_FALSE(step.ok());
-    EXPECT_NE(step.error().message.find("point 1 at time 2"), std::string::npos) << step.error().message;
+    EXPECT_NE(step.error().message.find("pose 2 of stroke 1: point 1 lies"), std::string::npos) << step.error().message;
     EXPECT_TRUE(engine.is_in_stroke());
     EXPECT_TRUE(engine.undo());
     EXPECT_FALSE(engine.begin_stroke({stroke.edges[2]}).ok());

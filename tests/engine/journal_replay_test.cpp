@@ -130,8 +130,8 @@ class RandomCalls {
     }
     ASSERT_TRUE(engine_.end_stroke().ok());
   }
-  void maintain() { engine_.maintain(static_cast<std::uint64_t>(random_.integer(0, 200000))); }
-  void improve() { engine_.improve(); }
+  void maintain() { EXPECT_TRUE(engine_.maintain(static_cast<std::uint64_t>(random_.integer(0, 200000))).ok()); }
+  void improve() { EXPECT_TRUE(engine_.improve().ok()); }
   void undo() { engine_.undo(); }
   void redo() { engine_.redo(); }
   void compare() { expect_follows(mirror_, engine_.journal(), engine_.mesh()); }

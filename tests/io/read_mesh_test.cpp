@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "io/fixtures.h"
+#include "io/gzip.h"
 
 namespace incise {
 namespace {
@@ -243,6 +245,7 @@ TEST(ReadMesh, tetgen_counts_must_match_and_chastes_binary_is_refused) {
   };
   const std::string node = "4 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
   EXPECT_EQ(message("1 4\n0 0 1 2 3\n", node), "");
+  EXPECT_EQ(message("1 4 # the only one of 1 3 5\n0 0 1 2 3\n", node), "") << "numbers of a comment count nothing";
   EXPECT_NE(message("2 4\n0 0 1 2 3\n", node), "");
   EXPECT_NE(message("0 4\n0 0 1 2 3\n", node).find("more rows"), std::string::npos);
   EXPECT_NE(message("1 4\n0 0 1 2 4\n", node).find("not among"), std::string::npos);
@@ -337,6 +340,48 @@ TEST(ReadMesh, damaged_or_endless_gzip_is_refused) {
   const auto refused = read_mesh_bytes(bytes, "a.mesh.gz", {}, limits);
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(refused.error().message.find("100 bytes"), std::string::npos);
+}
+
+TEST(ReadMesh, gzip_that_grows_like_a_bomb_is_refused_with_the_limit) {
+  const std::size_t large = std::size_t{80} << 20U;
+  std::string bytes = "MeshVersionFormatted 2\nDimension 3\n";
+  bytes.resize(large, ' ');
+  std::string packed;
+  ASSERT_TRUE(io::gzip(bytes, packed));
+  ASSERT_LT(packed.size() * 200, large);
+  const auto refused = read_mesh_bytes(packed, "a.mesh.gz");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("more than 67108864 bytes"), std::string::npos) << refused.error().message;
+}
+
+TEST(ReadMesh, devices_are_refused) {
+  const auto refused = io::read_mesh("/dev/zero");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadFile);
+  EXPECT_NE(refused.error().message.find("device"), std::string::npos) << refused.error().message;
+}
+
+TEST(ReadMesh, lines_may_end_in_carriage_returns) {
+  for (const std::string name : {"medit.mesh", "v2.msh", "v1.msh"}) {
+    std::string text = bytes_of(name);
+    const auto plain = read_mesh_bytes(text, name);
+    ASSERT_TRUE(plain.ok()) << name;
+    std::replace(text.begin(), text.end(), '\n', '\r');
+    const auto file = read_mesh_bytes(text, name);
+    ASSERT_TRUE(file.ok()) << name << ": " << file.error().message;
+    EXPECT_EQ(file->data.soup.tets, plain->data.soup.tets);
+    EXPECT_EQ(file->data.soup.points, plain->data.soup.points);
+  }
+}
+
+TEST(ReadMesh, formats_of_text_that_are_not_read_are_named) {
+  EXPECT_SAYS("8 5 0 0 0\n1 0 0 0\n", "AVS UCD");
+  EXPECT_SAYS("5 8 6\n0 0 1\n", "FreeFem");
+  EXPECT_SAYS("    -1\n  2411\n         1         1         1        11\n", "I-DEAS universal");
+  EXPECT_SAYS("$ a model\nSOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", "Nastran");
+  EXPECT_SAYS("GRID    1               0.0     0.0     0.0\n", "Nastran");
+  EXPECT_SAYS(std::string("\4\x22M\x18 and so on"), "LZ4");
+  EXPECT_SAYS("$MeshFormat\n4.0 0 8\n$EndMeshFormat\n", "not 4.0");
 }
 
 const std::string kMeditHead = "MeshVersionFormatted 2\nDimension 3\n";

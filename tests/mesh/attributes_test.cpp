@@ -390,10 +390,69 @@ TEST(Attributes, a_step_that_took_the_place_of_another_is_noticed) {
   body.expect_equal(other.snapshot());
 }
 
+/// Cut, undone, changed and cut the same again: the second cut hands on the values of its own time.
+TEST(Attributes, follow_a_cut_that_is_made_again_as_a_new_one) {
+  Engine engine = new_engine(jittered_cube(3));
+  Body body(engine.mesh());
+  const Stroke stroke = three_cuts()[0];
+  ASSERT_TRUE(engine.cut(stroke).ok());
+  ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+  engine.undo();
+  ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+  for (const AttributeId mass : {body.mass, body.tet_mass}) {
+    for (double& value : body.all.values(mass)) value *= 5;
+  }
+  for (double& value : body.all.values(body.velocity)) value = 2;
+  for (const AttributeId label : {body.label, body.region}) {
+    for (double& value : body.all.values(label)) value = 7;
+  }
+  ASSERT_TRUE(engine.cut(stroke).ok());
+  ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+  EXPECT_NEAR(sum(body.all.values(body.mass)), 12.5, 1e-12);
+  EXPECT_NEAR(sum(body.all.values(body.tet_mass)), 12.5, 1e-12);
+  engine.mesh().for_each_vertex([&](VertexId v) {
+    for (const double speed : body.all.value(body.velocity, v.value)) EXPECT_NEAR(speed, 2, 1e-14);
+    EXPECT_EQ(body.all.value(body.label, v.value)[0], 7);
+    const auto place = body.all.value(body.position, v.value);
+    EXPECT_EQ(Vec3(place[0], place[1], place[2]), engine.mesh().rest(v));
+  });
+  engine.mesh().for_each_tet([&](TetId t) {
+    EXPECT_EQ(body.all.value(body.region, t.value)[0], 7);
+    EXPECT_EQ(body.all.value(body.tet_volume, t.value)[0], engine.mesh().rest_volume(t));
+  });
+}
+
+TEST(Attributes, follow_what_is_left_of_a_trimmed_history_and_are_told_where_they_cannot) {
+  Engine engine = new_engine(jittered_cube(3));
+  Body body(engine.mesh()), late(engine.mesh());
+  const Vec3 momentum = body.momentum(engine.mesh());
+  const std::vector<std::vector<double>> before = late.snapshot();
+  ASSERT_TRUE(engine.keep_undo(1).ok());
+  std::vector<std::vector<double>> middle;
+  for (const Stroke& stroke : three_cuts()) {
+    middle = body.snapshot();
+    ASSERT_TRUE(engine.cut(stroke).ok());
+    ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+  }
+  EXPECT_GT(engine.journal().first(), 0U);
+  body.expect_uniform(engine.mesh(), momentum);
+  const Status status = late.all.follow(engine.journal(), engine.mesh());
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().code, ErrorCode::kBadArgument);
+  EXPECT_NE(status.error().message.find("construct them anew"), std::string::npos);
+  late.expect_equal(before);
+  ASSERT_TRUE(engine.undo());
+  ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+  body.expect_equal(middle);
+  ASSERT_TRUE(engine.redo());
+  ASSERT_TRUE(body.all.follow(engine.journal(), engine.mesh()).ok());
+  body.expect_uniform(engine.mesh(), momentum);
+}
+
 TEST(Attributes, do_not_follow_back_beyond_their_beginning) {
   Engine engine = new_engine(jittered_cube(2));
   ASSERT_TRUE(engine.cut(three_cuts()[0]).ok());
-  Attributes all(engine.mesh(), engine.journal().position());
+  Attributes all(engine.mesh(), engine.journal());
   engine.undo();
   EXPECT_EQ(all.follow(engine.journal(), engine.mesh()).error().code, ErrorCode::kBadArgument);
 }

@@ -5,33 +5,10 @@
 
 #include "cut/bodies.h"
 #include "cut/support.h"
-#include "incise/mesh/verbs.h"
+#include "mesh/random_step.h"
 
 namespace incise::test {
 namespace {
-
-/// A few random splits of longest edges, as one step.
-Step random_step(TetMesh& mesh, Random& random) {
-  Transaction transaction(mesh);
-  for (unsigned i = 0; i < 6; ++i) {
-    TetId tet;
-    do {
-      tet = TetId(static_cast<std::uint32_t>(random.integer(0, mesh.tet_slots() - 1)));
-    } while (!mesh.is_live(tet));
-    unsigned longest = 0;
-    double length = 0;
-    const TetVertices v = mesh.vertices(tet);
-    for (unsigned e = 0; e < 6; ++e) {
-      const double l = (mesh.rest(v[kEdgeCorners[e][0]]) - mesh.rest(v[kEdgeCorners[e][1]])).norm();
-      if (l > length) {
-        length = l;
-        longest = e;
-      }
-    }
-    apply(transaction, plan_split_edge(mesh, v[kEdgeCorners[longest][0]], v[kEdgeCorners[longest][1]], tet, 0.5));
-  }
-  return transaction.commit();
-}
 
 TEST(Journal, undoes_and_redoes_random_programs_bit_for_bit) {
   Random random(1);
@@ -96,6 +73,75 @@ TEST(Journal, undo_only_raises_generations) {
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
     EXPECT_GE(mesh.generation(TetId(slot)), before[slot]);
   }
+  expect_valid(mesh, 1.0);
+}
+
+TEST(Journal, gives_every_step_a_serial_of_its_own) {
+  Random random(4);
+  TetMesh mesh = build(kuhn_cube(2));
+  Journal journal;
+  EXPECT_EQ(journal.serial_before(0), 0U);
+  journal.append(random_step(mesh, random));
+  journal.append(random_step(mesh, random));
+  EXPECT_EQ(journal.step(0).serial, 1U);
+  EXPECT_EQ(journal.step(1).serial, 2U);
+  journal.undo(mesh);
+  EXPECT_EQ(journal.serial_before(journal.position()), 1U);
+  journal.redo(mesh);
+  EXPECT_EQ(journal.step(1).serial, 2U) << "a redo brings the same step back";
+  journal.undo(mesh);
+  journal.append(random_step(mesh, random));
+  EXPECT_EQ(journal.step(1).serial, 3U) << "another step, be it the same to the bit";
+  EXPECT_EQ(journal.newest_serial(), 3U);
+  expect_valid(mesh, 1.0);
+}
+
+TEST(Journal, takes_back_and_drops_what_has_failed) {
+  Random random(5);
+  TetMesh mesh = build(kuhn_cube(2));
+  Journal journal;
+  journal.append(random_step(mesh, random));
+  const std::uint64_t hash = mesh.hash();
+  journal.append(random_step(mesh, random));
+  journal.append(random_step(mesh, random));
+  journal.take_back(mesh, 1);
+  EXPECT_EQ(mesh.hash(), hash);
+  EXPECT_EQ(journal.size(), 1U);
+  EXPECT_FALSE(journal.redo(mesh));
+  journal.append(random_step(mesh, random));
+  EXPECT_EQ(journal.step(1).serial, 4U);
+  expect_valid(mesh, 1.0);
+}
+
+TEST(Journal, trims_steps_and_gives_their_memory_back) {
+  Random random(6);
+  TetMesh mesh = build(kuhn_cube(2));
+  Journal journal;
+  std::vector<std::uint64_t> hashes = {mesh.hash()};
+  for (unsigned i = 0; i < 20; ++i) {
+    journal.append(random_step(mesh, random));
+    hashes.push_back(mesh.hash());
+  }
+  const std::size_t before = journal.memory_bytes();
+  journal.trim(17);
+  EXPECT_LT(journal.memory_bytes(), before / 4);
+  EXPECT_EQ(journal.first(), 17U);
+  EXPECT_EQ(journal.position(), 20U);
+  EXPECT_EQ(journal.size(), 20U);
+  EXPECT_EQ(journal.step(17).serial, 18U);
+  EXPECT_EQ(journal.serial_before(17), 17U);
+  for (std::size_t at = 20; at-- > 17;) {
+    ASSERT_TRUE(journal.undo(mesh));
+    EXPECT_EQ(mesh.hash(), hashes[at]);
+  }
+  EXPECT_FALSE(journal.undo(mesh)) << "what was trimmed stays";
+  while (journal.redo(mesh)) {
+  }
+  EXPECT_EQ(mesh.hash(), hashes.back());
+  journal.trim(100);
+  EXPECT_EQ(journal.first(), 20U) << "at most all";
+  journal.append(random_step(mesh, random));
+  EXPECT_EQ(journal.step(20).serial, 21U);
   expect_valid(mesh, 1.0);
 }
 

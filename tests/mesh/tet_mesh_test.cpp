@@ -123,6 +123,19 @@ TEST(TetMesh, refuses_soups_that_break_its_promises) {
   EXPECT_EQ(TetMesh::build(soup).error().code, ErrorCode::kBadArgument);
 }
 
+TEST(TetMesh, refuses_inverted_tets_and_says_what_to_do) {
+  TetSoup soup = kuhn_cube(2);
+  for (const std::size_t tet : {5U, 9U}) std::swap(soup.tets[tet][0], soup.tets[tet][1]);
+  const Result<TetMesh> mesh = TetMesh::build(soup);
+  ASSERT_FALSE(mesh.ok());
+  EXPECT_EQ(mesh.error().code, ErrorCode::kBadArgument);
+  EXPECT_EQ(mesh.error().ids, std::vector<std::uint64_t>{5});
+  EXPECT_NE(mesh.error().message.find("tet 5 is inverted"), std::string::npos);
+  EXPECT_NE(mesh.error().message.find("normalise()"), std::string::npos);
+  normalise(soup);
+  expect_valid(build(soup), 1.0);
+}
+
 TEST(TetMesh, tags_the_sides_that_walls_name_and_marks_their_vertices) {
   TetSoup soup = one_tet();
   soup.walls = {{{2, 0, 1}, 3}, {{0, 1, 2}, 3}};  // the same face twice is one wall

@@ -35,7 +35,7 @@ BodyOptions in_real_time(double damping) {
 }
 
 DeformableBody hung_body(const TetMesh& mesh, const Materials& materials, const BodyOptions& options) {
-  DeformableBody body = DeformableBody::create(mesh, 0, materials, options).value();
+  DeformableBody body = DeformableBody::create(mesh, {}, materials, options).value();
   for (const VertexId v : vertices_at(mesh, 0)) {
     EXPECT_TRUE(body.hold(v, std::numeric_limits<double>::infinity()).ok());
   }

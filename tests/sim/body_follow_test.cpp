@@ -342,7 +342,7 @@ TEST(BodyFollow, NothingToFollowChangesNothing) {
 TEST(BodyFollow, AJournalFromBeforeTheBodyIsRefused) {
   Engine engine = Engine::create(TetMesh::build(kuhn_cube(3)).value()).value();
   ASSERT_TRUE(engine.cut(*plane_stroke(rest_bounds(engine.mesh()), Vec3(0, 0, 1), 0.4)).ok());
-  DeformableBody body = DeformableBody::create(engine.mesh(), engine.journal().position(), {tissue(5e3), {}}).value();
+  DeformableBody body = DeformableBody::create(engine.mesh(), engine.journal(), {tissue(5e3), {}}).value();
   ASSERT_TRUE(engine.undo());
   const std::uint64_t hash = body.hash();
   const Result<FollowReport> report = body.follow(engine.journal(), engine.mesh());

@@ -280,7 +280,7 @@ TEST(Body, ThePositionBasedRelaxationStaysFiniteFromAnyStart) {
 }
 
 TEST(Body, ABodyWithoutTetsMovesOn) {
-  Result<DeformableBody> body = DeformableBody::create(TetMesh(), 0, {});
+  Result<DeformableBody> body = DeformableBody::create(TetMesh(), {}, {});
   ASSERT_TRUE(body.ok());
   EXPECT_TRUE(body->advance(kStep).ok());
   EXPECT_EQ(body->mass(), 0);
@@ -298,7 +298,7 @@ Status create_with(const std::function<void(BodyOptions&)>& change, const Materi
   BodyOptions options;
   change(options);
   const TetMesh mesh = TetMesh::build(kuhn_cube(1)).value();
-  const Result<DeformableBody> body = DeformableBody::create(mesh, 0, materials, options);
+  const Result<DeformableBody> body = DeformableBody::create(mesh, {}, materials, options);
   return body.ok() ? Status{} : Status{body.error()};
 }
 

@@ -52,7 +52,7 @@ TEST(BandMatrix, SaysWhereItIsNotPositiveDefinite) {
 DeformableBody hung_beam(const TetMesh& mesh, const BodyOptions& options) {
   Materials materials;
   materials.fallback.young = 300e3;
-  DeformableBody body = DeformableBody::create(mesh, 0, materials, options).value();
+  DeformableBody body = DeformableBody::create(mesh, {}, materials, options).value();
   for (const VertexId v : vertices_at(mesh, 0)) EXPECT_TRUE(body.hold(v, std::numeric_limits<double>::infinity()).ok());
   return body;
 }

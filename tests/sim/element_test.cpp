@@ -123,7 +123,7 @@ TEST(Element, SliversAreAsSoftAsThickerLayers) {
 DeformableBody make_body(const TetMesh& mesh, const Material& material, double unit = 1) {
   BodyOptions options;
   options.length_unit = unit;
-  return DeformableBody::create(mesh, 0, {material, {}}, options).value();
+  return DeformableBody::create(mesh, {}, {material, {}}, options).value();
 }
 
 TetMesh jittered_block() {

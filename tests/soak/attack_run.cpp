@@ -15,6 +15,7 @@ namespace {
 
 EngineOptions engine_options(const AttackOptions& options) {
   EngineOptions engine;
+  engine.check_step = TouchedCheck();
   engine.cut.profile = options.is_paper ? Profile::kPaper : Profile::kIncise;
   engine.cut.snap = options.snap;
   engine.maintain.merge = engine.maintain.improve = options.maintains;
@@ -50,8 +51,9 @@ class CutRun {
   }
   bool maintain() {
     if (!options_.maintains) return true;
-    engine_.maintain(kUnlimitedWork, [this] { return is_late(); });
-    return has_time();
+    const Result<MaintainReport> report = engine_.maintain(kUnlimitedWork, [this] { return is_late(); });
+    if (!report.ok()) error_ = "maintenance failed: " + report.error().message;
+    return report.ok() && has_time();
   }
   template <class Outcome>
   bool is_done(const Outcome& outcome, const Stroke& stroke) {

@@ -121,6 +121,7 @@ constexpr std::array<Course, 6> kCourses = {{{"cut", kSnapped, Upkeep::kNone},
 EngineOptions options_of(const Course& course, Random& budget) {
   constexpr std::array<std::uint64_t, 4> kBudgets = {0, 100, 2000, 50000};
   EngineOptions options;
+  options.check_step = TouchedCheck();
   options.cut = course.cut;
   options.maintain.merge = options.maintain.improve = course.upkeep != Upkeep::kNone;
   if (course.upkeep == Upkeep::kPortions) {
@@ -253,8 +254,7 @@ class Soak {
   /// Maintains the uncut body.
   void improve() {
     begin("improve");
-    engine_.improve();
-    const bool is_sound = check();
+    const bool is_sound = is_done(engine_.improve()) && check();
     hashes_.push_back(engine_.mesh().hash());
     if (is_sound) go_back();
   }
@@ -268,6 +268,7 @@ class Soak {
     std::printf("FAILED %s:%s\n", watched(), what.c_str());
     return false;
   }
+  bool is_done(const Result<MaintainReport>& report) { return report.ok() || fail(" " + report.error().message); }
   bool cut(unsigned i) {
     const Stroke stroke = random_stroke(strokes_, box_);
     begin("stroke " + std::to_string(i) + " (" + stroke.name + ")");
@@ -283,11 +284,11 @@ class Soak {
   bool maintain_in_portions() {
     constexpr std::array<std::uint64_t, 4> kPortions = {1, 100, 3000, 30000};
     for (auto i = budget_.integer(0, 12); i > 0 && engine_.has_maintenance(); --i) {
-      engine_.maintain(kPortions[static_cast<std::size_t>(budget_.integer(0, 3))]);
+      if (!is_done(engine_.maintain(kPortions[static_cast<std::size_t>(budget_.integer(0, 3))]))) return false;
     }
     if (!check()) return false;
     if (budget_.integer(0, 2) == 0) return true;
-    engine_.maintain();
+    if (!is_done(engine_.maintain())) return false;
     return engine_.has_maintenance() ? fail(" maintenance without a budget left work") : check();
   }
   bool check() {

@@ -44,7 +44,7 @@ Figures hang(const TetMesh& mesh, const Beam& beam, const Combination& combinati
   materials.fallback.young = combination.young;
   BodyOptions options;
   options.thinnest = combination.thinnest;
-  DeformableBody body = DeformableBody::create(mesh, 0, materials, options).value();
+  DeformableBody body = DeformableBody::create(mesh, {}, materials, options).value();
   for (const VertexId v : vertices_at(mesh, 0)) (void)body.hold(v, std::numeric_limits<double>::infinity());
   if (combination.is_random) throw_anywhere(mesh, beam, body);
   Figures figures;

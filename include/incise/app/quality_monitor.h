@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "incise/mesh/journal.h"
+#include "incise/mesh/journal_cursor.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/tet_mesh.h"
 
@@ -48,8 +48,7 @@ class QualityMonitor {
   std::vector<float> ratios_;  // per tet slot; 0: not live; infinite: flat
   StarWalker walker_;
   QualityFigures now_, before_;
-  std::size_t position_ = 0;
-  std::uint64_t rewinds_ = 0;
+  JournalCursor cursor_;
 };
 
 }  // namespace app

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct Stroke {
   std::vector<std::vector<Vec3>> edges;  ///< `n_times × n_points`, n_points ≥ 2 and the same at all times
 };
 
-/// Whether a stroke keeps the promises above and is finite; the error names the time and point.
+/// Whether a stroke keeps the promises above, has at least two times and is finite; the error names the time and point.
 Status check(const Stroke& stroke);
 
 /// A blade keeps within so many times the greatest side of the body's box from that box. Beyond, the rounding of a
@@ -31,8 +32,10 @@ Status check(const Stroke& stroke);
 inline constexpr double kGreatestReach = 1e6;
 
 /// Whether a stroke keeps within `kGreatestReach` of a body; the error names stroke, time and point. True where the
-/// body is empty or a point. `first_time`: what the error calls the stroke's first time. Cost: O(points).
-Status check_reach(const Stroke& stroke, const Box& body, std::size_t first_time = 0);
+/// body is empty or a point. Cost: O(points).
+Status check_reach(const Stroke& stroke, const Box& body);
+/// The same for the blade's edge at one moment, which the error calls `name`.
+Status check_reach(std::span<const Vec3> edge, const Box& body, const std::string& name);
 
 /// The triangles that a stroke sweeps, without empty ones.
 struct SweptTriangles {

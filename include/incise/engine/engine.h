@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "incise/core/log.h"
@@ -13,6 +15,7 @@
 #include "incise/cut/stroke.h"
 #include "incise/improve/maintainer.h"
 #include "incise/mesh/journal.h"
+#include "incise/mesh/step_check.h"
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise::inline v0 {
@@ -22,6 +25,9 @@ struct EngineOptions {
   MaintainOptions maintain;
   LogSink log;           ///< hears what a stroke could not do as asked
   unsigned threads = 1;  ///< that search the mesh, in [1, 256]; the result does not depend on it
+  /// Looks at what each call committed: at the cut, and at its maintenance. Where it returns an error the call is taken
+  /// back and returns it. `TouchedCheck` in builds with assertions; empty, and for nothing, in others.
+  StepCheck check_step = default_step_check();
 };
 
 /// What one stroke did.
@@ -59,7 +65,9 @@ struct MaintainReport {
 /// elements. The profile `paper` knows whole strokes alone: its steps cut nothing, `end_stroke` does.
 /// Maintenance follows the blade, but for a band around the front of its cut, and ends with the stroke, each call
 /// within `MaintainOptions::work_units`; what the budget leaves undone waits for the next one or `maintain`. One
-/// writer; const reads from any thread between calls. A call either takes effect as a whole or not at all.
+/// writer; const reads from any thread between calls. A call either takes effect as a whole or not at all; where it
+/// fails with kOutOfMemory or with what `EngineOptions::check_step` says (kInternal), what `redo` could apply is
+/// forgotten.
 class Engine {
  public:
   /// Takes the mesh. Errors: kBadArgument for options out of range. Cost: O(tets).
@@ -76,8 +84,8 @@ class Engine {
 
   /// Cuts along the whole stroke, in the rest shape. A blade that misses changes nothing and is no error.
   /// Errors: kBadArgument for a malformed stroke, one that leaves the body's surroundings (`check_reach`), or while
-  /// another is under way; kOutOfMemory where ids run out; the mesh is then unchanged. Cost: O(tets) to find the first
-  /// contact, then O(cut tets).
+  /// another is under way; kOutOfMemory where ids run out; kInternal; the mesh is then unchanged. Cost: O(tets) to find
+  /// the first contact, then O(cut tets).
   Result<StrokeReport> cut(const Stroke& stroke);
 
   /// Puts the blade in place for a stroke that will be cut step by step; nothing is cut yet. Returns the stroke's
@@ -86,15 +94,16 @@ class Engine {
   Result<std::uint32_t> begin_stroke(const BladePose& pose);
   /// Moves the blade on and cuts what it passes through on the way, up to where it stands now. All poses of a stroke
   /// have the same number of points. Errors: kBadArgument without a stroke, for a malformed pose or one too far away,
-  /// where nothing changes; kOutOfMemory where ids run out; the mesh is then as before the step, and the stroke has
-  /// ended there. May append several steps to the journal. Cost: O(tets that the blade touches), whatever the mesh's
-  /// size.
+  /// where nothing changes; kOutOfMemory where ids run out, and kInternal; the mesh is then as before the step, and the
+  /// stroke has ended there. May append several steps to the journal. Cost: O(tets that the blade touches), whatever
+  /// the mesh's size.
   Result<StepReport> step(const BladePose& pose);
   /// Lifts the blade off: what it cut stays, is finished (vertices that took part in the cut move onto it, its front
   /// draws close to the blade), and is maintained within the budget. Errors: kBadArgument without a stroke;
-  /// kOutOfMemory, where the stroke ends as its last step left it.
+  /// kOutOfMemory and kInternal, where the stroke ends as its last step left it.
   Result<StrokeReport> end_stroke();
-  /// Whether a blade keeps within reach of the body as it stands (`check_reach`), as `begin_stroke` and `step` ask.
+  /// Whether a pose is sound, with at least two points, and keeps within reach of the body as it stands
+  /// (`check_reach`), as `begin_stroke` and `step` ask. The error says which pose of which stroke it would be.
   [[nodiscard]] Status check_pose(const BladePose& pose) const;
   [[nodiscard]] bool is_in_stroke() const { return is_in_stroke_; }
 
@@ -105,14 +114,15 @@ class Engine {
 
   /// Goes on with the maintenance that a budget left undone, for `work_units` more or until `should_stop` says so; it
   /// counts as part of the last stroke. The same units on the same mesh give the same result, whatever stopped it.
-  /// Does nothing while a stroke is under way. Cost: about 0.1 µs per unit.
-  MaintainReport maintain(std::uint64_t work_units = kUnlimitedWork, const ShouldStop& should_stop = {});
+  /// Errors: kBadArgument while a stroke is under way, which is maintained as it goes; kInternal, where the mesh is
+  /// unchanged and nothing waits any more. Cost: about 0.1 µs per unit.
+  Result<MaintainReport> maintain(std::uint64_t work_units = kUnlimitedWork, const ShouldStop& should_stop = {});
   /// Whether maintenance waits.
   [[nodiscard]] bool has_maintenance() const;
 
-  /// Maintains the whole mesh, cut or not: an operation of its own for undo. Does nothing, and is none, while a stroke
-  /// is under way. Cost: O(tets).
-  MaintainReport improve(const ShouldStop& should_stop = {});
+  /// Maintains the whole mesh, cut or not: an operation of its own for undo. Errors: kBadArgument while a stroke is
+  /// under way; kInternal, where the mesh is unchanged. Cost: O(tets).
+  Result<MaintainReport> improve(const ShouldStop& should_stop = {});
 
   /// Takes the last stroke (or `improve`) back, bit for bit, its maintenance included; maintenance that waits is
   /// dropped, and a stroke under way is ended where the blade is, and taken back. Returns false where there is none.
@@ -121,6 +131,11 @@ class Engine {
   /// Applies what was last taken back. Returns false where there is none, or while a stroke is under way. A new stroke
   /// forgets what could be applied, once it has ended.
   bool redo();
+  /// Keeps no more than the last `operations` for undo, from now on: steps of the journal before them are forgotten at
+  /// the end of each operation, and their memory is free again. Followers that follow after each call lose nothing;
+  /// others learn from `Journal::first`, `JournalCursor` or the error of their `follow` that they must begin anew.
+  /// Unlimited at first. Errors: kBadArgument for 0, since followers need the steps of the last operation.
+  Status keep_undo(std::size_t operations);
 
  private:
   /// A stroke, or an `improve`, with all that followed it.
@@ -139,6 +154,11 @@ class Engine {
 
   Engine(TetMesh mesh, EngineOptions options);
 
+  [[nodiscard]] std::string name_of_next_pose() const;
+  Status check_steps(std::size_t first_step);
+  void take_back(std::size_t first_step);
+  void forget_lost_redo();
+  void trim_history();
   [[nodiscard]] bool is_paper() const { return options_.cut.profile == Profile::kPaper; }
   [[nodiscard]] bool maintains() const;
   void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step, const IsLocked& is_locked = {});
@@ -146,7 +166,7 @@ class Engine {
   void maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times);
   Status close_stroke();
   void maintain_between_sheets(MaintainStatistics& sum, StageTimes& times);
-  Error abort_stroke(Error error);
+  Error abort_stroke(std::size_t first_step, Error error);
   Result<StrokeReport> end_stroke_as_paper();
   MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop,
                               const IsLocked& is_locked = {});
@@ -158,8 +178,10 @@ class Engine {
   Cutter cutter_;
   Maintainer maintainer_;
   std::size_t paper_first_step_ = kNothingWaits;  // of the strokes that the paper's maintenance has not seen
-  std::vector<Operation> operations_;
-  std::vector<Operation> undone_;  // what redo would apply, last first
+  std::deque<Operation> operations_;
+  std::size_t kept_operations_ = static_cast<std::size_t>(-1);
+  std::size_t oldest_position_ = 0;  // of the journal, that undo leads back to
+  std::vector<Operation> undone_;    // what redo would apply, last first
   std::uint32_t stroke_count_ = 0;
   std::uint32_t earlier_strokes_ = 0;  // the highest tag of the mesh that was taken
   OpenStroke open_;

@@ -52,10 +52,13 @@ class Maintainer {
   MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
                          const ShouldStop& should_stop = {}, const IsLocked& is_locked = {});
 
+  /// Reads the steps of the journal that `run` would read: they may then be trimmed. Cost: O(steps).
+  void follow(const TetMesh& mesh, const Journal& journal);
+
   /// Whether tets wait for another `run`.
   [[nodiscard]] bool has_work() const;
   /// Drops what is in care: after an undo. `position`: how many steps of the journal are still the same.
-  void forget(std::size_t position = 0);
+  void forget(std::size_t position);
 
  private:
   class Queue;

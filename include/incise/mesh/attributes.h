@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,7 +55,8 @@ struct AttributeSpec {
 ///
 /// A follower as the journal describes it: after any number of commits, undos and redos `follow` catches up. Undo
 /// brings the values of all elements that a step touched back bit for bit, redo those that undo took away; what was
-/// written to other elements in between stays.
+/// written to other elements in between stays. Steps are known by their serials: one that does the same as an undone
+/// one is a new step.
 ///
 /// Conserved quantities have a density at each vertex: the value by the vertex's lumped rest volume, a quarter of each
 /// of its tets. A consumed tet carries away its quarters at the densities before the step; its children get them in
@@ -72,12 +75,12 @@ struct AttributeSpec {
 /// volume a uniform density stays uniform.
 ///
 /// Not thread-safe; other followers may read the mesh at the same time.
-/// Memory: 32 bytes per tet and 36 per vertex besides the values, and what `follow` keeps for undo: O(step) per step.
+/// Memory: 32 bytes per tet and 36 per vertex besides the values, and what `follow` keeps for undo: O(step) for each
+/// step that the journal keeps.
 class Attributes {
  public:
-  /// For a mesh whose journal stands at `position`. Steps before it cannot be followed back, and `Journal::clear` ends
-  /// the relation. Cost: O(n).
-  explicit Attributes(const TetMesh& mesh, std::size_t position = 0);
+  /// For a mesh as it stands, and its journal. Steps before cannot be followed back. Cost: O(n).
+  explicit Attributes(const TetMesh& mesh, const Journal& journal = {});
 
   /// Adds an attribute; `mesh` as at the last `follow`. Errors: kBadArgument for an empty or known name, a width
   /// outside [1, 64], a missing or needless function, or the wrong number of initial values. Elements that an undo past
@@ -111,13 +114,9 @@ class Attributes {
   /// `mesh` is the journal's mesh as it stands. Where a step has no `edits`, records apply in the order of the members
   /// of `Step`; a transaction that moves a vertex before it splits beside it is therefore followed with its shares, not
   /// its sums, approximate. Several steps at once give what they give one by one. Errors: kBadArgument where the
-  /// journal stands before the position of construction; nothing changes. Cost: O(steps to go and the last one before
-  /// them).
+  /// journal went back behind where the attributes began, or has trimmed steps that they have not seen; nothing
+  /// changes, and they must be made anew. Cost: O(steps to go and the last one before them).
   Status follow(const Journal& journal, const TetMesh& mesh);
-
-  /// Forgets the values that undo took away: a redo then hands on the values of its time like a step never seen. For
-  /// values that change between steps, as momenta do. Cost: O(steps undone).
-  void forget_undone() { records_.erase(records_.begin() + static_cast<std::ptrdiff_t>(applied_), records_.end()); }
 
  private:
   class Stepper;
@@ -136,7 +135,7 @@ class Attributes {
   };
   /// What a step touched, as it stands on the other side of the step.
   struct Record {
-    std::uint64_t fingerprint = 0;
+    std::uint64_t serial = 0;    // of the step
     bool is_recomputed = false;  // the mesh has been seen as it was right after the step
     std::uint32_t vertex_slots = 0, tet_slots = 0;
     std::vector<SavedVertex> vertices;
@@ -144,6 +143,9 @@ class Attributes {
     std::vector<std::vector<double>> values;  // by attribute, in the order of `vertices` or `tets`
   };
 
+  [[nodiscard]] std::optional<std::size_t> common_with(const Journal& journal) const;
+  void apply(const Step& step);
+  void forget_trimmed(const Journal& journal);
   void resize(std::uint32_t vertex_slots, std::uint32_t tet_slots);
   static void fill_initial(Attribute& attribute, std::uint32_t slot);
   void link(TetId tet, const TetVertices& vertices);
@@ -159,7 +161,8 @@ class Attributes {
 
   std::vector<Attribute> attributes_;
   std::size_t base_ = 0, applied_ = 0;
-  std::vector<Record> records_;  // from base_ on; those from applied_ on are undone
+  std::uint64_t base_serial_ = 0;  // of the step before base_
+  std::deque<Record> records_;     // from base_ on; those from applied_ on are undone
   IdArray<VertexId, Vec3> rest_;
   IdArray<VertexId, double> lumped_;
   IdArray<VertexId, std::uint32_t> first_corner_;  // tet slot · 4 + corner, the head of a list through next_corner_

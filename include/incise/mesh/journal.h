@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "incise/mesh/tet_mesh.h"
@@ -99,6 +100,10 @@ struct StepImage {
 
 /// One committed step: the net effect of a transaction, with what is needed to invert it.
 struct Step {
+  /// Given by `Journal::append`, from 1 on. A step keeps it through undo and redo, and no other step of the journal
+  /// ever gets it: a follower knows steps by it.
+  std::uint64_t serial = 0;
+
   std::vector<BornVertex> born;
   std::vector<MovedVertex> moved;
   std::vector<CopiedVertex> copied;
@@ -123,32 +128,48 @@ struct Step {
 
 /// The committed steps of one mesh, in order, with a position that undo and redo move.
 ///
-/// Followers pull: they remember how many steps they applied and catch up between commits.
+/// Followers pull: they remember how many steps they applied and catch up between commits. `JournalCursor` tells them
+/// what has happened since. Positions count all steps ever applied, those that `trim` has forgotten included.
 class Journal {
  public:
-  /// Appends a step; steps that were undone are dropped.
+  /// Appends a step and gives it the next serial; steps that were undone are dropped.
   void append(Step step);
   /// Steps applied so far.
   [[nodiscard]] std::size_t position() const { return position_; }
-  [[nodiscard]] std::size_t size() const { return steps_.size(); }
-  [[nodiscard]] const Step& step(std::size_t index) const { return steps_[index]; }
+  /// One past the last step that is kept, undone ones included.
+  [[nodiscard]] std::size_t size() const { return first_ + steps_.size(); }
+  /// The lowest step that is kept, and the lowest position that undo leads back to; 0 as long as nothing was trimmed.
+  [[nodiscard]] std::size_t first() const { return first_; }
+  /// `index` in [`first`, `size`).
+  [[nodiscard]] const Step& step(std::size_t index) const { return steps_[index - first_]; }
+  /// The serial of the last step before a position in [`first`, `size`]; 0 before the first step of all.
+  [[nodiscard]] std::uint64_t serial_before(std::size_t position) const {
+    return position == first_ ? trimmed_serial_ : step(position - 1).serial;
+  }
+  /// The highest serial given so far; 0 where none was.
+  [[nodiscard]] std::uint64_t newest_serial() const { return newest_serial_; }
   /// Takes the last applied step back: the mesh, its slots and its free lists are bit for bit as before it.
-  /// Returns false where there is none. Cost: O(step).
+  /// Returns false where none is kept. Cost: O(step).
   bool undo(TetMesh& mesh);
   /// Applies the next undone step again. Returns false where there is none. Cost: O(step).
   bool redo(TetMesh& mesh);
-  void clear();
-  /// How often undo and redo have moved the position: a follower that finds another number than before cannot just go
-  /// on with the steps that it has not seen.
-  [[nodiscard]] std::uint64_t rewinds() const { return rewinds_; }
+  /// Takes the steps from `position` on back and drops them, and those that were undone: for what has failed.
+  /// `position` in [`first`, `position()`]. Cost: O(steps).
+  void take_back(TetMesh& mesh, std::size_t position);
+  /// Forgets the applied steps before `position`, at most all; their memory is free again. They can be neither undone
+  /// nor followed any more. Cost: O(steps forgotten).
+  void trim(std::size_t position);
+  /// Bytes held by the steps that are kept. Cost: O(steps).
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   static void restore(TetMesh& mesh, const Step& step, const StepImage& image);
   static void count_change(bool was_live, bool is_live, std::size_t& live, std::uint32_t& generation);
 
-  std::vector<Step> steps_;
-  std::size_t position_ = 0;
-  std::uint64_t rewinds_ = 0;
+  std::deque<Step> steps_;  // from first_ on
+  std::size_t first_ = 0, position_ = 0;
+  std::uint64_t newest_serial_ = 0;
+  std::uint64_t trimmed_serial_ = 0;  // of the step before first_
 };
 
 }  // namespace incise::inline v0

@@ -89,17 +89,18 @@ class TetMesh {
 
   /// Builds the mesh and its adjacency from a soup.
   ///
-  /// Every tet must be positive or flat and appear once (`normalise` sees to that); indices must be in range
-  /// and points finite. A face with more than two tets gets no neighbours: each of its sides is boundary.
+  /// Every tet must be positive or flat, by exact sign, and appear once (`normalise` sees to both); indices must be in
+  /// range and points finite. A face with more than two tets gets no neighbours: each of its sides is boundary.
   /// Points without tets are kept as vertices. Slot numbers equal positions in the soup.
   /// A wall tags the boundary side over its three points. It is passed over where there is none (two tets that share
   /// the face have closed it) or more than one, and where walls of several strokes claim the side. Without
   /// `soup.fronts` a cut ends at the edges where its lips meet: two walls that lie on one another with the body all
   /// around.
-  /// Errors: kBadArgument names the first offending tet, point or wall (a point out of range, a stroke outside
-  /// [1, `kMaxStroke`]), or the array of a wrong length, or what the tets extend over where that is not within
-  /// `kLeastExtent` and `kGreatestExtent` (a body of no extent at all is flat, and sound); kOutOfMemory above 2^28
-  /// tets. Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet; with walls O(surface · log walls) more.
+  /// Errors: kBadArgument names the first offending tet (inverted ones too), point or wall (a point out of range, a
+  /// stroke outside [1, `kMaxStroke`]), or the array of a wrong length, or what the tets extend over where that is not
+  /// within `kLeastExtent` and `kGreatestExtent` (a body of no extent at all is flat, and sound); kOutOfMemory above
+  /// 2^28 tets. Cost: O(n), about 0.15 µs per tet and 16 bytes of scratch per tet; with walls O(surface · log walls)
+  /// more.
   static Result<TetMesh> build(TetSoup soup);
 
   [[nodiscard]] std::size_t tet_count() const { return live_tets_; }
@@ -210,6 +211,7 @@ class TetMesh {
   Status take_points(const TetSoup& soup);
   Status take_tets(const TetSoup& soup);
   [[nodiscard]] Status check_extent() const;
+  [[nodiscard]] Status check_orientation() const;
   void link_faces();
   void tag_walls(const std::vector<SoupWall>& walls);
   void mark_shapes();

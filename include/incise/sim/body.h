@@ -84,9 +84,9 @@ struct BodyEnergy {
 /// every compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
 class DeformableBody {
  public:
-  /// Takes the body as it stands, at rest or not, without velocity. The journal stands at `position`.
+  /// Takes the body as it stands, at rest or not, without velocity, and follows its `journal` from here on.
   /// Errors: kBadArgument for options or materials out of range. Cost: O(tets), about 1 µs each.
-  static Result<DeformableBody> create(const TetMesh& mesh, std::size_t position, const Materials& materials,
+  static Result<DeformableBody> create(const TetMesh& mesh, const Journal& journal, const Materials& materials,
                                        const BodyOptions& options = {});
   DeformableBody(DeformableBody&&) noexcept;
   DeformableBody& operator=(DeformableBody&&) noexcept;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
-#include "incise/mesh/tet_mesh.h"
-#include "incise/version.h"
+#include "incise/incise.h"
 
 // Uses installed headers and a symbol of the installed archives, nothing else.
 int main() {
