@@ -518,7 +518,7 @@ class Cutter::Pipeline {
   Vec3 direction_ = Vec3::Zero();  // of the last step in the material
   bool is_in_material_ = false, is_last_ = false;
   enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
-  bool has_ended_ = false;  // a short stroke in the material
+  bool has_ended_ = false;                   // a short stroke in the material
   AtFront is_at_front_ = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
   std::function<void()> between_sheets_;
   std::uint32_t tag_ = 1;

@@ -130,12 +130,13 @@ Status TouchedCheck::check_corners(const TetMesh& mesh) {
   }
   std::sort(vertices_.begin(), vertices_.end());
   std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) { return a.vertex < b.vertex; });
-  auto first = corners_.cbegin();
+  std::span<const Corner> rest = corners_;
   for (const VertexId vertex : vertices_) {
     const auto end =
-        std::find_if(first, corners_.cend(), [&](const Corner& corner) { return corner.vertex != vertex; });
-    if (Status status = check_vertex(mesh, vertex, {first, end}); !status) return status;
-    first = end;
+        std::find_if(rest.begin(), rest.end(), [&](const Corner& corner) { return corner.vertex != vertex; });
+    const auto count = static_cast<std::size_t>(end - rest.begin());
+    if (Status status = check_vertex(mesh, vertex, rest.first(count)); !status) return status;
+    rest = rest.subspan(count);
   }
   return {};
 }
