@@ -189,7 +189,8 @@ void ContactWalk::visit(const TetMesh& mesh, TetId tet) {
   if (meets({mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])})) {
     if (complex_->is_at_settled(mesh, tet)) {
       rejected_[tet.value] = walk_;
-      left_behind_.push_back(v);
+      left_behind_.push_back(
+          {complex_->closed(v[0]), complex_->closed(v[1]), complex_->closed(v[2]), complex_->closed(v[3])});
       return;
     }
     const std::uint32_t master = complex_->adopt(mesh, tet);

@@ -146,7 +146,7 @@ class PointUpdate {
       if (!is_odd_side(complex_[master], s)) {
         if (at != Master::kNone) drop(at);
       } else if (at == Master::kNone) {
-        create(master, s);
+        if (!is_beside_what_was_let_go(complex_[master], s)) create(master, s);
       } else {
         refresh(at, master, s);
       }
@@ -163,6 +163,10 @@ class PointUpdate {
   void drop(std::uint32_t at) {
     mark_dirty(complex_.point(at));
     complex_.remove_point(at);
+  }
+  /// Whether the tet behind a side is no master any more, so that the side keeps the shape that it has.
+  [[nodiscard]] bool is_beside_what_was_let_go(const Master& master, unsigned side) const {
+    return master.behind[side] == Master::kNone && !complex_.outside(mesh_, master, side).is_boundary();
   }
   /// Where the cut ends in a side.
   struct End {

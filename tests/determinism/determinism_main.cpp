@@ -175,7 +175,7 @@ bool run_improved(const Upkeep& upkeep, unsigned threads) {
   TetSoup soup = kuhn_cube(6);
   jitter(soup, 0.3, 8);
   Engine engine = make_engine(std::move(soup), upkeep, threads);
-  return engine.improve().ok() & print("rough", upkeep.name, "improved", engine.mesh());
+  return engine.improve().ok() && print("rough", upkeep.name, "improved", engine.mesh());
 }
 
 bool run_all_maintained(unsigned threads) {
