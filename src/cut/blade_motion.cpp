@@ -46,6 +46,8 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   is_held_ = false;
   ways_.assign(row.size(), Vec3::Zero());
   reaches_on_ = {};
+  seams_ = {};
+  seam_segments_.clear();
 }
 
 /// A row's points: one that stands where the front does is the front's.

@@ -20,10 +20,16 @@ namespace incise::inline v0 {
 /// Paper §2.2 (collision detection). Differs: no search of the mesh; the cost depends on the tets met alone.
 class ContactWalk {
  public:
-  void clear() {
-    met_.clear();
-    last_.clear();
-    front_.clear();
+  /// The masters that a walk remembers.
+  struct Memory {
+    std::vector<std::uint32_t> met, last, front;
+  };
+  void clear() { restore({}); }
+  [[nodiscard]] Memory memory() const { return {met_, last_, front_}; }
+  void restore(const Memory& memory) {
+    met_ = memory.met;
+    last_ = memory.last;
+    front_ = memory.front;
   }
   /// The masters that the strip meets, each once, in the order of the walk; tets that were none yet become masters.
   /// Conservative: a few come close without touching. Cost: about 30 ns per tet visited, and the cells of the surface

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -66,6 +68,14 @@ class BasicEdgeTable {
       slot = add(edge) + 1;
     }
     return slot - 1;
+  }
+  /// Takes over edges with their indices; those without valid ends are free. The table must be clear.
+  void restore(std::span<const Edge> edges) {
+    for (const Edge& edge : edges) {
+      if (!edge.a.is_valid()) free_.push_back(size());
+      edges_.push_back(edge);
+    }
+    rehash(std::max<std::size_t>(slots_.size(), std::bit_ceil(std::max<std::size_t>(1024, 2 * (edges.size() + 8)))));
   }
   Edge& operator[](std::uint32_t index) { return edges_[index]; }
   const Edge& operator[](std::uint32_t index) const { return edges_[index]; }

@@ -274,7 +274,7 @@ Status Simulation::State::cut(const FrameInput& input, FrameReport& report) {
   told.times += step->times;
   if (!coupling.resists()) return {};
   const StageZone zone(report.times, Stage::kCollision);
-  coupling.pay_for(detail::wall_growth(engine.journal(), first_step, engine.mesh(), engine.next_stroke()));
+  coupling.pay_for(detail::wall_growth(engine.journal(), first_step, engine.mesh()));
   coupling.take_hold(engine.mesh(), fresh_tets(engine.journal(), first_step));
   report.blade = coupling.state();
   return {};
