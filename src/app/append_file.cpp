@@ -10,7 +10,8 @@
 #include <string>
 #include <system_error>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -88,4 +89,5 @@ Status AppendFile::write(std::string_view text) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

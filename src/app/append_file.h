@@ -7,7 +7,8 @@
 
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A file that grows in place, and whose content outlives the program at any moment: nothing is buffered here.
@@ -35,4 +36,5 @@ class AppendFile {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include "app/stroke_reader.h"
 #include "incise/app/text_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -45,4 +46,5 @@ Result<std::vector<Stroke>> read_blade(const std::filesystem::path& path) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

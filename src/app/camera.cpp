@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -160,4 +161,5 @@ void look_along(Camera& camera, const Vec3& direction) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

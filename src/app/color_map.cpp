@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -44,4 +45,5 @@ Color label_color(std::uint32_t label) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

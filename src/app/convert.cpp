@@ -10,7 +10,8 @@
 #include "incise/app/mesh_loader.h"
 #include "incise/io/surface_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -71,4 +72,5 @@ Result<Conversion> convert(const fs::path& in, const fs::path& out) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

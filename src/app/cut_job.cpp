@@ -8,7 +8,8 @@
 #include "incise/app/recorded_engine.h"
 #include "incise/mesh/bounds.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -130,4 +131,5 @@ Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh)
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

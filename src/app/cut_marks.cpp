@@ -5,7 +5,8 @@
 #include <array>
 #include <memory>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -93,4 +94,5 @@ void mark_cut_vertices(const TetMesh& mesh, const SurfaceFrame& frame, Marks& ma
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

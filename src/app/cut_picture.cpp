@@ -4,7 +4,8 @@
 #include "incise/app/spread_pieces.h"
 #include "incise/mesh/components.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -65,4 +66,5 @@ Picture picture_of_cut(const TetMesh& mesh, const Journal& journal, const Viewpo
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

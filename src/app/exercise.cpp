@@ -9,7 +9,8 @@
 #include "app/scene_blade.h"
 #include "incise/app/scene.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -49,4 +50,5 @@ Scene with_ideal(const Scene& scene) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

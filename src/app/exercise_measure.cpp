@@ -10,7 +10,8 @@
 
 #include "incise/geom/triangle_tree.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -273,4 +274,5 @@ void measure_mesh(const Exercise& exercise, const TargetLine& line, const TetMes
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "incise/app/exercise_score.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A point seen from the target line. Length units.
@@ -62,4 +63,5 @@ class TargetLine {
 void measure_mesh(const Exercise& exercise, const TargetLine& line, const TetMesh& mesh, ExerciseScore& score);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "app/exercise_measure.h"
 #include "incise/app/scene.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -247,4 +248,5 @@ ExerciseScore ExerciseScorer::score(const Simulation& simulation) const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

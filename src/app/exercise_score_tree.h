@@ -4,11 +4,13 @@
 #include "app/json_write.h"
 #include "incise/app/exercise_score.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What `to_json` prints.
 [[nodiscard]] Json score_tree(const ExerciseScore& score);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

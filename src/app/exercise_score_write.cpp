@@ -5,7 +5,8 @@
 
 #include "app/exercise_score_tree.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 Json score_tree(const ExerciseScore& s) {
@@ -80,4 +81,5 @@ std::string to_text(const ExerciseScore& score) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/app/text_file.h"
 #include "incise/io/mesh_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -137,4 +138,5 @@ Status FrameSeries::finish() {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

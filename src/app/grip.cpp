@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -55,4 +56,5 @@ void draw_pins(const std::vector<Hook>& pins, Marks& marks) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

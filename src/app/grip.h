@@ -10,7 +10,8 @@
 #include "incise/app/picture.h"
 #include "incise/engine/simulation.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A hook in the hand: it moves in the plane across the view through what it grasped.
@@ -39,4 +40,5 @@ class Grasp {
 void draw_pins(const std::vector<Hook>& pins, Marks& marks);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 void HandQueue::push(const HandState& hands) {
@@ -37,4 +38,5 @@ void HandQueue::clear() {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include <sched.h>
 #endif
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 namespace {
@@ -133,4 +134,5 @@ HapticLoopStatistics HapticLoop::statistics() const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -110,4 +111,5 @@ std::string with_commas(std::uint64_t number) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "app/job_internal.h"
 #include "incise/app/mesh_export.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -39,4 +40,5 @@ Result<JobResult> run_improve(LoadedMesh loaded, const ImproveJob& job, bool wan
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include "incise/app/mesh_export.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace detail {
 namespace {
@@ -140,4 +141,5 @@ double volume_tolerance(const EngineOptions& options) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

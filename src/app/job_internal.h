@@ -10,7 +10,8 @@
 #include "incise/app/recorded_engine.h"
 #include "incise/mesh/components.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace detail {
 
@@ -82,4 +83,5 @@ Result<std::uint32_t> take_back_until(RecordedEngine& engine, const std::functio
 
 }  // namespace detail
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

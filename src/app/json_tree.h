@@ -13,7 +13,8 @@
 #include "incise/core/result.h"
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A parsed JSON value that knows its line, so that messages can name it. Duplicate keys are refused on reading.
@@ -77,4 +78,5 @@ class JsonReader {
 [[nodiscard]] std::string short_number(double x);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 Json encode(double number) {
@@ -56,4 +57,5 @@ std::string hash_text(std::uint64_t hash) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/validate.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 using Json = nlohmann::ordered_json;
@@ -28,4 +29,5 @@ Json encode(const ValidityReport& report);
 std::string hash_text(std::uint64_t hash);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

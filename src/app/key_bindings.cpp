@@ -5,7 +5,8 @@
 
 #include <array>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -117,4 +118,5 @@ std::string list_of_keys() {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

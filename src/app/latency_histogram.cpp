@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <bit>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 namespace {
@@ -56,4 +57,5 @@ Percentiles LatencyHistogram::microseconds() const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

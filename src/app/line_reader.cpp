@@ -5,7 +5,8 @@
 
 #include "incise/app/text_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -68,4 +69,5 @@ Result<bool> LineSource::read(std::string& line) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

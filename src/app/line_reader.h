@@ -17,7 +17,8 @@
 #include "incise/core/result.h"
 #include "incise/improve/options.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 inline constexpr JsonLimits kLineLimits = {std::size_t{1} << 30U, std::size_t{1} << 24U, 16};
@@ -132,4 +133,5 @@ class LineReader {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/app/mesh_export.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -70,4 +71,5 @@ io::SurfaceSoup to_surface(const TetMesh& mesh) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

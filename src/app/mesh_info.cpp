@@ -9,7 +9,8 @@
 
 #include "app/json_write.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -160,4 +161,5 @@ std::string to_text(const MeshCheck& check) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

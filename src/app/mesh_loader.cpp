@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -165,4 +166,5 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 void OperationLog::add(Operation operation) {
@@ -13,4 +14,5 @@ void OperationLog::add(Operation operation) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

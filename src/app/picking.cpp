@@ -4,7 +4,8 @@
 #include <limits>
 #include <vector>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -69,4 +70,5 @@ std::optional<SurfaceHit> pick(const SurfaceFrame& surface, const Ray& ray) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/app/picture.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 Box bounds_of(const SurfaceFrame& frame) {
@@ -15,4 +16,5 @@ Box bounds_of(const SurfaceFrame& frame) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

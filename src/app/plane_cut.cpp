@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -60,4 +61,5 @@ void draw(const PlaneCut& cut, const Camera& camera, Marks& marks) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "incise/app/picture.h"
 #include "incise/cut/stroke.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A line across the picture, and the part of the plane through it and the eye that goes through a body.
@@ -28,4 +29,5 @@ struct PlaneCut {
 void draw(const PlaneCut& cut, const Camera& camera, Marks& marks);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -49,4 +50,5 @@ std::vector<std::string> to_lines(const ProbeInfo& probe) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

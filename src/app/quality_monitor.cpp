@@ -8,7 +8,8 @@
 #include "incise/app/surface_view.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -113,4 +114,5 @@ std::vector<TetId> QualityMonitor::worst(std::size_t count) const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

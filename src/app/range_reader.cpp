@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -65,4 +66,5 @@ bool RangeReader::need_point(const JsonValue& object, const std::string& path, s
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 
 #include "app/json_tree.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Where a number must lie.
@@ -47,4 +48,5 @@ class RangeReader : public JsonReader {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "app/job_internal.h"
 #include "app/recording_path.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -50,7 +51,7 @@ auto RecordedEngine::timed(const Call& call) {
 }
 
 /// Writes the line of a call whose arguments `fill` puts in.
-template <class Outcome, class Fill>
+template <class Fill, class Outcome>
 Outcome RecordedEngine::recorded(CallKind kind, Outcome outcome, const Fill& fill) {
   if (!writer_ || is_refused(outcome)) return outcome;
   RecordedCall call;
@@ -117,4 +118,5 @@ Result<bool> RecordedEngine::redo() {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "incise/app/mesh_loader.h"
 #include "incise/app/recording.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// The mesh that a session's recording names, checked to be the one. Errors: as `load_mesh`; kBadFile where it is not
@@ -15,4 +16,5 @@ namespace app {
                                                     const std::filesystem::path& recording);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "app/recording_path.h"
 #include "incise/app/scene_simulation.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -113,4 +114,5 @@ Result<SimulationWriter> RecordedSimulation::write_past(const std::filesystem::p
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

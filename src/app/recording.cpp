@@ -7,7 +7,8 @@
 #include "app/line_reader.h"
 #include "app/recording_lines.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 class RecordingWriter::File : public AppendFile {
  public:
@@ -68,4 +69,5 @@ bool RecordingReader::is_cut_off() const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/io/base64.h"
 #include "incise/version.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -265,4 +266,5 @@ Result<RecordedCall> parse_call(std::string_view text, std::string_view file_nam
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

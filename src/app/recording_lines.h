@@ -8,7 +8,8 @@
 
 #include "incise/app/recording.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// The name of a call in recordings and messages.
@@ -23,4 +24,5 @@ namespace app {
 [[nodiscard]] Result<RecordedCall> parse_call(std::string_view text, std::string_view file_name, std::uint32_t line);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <string>
 #include <system_error>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A file's path as seen from a recording's folder, so that both can be moved together; empty for an empty path.
@@ -19,4 +20,5 @@ inline std::string seen_from(const std::filesystem::path& recording, const std::
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

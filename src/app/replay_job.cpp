@@ -15,7 +15,8 @@
 #include "incise/app/mesh_export.h"
 #include "incise/app/simulation_recording.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -201,4 +202,5 @@ std::string to_text(const ReplayResult& result) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "app/report_tree.h"
 #include "incise/version.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -220,4 +221,5 @@ std::string to_text(const JobReport& report) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

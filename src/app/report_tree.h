@@ -4,7 +4,8 @@
 #include "app/json_write.h"
 #include "incise/app/report.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 Json encode(const Percentiles& percentiles);
@@ -12,4 +13,5 @@ Json encode(const Percentiles& percentiles);
 [[nodiscard]] Json report_tree(const JobReport& report);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

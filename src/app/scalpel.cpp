@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -172,4 +173,5 @@ void Scalpel::draw(Marks& marks) const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "incise/app/picture.h"
 #include "incise/app/tools.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Where the pointer is at one moment of a drag.
@@ -56,4 +57,5 @@ class Scalpel {
 [[nodiscard]] BladePose upright_pose(const Vec3& point, const Vec3& normal, double depth);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "incise/app/scene_stroke.h"
 #include "incise/engine/engine.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// The blade at the end of a frame; see `scene_input`.
@@ -16,4 +17,5 @@ namespace app {
                                                 std::uint64_t frame);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

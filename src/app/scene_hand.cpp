@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 namespace {
@@ -76,4 +77,5 @@ HapticFigures SceneHand::figures() const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include "app/scene_blade.h"
 #include "incise/app/scene.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -93,4 +94,5 @@ FrameInput scene_input(const Scene& scene, std::uint64_t frame) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -13,7 +13,8 @@
 #include "incise/app/blade_file.h"
 #include "incise/app/text_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -599,4 +600,5 @@ Result<Scene> read_scene(const fs::path& path) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

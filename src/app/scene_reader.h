@@ -7,11 +7,13 @@
 #include "app/json_tree.h"
 #include "incise/app/scene.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Reads a scene from a parsed document, or from a part of one; see `parse_scene`.
 Result<Scene> read_scene_tree(const JsonValue& root, std::string_view file_name, const std::filesystem::path& folder);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

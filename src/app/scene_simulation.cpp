@@ -8,7 +8,8 @@
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -139,4 +140,5 @@ Result<Simulation> make_simulation(const Scene& scene, TetMesh mesh, unsigned th
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include "incise/app/scene.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -42,4 +43,5 @@ ViewOptions view_options_of(const Scene& scene) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "app/view_names.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -201,4 +202,5 @@ std::string to_json(const Scene& scene) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,11 +4,13 @@
 #include "app/json_write.h"
 #include "incise/app/scene.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// See `to_json(const Scene&)`.
 [[nodiscard]] Json scene_tree(const Scene& scene);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

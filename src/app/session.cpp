@@ -12,7 +12,8 @@
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/components.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -309,4 +310,5 @@ Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

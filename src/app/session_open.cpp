@@ -15,7 +15,8 @@
 #include "incise/app/text_file.h"
 #include "incise/mesh/bounds.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -200,4 +201,5 @@ fs::path Session::State::next_recording_name() const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "app/session_state.h"
 #include "incise/app/replay_job.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -128,4 +129,5 @@ bool Session::take_over() {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "incise/app/recording.h"
 #include "incise/app/session.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 struct Session::State {
@@ -73,4 +74,5 @@ struct Session::State {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

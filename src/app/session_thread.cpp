@@ -15,7 +15,8 @@
 #include "incise/app/text_file.h"
 #include "incise/core/triple_buffer.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -448,4 +449,5 @@ void SessionThread::set_speed(double speed) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

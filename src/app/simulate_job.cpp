@@ -12,7 +12,8 @@
 #include "incise/app/scene_hand.h"
 #include "incise/app/scene_simulation.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -188,4 +189,5 @@ Result<SimulateResult> run_simulate(const Scene& scene, const SimulateJob& job) 
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/app/blade_file.h"
 #include "incise/version.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -228,4 +229,5 @@ Result<SimulationCall> parse_simulation_call(std::string_view text, std::string_
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

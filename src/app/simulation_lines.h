@@ -9,7 +9,8 @@
 
 #include "incise/app/simulation_recording.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// The name of a call in recordings and messages.
@@ -26,4 +27,5 @@ namespace app {
                                                            std::uint32_t line);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "app/line_reader.h"
 #include "app/simulation_lines.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 class SimulationWriter::File : public AppendFile {
@@ -85,4 +86,5 @@ bool is_simulation_recording(const std::filesystem::path& path) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

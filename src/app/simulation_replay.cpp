@@ -11,7 +11,8 @@
 #include "incise/app/scene_simulation.h"
 #include "incise/app/simulation_recording.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -123,4 +124,5 @@ Result<ReplayResult> run_simulation_replay(const ReplayJob& job) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

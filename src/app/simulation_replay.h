@@ -4,7 +4,8 @@
 #include "incise/app/replay_job.h"
 #include "incise/app/simulation_recording.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// The model of a recording's scene, checked to be the one. Errors: as `load_model`; kBadFile where it is another one.
@@ -14,4 +15,5 @@ namespace app {
 [[nodiscard]] Result<ReplayResult> run_simulation_replay(const ReplayJob& job);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

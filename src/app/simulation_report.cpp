@@ -6,7 +6,8 @@
 #include "app/exercise_score_tree.h"
 #include "app/report_tree.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -106,4 +107,5 @@ std::string to_text(const SimulationReport& report) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

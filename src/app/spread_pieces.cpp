@@ -3,7 +3,8 @@
 
 #include "incise/geom/box.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -52,4 +53,5 @@ void spread_pieces(const TetMesh& mesh, const Components& pieces, double share, 
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

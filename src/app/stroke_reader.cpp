@@ -6,7 +6,8 @@
 
 #include "incise/app/blade_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -138,4 +139,5 @@ bool read_strokes(JsonReader& reader, const JsonValue& list, const std::string& 
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

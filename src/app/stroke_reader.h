@@ -7,7 +7,8 @@
 #include "app/json_tree.h"
 #include "incise/cut/stroke.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Reads the strokes of a blade file (see `parse_blade`), at least one, and appends them. Returns false, with the error
@@ -15,4 +16,5 @@ namespace app {
 bool read_strokes(JsonReader& reader, const JsonValue& list, const std::string& path, std::vector<Stroke>& strokes);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

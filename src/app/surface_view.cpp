@@ -10,7 +10,8 @@
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -348,4 +349,5 @@ void SurfaceView::fill(const TetMesh& mesh, SurfaceFrame& frame) const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

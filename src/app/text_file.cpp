@@ -9,7 +9,8 @@
 #include <memory>
 #include <system_error>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -85,4 +86,5 @@ Status write_text_file(const fs::path& path, std::string_view text) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 #include "plane_cut.h"
 #include "scalpel.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -343,4 +344,5 @@ void ToolMachine::draw(const ToolContext& context, const Camera& camera, Marks& 
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

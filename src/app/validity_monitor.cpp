@@ -9,7 +9,8 @@
 
 #include "incise/mesh/validate.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -107,4 +108,5 @@ ValidityLight ValidityMonitor::light() const {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

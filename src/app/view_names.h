@@ -8,7 +8,8 @@
 
 #include "incise/app/picture.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 inline constexpr std::array<std::string_view, 4> kColorNames = {"tissue", "region", "stroke", "quality"};
@@ -22,4 +23,5 @@ constexpr std::string_view name_of(Theme theme) {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include <system_error>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 namespace {
 
@@ -499,4 +500,5 @@ std::optional<fs::path> Viewer::take_screenshot() {
 }
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

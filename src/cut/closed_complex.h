@@ -11,7 +11,8 @@
 #include "cut/split_template.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// An edge of the closed complex, with what the blade did to it. `a` has the lower slot.
 struct ClosedEdge {
@@ -313,4 +314,5 @@ void ClosedComplex::for_each_around(std::uint32_t edge, Visit&& visit) const {
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -55,4 +56,5 @@ void mark_coincident(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& nea
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "incise/core/parallel.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -96,4 +97,5 @@ std::vector<TetId> find_near_tets(const TetMesh& mesh, const Sheet& sheet, unsig
   return near;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "incise/core/parallel.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -89,4 +90,5 @@ std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet&
   return found;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

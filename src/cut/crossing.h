@@ -6,7 +6,8 @@
 #include "cut/neighbourhood.h"
 #include "cut/sweep.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Counts how often the sheet crosses every edge of the near tets, and marks the tets by parity.
 ///
@@ -30,4 +31,5 @@ struct DoublyCrossed {
 std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet& sheet,
                                                const Neighbourhood& neighbourhood, double gap);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -17,7 +17,8 @@
 #include "cut/sweep.h"
 #include "cut/twist.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -559,4 +560,5 @@ const SweptTriangles& Cutter::swept() const {
   return pipeline_->swept();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

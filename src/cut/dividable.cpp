@@ -6,7 +6,8 @@
 
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -364,4 +365,5 @@ std::uint64_t part_pinched_edges(Transaction& transaction, const std::vector<Inc
   return PinchedEdges(transaction, incision, walker).part();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

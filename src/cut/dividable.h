@@ -6,7 +6,8 @@
 #include "cut/subdivide.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// What separation did.
 struct Separation {
@@ -46,4 +47,5 @@ Separation separate_as_paper(Transaction& transaction, std::vector<IncisionFace>
 std::uint64_t part_pinched_edges(Transaction& transaction, const std::vector<IncisionFace>& incision,
                                  StarWalker& walker);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/core/grow_array.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A mesh edge near the blade, with what the blade did to it. `a` has the lower slot.
 struct CutEdge {
@@ -132,4 +133,5 @@ class BasicEdgeTable {
 
 using EdgeTable = BasicEdgeTable<CutEdge>;
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

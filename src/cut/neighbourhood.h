@@ -8,7 +8,8 @@
 #include "cut/edge_table.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Vertices closer to the blade than this share of their mean edge coincide with it: geometry given twice, not a
 /// choice.
@@ -74,4 +75,5 @@ struct Neighbourhood {
   }
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

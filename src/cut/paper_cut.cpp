@@ -9,7 +9,8 @@
 #include "cut/crossing.h"
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -112,4 +113,5 @@ void PaperCut::bisect(Transaction& transaction, const CutEdge& edge, double t) {
     }
   }
 }
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

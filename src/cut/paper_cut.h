@@ -9,7 +9,8 @@
 #include "incise/cut/options.h"
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Cuts along a sheet as the paper does, after the fact: its sections 2.2 to 2.4.
 ///
@@ -42,4 +43,5 @@ class PaperCut {
   StarWalker walker_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

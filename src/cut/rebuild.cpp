@@ -8,7 +8,8 @@
 #include "cut/older_walls.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -848,4 +849,5 @@ RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex,
   return Run(*this, transaction, complex, sheet, settings).run();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

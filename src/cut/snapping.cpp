@@ -8,7 +8,8 @@
 #include "cut/old_children.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -536,4 +537,5 @@ std::uint64_t move_on_vertices(Transaction& transaction, const OwnSheet& sheet, 
   return bent;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

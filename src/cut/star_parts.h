@@ -9,7 +9,8 @@
 #include "cut/material_pieces.h"
 #include "cut/old_children.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// One live tet around a closed vertex.
 struct StarTet {
@@ -98,4 +99,5 @@ class StarParts {
   ZeroedArray<std::uint32_t> index_of_tet_;  // 1 + index into the star; all zero between calls
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -12,7 +12,8 @@
 #include "incise/geom/intersect.h"
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -580,4 +581,5 @@ void StrokeCut::part_edges(TetMesh& mesh, Journal& journal, CutStatistics& stati
   if (!step.is_empty()) journal.append(std::move(step));
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -19,7 +19,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The cut of one stroke, strip by strip: collision → subdivision → separation (paper, Figure 1, first four boxes).
 ///
@@ -150,4 +151,5 @@ class StrokeCut {
   std::uint32_t first_look_ = 0;  // the first of the steps that look at the current strip
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "cut/bisection_order.h"
 #include "incise/geom/predicates.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -285,4 +286,5 @@ std::vector<IncisionFace> find_paper_incision(const TetMesh& mesh, const Neighbo
   return found;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "cut/split_template.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A face along which material will be separated: its two sides.
 struct IncisionFace {
@@ -39,4 +40,5 @@ Subdivision subdivide(Transaction& transaction, SplitTemplates& templates, Neigh
 std::vector<IncisionFace> find_paper_incision(const TetMesh& mesh, const Neighbourhood& neighbourhood,
                                               const Subdivision& subdivision);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

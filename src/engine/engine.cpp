@@ -10,7 +10,8 @@
 #include "incise/improve/paper_maintenance.h"
 #include "incise/mesh/bounds.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -463,4 +464,5 @@ bool Engine::redo() {
   return true;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

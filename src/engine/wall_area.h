@@ -7,7 +7,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// By how much the steps of a journal from `first_step` on have made the walls of a stroke grow: one side of the two,
@@ -17,4 +18,5 @@ namespace detail {
                                  std::uint32_t stroke);
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,9 @@
 #include "incise/mesh/remesh.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 namespace {
 
@@ -99,4 +101,6 @@ MaintainStatistics swap_faces(Transaction& transaction, const std::vector<TetId>
   return FaceSwapper(transaction).run(tets);
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

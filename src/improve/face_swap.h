@@ -6,7 +6,9 @@
 #include "incise/improve/options.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// Face Swapping: turns two tets at a face into three around an edge, or three into two, where the worst of them gets
 /// better by that.
@@ -17,4 +19,6 @@ namespace incise::inline v0::paper {
 /// average over two tets and one over three do not compare.
 MaintainStatistics swap_faces(Transaction& transaction, const std::vector<TetId>& tets);
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 namespace {
 
@@ -74,4 +76,6 @@ FittedPlane fit_plane(std::span<const Vec3> points) {
   return {centre, axes[static_cast<std::size_t>(least)].normalized()};
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,9 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// The plane with the least sum of squared distances from some points: it passes through their mean.
 struct FittedPlane {
@@ -17,4 +19,6 @@ struct FittedPlane {
 /// Cost: O(points), and about 0.3 µs. **Source:** Paper §3.4 ("a fit plane is calculated using least squares").
 FittedPlane fit_plane(std::span<const Vec3> points);
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,9 @@
 #include "improve/paper_classes.h"
 #include "improve/paper_move.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 Vec3 smooth_on_contour(const Vec3& c, const Vec3& a, const Vec3& b) {
   const Vec3 along = b - a;
@@ -73,4 +75,6 @@ MaintainStatistics smooth_boundary(Transaction& transaction, const std::vector<V
   return BoundarySmoother(transaction).run(vertices);
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,9 @@
 #include "incise/improve/options.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// The new place of a contour vertex C between its neighbours A and B: beside their middle, as far from the line AB as
 /// before, so that the area inside the contour stays.
@@ -28,4 +30,6 @@ Vec3 smooth_on_wall(const Vec3& place, std::span<const Vec3> neighbours);
 /// Cost: O(their stars). **Source:** Paper §3.4, Figures 9 and 10.
 MaintainStatistics smooth_boundary(Transaction& transaction, const std::vector<VertexId>& vertices);
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

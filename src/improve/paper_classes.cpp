@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 namespace {
 
@@ -105,4 +107,6 @@ bool ClassFinder::turns_sharply(const TetMesh& mesh, VertexId vertex) const {
   return !is_smooth(in, out);
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

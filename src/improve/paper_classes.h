@@ -5,7 +5,9 @@
 
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// How freely a vertex may move, the freest first.
 enum class VertexClass : std::uint8_t {
@@ -62,4 +64,6 @@ inline bool is_smooth(const Vec3& a, const Vec3& b) {
   return a.dot(b) > kSharpCosine * a.norm() * b.norm();
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

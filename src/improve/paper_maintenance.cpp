@@ -7,7 +7,8 @@
 #include "improve/paper_region.h"
 #include "improve/smart_laplacian.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -63,4 +64,5 @@ MaintainStatistics maintain_all_as_paper(TetMesh& mesh, Journal& journal, const 
   return maintain(mesh, journal, paper::find_all_vertices(mesh), options, times);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

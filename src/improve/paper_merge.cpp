@@ -7,7 +7,9 @@
 #include "improve/paper_quality.h"
 #include "incise/mesh/collapse.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 namespace {
 
@@ -240,4 +242,6 @@ MaintainStatistics merge_edges(Transaction& transaction, const std::vector<TetId
   return EdgeMerger(transaction, thresholds).run(tets);
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

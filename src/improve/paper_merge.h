@@ -7,7 +7,9 @@
 #include "incise/improve/options.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// The paper's two thresholds for a tet that is negligible beside its neighbours. It gives no values: with these, and
 /// blades like those of its Figure 13, about as many tets go as in its Table 2, and none of a straight cut of CUBE.
@@ -62,4 +64,6 @@ bool is_safe_to_merge(const TetMesh& mesh, TetId tet, VertexId b, VertexId c);
 MaintainStatistics merge_edges(Transaction& transaction, const std::vector<TetId>& tets,
                                const MergeThresholds& thresholds = {});
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,9 @@
 
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 namespace {
 
@@ -41,4 +43,6 @@ bool move_towards(Transaction& transaction, VertexId vertex, const Vec3& target,
   return false;
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

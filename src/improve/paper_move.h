@@ -5,7 +5,9 @@
 #include "incise/mesh/star.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// How often a move that does harm is tried: the whole way, half, a quarter, an eighth. What is left after that is less
 /// than the paper's smoothing is worth.
@@ -19,4 +21,6 @@ inline constexpr unsigned kMoveTries = 4;
 bool move_towards(Transaction& transaction, VertexId vertex, const Vec3& target, QualityMeter& meter,
                   StarWalker& walker);
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,9 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// L/r above which a tet is bad-shaped. Merging and Boundary Laplacian may not make a tet worse than this, nor worse
 /// than the worst about already is. **Source:** Paper §4.3, Table 3 ("measurement > 200").
@@ -43,4 +45,6 @@ class QualityMeter {
   std::uint64_t evaluations_ = 0;
 };
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,9 @@
 
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 namespace {
 
@@ -59,4 +61,6 @@ std::vector<VertexId> find_corners_of(const TetMesh& mesh, const std::vector<Tet
   return vertices;
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,9 @@
 
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// The paper's "divided vertices": those that the journal's steps from `first_step` on made (split points), copied or
 /// copied from, or moved, as far as they live. Ascending. Cost: O(n log n) in the records.
@@ -21,4 +23,6 @@ std::vector<TetId> find_tets_at(const TetMesh& mesh, const std::vector<VertexId>
 /// The corners of some live tets, each once. Ascending. Cost: O(n log n).
 std::vector<VertexId> find_corners_of(const TetMesh& mesh, const std::vector<TetId>& tets);
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,9 @@
 #include "improve/paper_region.h"
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 namespace {
 
@@ -73,4 +75,6 @@ MaintainStatistics smooth_inside(Transaction& transaction, const std::vector<Ver
   return InsideSmoother(transaction).run(vertices);
 }
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,9 @@
 #include "incise/improve/options.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0::paper {
+namespace incise {
+inline namespace v0 {
+namespace paper {
 
 /// Smart Laplacian Smoothing: moves each vertex to the mean of its neighbours where the average quality of the tets
 /// around it gets better by that. The average decides alone, as printed: single tets may get worse.
@@ -15,4 +17,6 @@ namespace incise::inline v0::paper {
 /// Cost: O(their stars). **Source:** Paper §3.2, equation 1 and Algorithm 3.
 MaintainStatistics smooth_inside(Transaction& transaction, const std::vector<VertexId>& vertices);
 
-}  // namespace incise::inline v0::paper
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "full_screen.h"
 #include "ink_style.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -40,4 +41,5 @@ void BackgroundPass::draw(app::Theme theme) const {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

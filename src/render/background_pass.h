@@ -5,7 +5,8 @@
 #include "incise/app/picture.h"
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// What is behind everything: a quiet gradient from top to bottom.
@@ -20,4 +21,5 @@ class BackgroundPass {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include "gl_object.h"
 #include "incise/app/camera.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Where a picture is drawn before it is shown: colour and depth with several samples per pixel, and one of each.
@@ -39,4 +40,5 @@ class Canvas {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include <array>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -105,4 +106,5 @@ Status check_gl(std::string_view doing) {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -42,7 +42,8 @@ unsigned char* pack(unsigned char* data, int size, int* packed_size, int /*level
 
 #include "incise/app/text_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -162,4 +163,5 @@ bool is_blank(const Image& image) {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "incise/app/picture.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Numbers that the shaders know, too.
@@ -41,4 +42,5 @@ struct Grounds {
 [[nodiscard]] Grounds grounds_of(app::Theme theme);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "marks_shaders.h"
 #include "stop_watch.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -224,4 +225,5 @@ void MarksPass::draw(app::Theme theme, const ViewMatrices& view) const {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -12,7 +12,8 @@
 #include "mirrored_buffer.h"
 #include "view_matrices.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Lines of any width, balls and translucent triangles beside the surface, and the front edges of its cuts.
@@ -64,4 +65,5 @@ class MarksPass {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "full_screen.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -193,4 +194,5 @@ Status OcclusionPass::draw(const Canvas& canvas, const ViewMatrices& view, bool 
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

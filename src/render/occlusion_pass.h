@@ -6,7 +6,8 @@
 #include "incise/core/result.h"
 #include "view_matrices.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Darkens hollows of what was drawn, from its depth, at half the resolution.
@@ -31,4 +32,5 @@ class OcclusionPass {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

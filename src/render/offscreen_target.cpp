@@ -8,7 +8,8 @@
 #include "gl_object.h"
 #include "viewport_check.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 struct OffscreenTarget::State {
@@ -68,4 +69,5 @@ Result<Image> read_framebuffer(unsigned framebuffer, const app::Viewport& viewpo
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include "incise/render/offscreen_target.h"
 #include "incise/render/renderer.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 Result<Image> render_picture(const app::Picture& picture, const app::Viewport& viewport, unsigned samples) {
@@ -21,4 +22,5 @@ Result<Image> render_picture(const app::Picture& picture, const app::Viewport& v
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

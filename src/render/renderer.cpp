@@ -15,7 +15,8 @@
 #include "view_matrices.h"
 #include "viewport_check.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -207,4 +208,5 @@ unsigned Renderer::samples() const {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -12,7 +12,8 @@
 #include "stop_watch.h"
 #include "surface_shaders.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -197,4 +198,5 @@ void SurfacePass::draw_wireframe(const app::ViewOptions& options, const ViewMatr
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 #include "surface_normals.h"
 #include "view_matrices.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// The triangles of a surface on the graphics processor, and the ways to draw them.
@@ -47,4 +48,5 @@ class SurfacePass {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,11 +4,13 @@
 #include "incise/app/camera.h"
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Errors: kBadArgument for a size below 1 or above what the current context can draw.
 [[nodiscard]] Status check_viewport(const app::Viewport& viewport);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

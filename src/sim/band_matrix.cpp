@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 BandMatrix::BandMatrix(std::size_t size, std::size_t reach)
@@ -47,4 +48,5 @@ void BandMatrix::solve(std::vector<double>& x) const {
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// A symmetric matrix with entries (i, j) for |i − j| ≤ reach alone.
@@ -30,4 +31,5 @@ class BandMatrix {
 };
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

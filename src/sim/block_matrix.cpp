@@ -8,7 +8,8 @@
 
 #include "incise/core/id.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -163,4 +164,5 @@ std::optional<VecX> ConjugateGradients::solve(const BlockMatrix& a, const VecX& 
   return x;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

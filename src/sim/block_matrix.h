@@ -10,7 +10,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 using Mat3 = Eigen::Matrix3d;
 using VecX = Eigen::VectorXd;
@@ -65,4 +66,5 @@ struct ConjugateGradients {
   std::optional<VecX> solve(const BlockMatrix& a, const VecX& b);
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

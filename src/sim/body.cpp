@@ -8,7 +8,8 @@
 #include "incise/core/hash.h"
 #include "sim/body_state.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -327,4 +328,5 @@ std::uint64_t DeformableBody::hash() const {
   return hash.value();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

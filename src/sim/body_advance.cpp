@@ -6,7 +6,8 @@
 #include "sim/body_state.h"
 #include "sim/position_based.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 using Part = detail::SweepOrder::Part;
 
@@ -246,4 +247,5 @@ void DeformableBody::State::fall_asleep() {
   order.cool(stars, moved, [&](VertexId v) { set_momentum(v, Vec3::Zero()); });
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

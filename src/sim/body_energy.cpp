@@ -6,7 +6,8 @@
 
 #include "sim/body_state.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -103,4 +104,5 @@ void DeformableBody::State::step_back(double most, double dt) {
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

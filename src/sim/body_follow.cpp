@@ -7,7 +7,8 @@
 #include "sim/body_rewind.h"
 #include "sim/body_state.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 using detail::Held;
 using detail::Hold;
@@ -373,4 +374,5 @@ void DeformableBody::State::drop_lost_pulls(const TetMesh& mesh) {
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

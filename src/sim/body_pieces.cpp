@@ -6,7 +6,8 @@
 
 #include "sim/body_state.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 using detail::Piece;
 
@@ -169,4 +170,5 @@ void DeformableBody::State::correct_motion(double h) {
   });
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 // --- the grid
@@ -200,4 +201,5 @@ void Rewind::balance(DeformableBody::State& s) {
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/geom/box.h"
 #include "sim/body_state.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// Tets by where they are at rest, to find the one that a point is in.
@@ -76,4 +77,5 @@ class Rewind {
 };
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

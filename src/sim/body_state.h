@@ -14,7 +14,8 @@
 #include "sim/stars.h"
 #include "sim/sweep_order.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// A vertex that is held where it is: `stiffness` in N/m, infinite for rigidly.
@@ -196,4 +197,5 @@ struct DeformableBody::State {
   void correct_motion(double h);
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

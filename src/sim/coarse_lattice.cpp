@@ -8,7 +8,8 @@
 
 #include "sim/body_state.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 namespace {
@@ -398,4 +399,5 @@ void CoarseLattice::correct(DeformableBody::State& state) {
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

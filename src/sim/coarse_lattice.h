@@ -15,7 +15,8 @@
 #include "incise/sim/body.h"
 #include "sim/band_matrix.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 class CoarseLattice {
@@ -84,4 +85,5 @@ class CoarseLattice {
 };
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include <limits>
 #include <optional>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -140,4 +141,5 @@ void find_contacts(const TetMesh& mesh, std::span<const Vec3> positions, std::sp
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 void CuttingEnergy::move_tool(const Vec3& force, const Vec3& position) {
   if (is_moving_) external_ -= 0.5 * (force_ + force).dot(position - position_);
@@ -23,4 +24,5 @@ EnergyBalance CuttingEnergy::balance() const {
   return balance;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

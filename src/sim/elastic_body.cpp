@@ -6,7 +6,8 @@
 
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -171,4 +172,5 @@ std::uint32_t ElasticBody::find_loose(const std::vector<VertexId>& held) const {
   return kInvalidIndex;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

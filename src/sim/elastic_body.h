@@ -10,7 +10,8 @@
 #include "sim/block_matrix.h"
 #include "sim/neo_hookean.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A mesh as linear finite elements of stable neo-Hookean tissue, in SI units. Displacements: metres from rest, one for
 /// each vertex slot.
@@ -57,4 +58,5 @@ class ElasticBody {
   BlockMatrix hessian_pattern_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 namespace {
@@ -61,4 +62,5 @@ Vec3 slope_of(const Element& element, const std::array<Vec3, 4>& p, unsigned i) 
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -12,7 +12,8 @@
 #include "incise/geom/vec.h"
 #include "incise/mesh/tet_tables.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 struct Element {
@@ -49,4 +50,5 @@ inline Vec3 volume_slope(const std::array<Vec3, 4>& p, unsigned i) {
 [[nodiscard]] Vec3 slope_of(const Element& element, const std::array<Vec3, 4>& p, unsigned i);
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -59,4 +60,5 @@ Status check(const HapticSnapshot& snapshot) {
   return Error{ErrorCode::kBadArgument, std::string("a haptic snapshot is refused: ") + defect, {snapshot.serial}};
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

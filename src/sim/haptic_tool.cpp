@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -103,4 +104,5 @@ Vec3 HapticTool::tick(double dt, const Vec3& device_position, const Vec3& device
   return force_;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -18,7 +18,8 @@ HWY_BEFORE_NAMESPACE();
 #define INCISE_LANES_NAMESPACE plain
 #endif
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 namespace INCISE_LANES_NAMESPACE {
 
@@ -189,7 +190,8 @@ inline void sum_lanes(const Lanes& a, const Lanes& b, const Lanes& c, const Lane
 
 }  // namespace INCISE_LANES_NAMESPACE
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise
 
 #if INCISE_WITH_HIGHWAY
 HWY_AFTER_NAMESPACE();

@@ -6,7 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -66,4 +67,5 @@ Vec3 LocalTissue::force(double spring, const Vec3& handle) {
   return force + (std::clamp(along_edge, -rub, rub) - along_edge) * edge;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <string>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -44,4 +45,5 @@ Status check(const Materials& materials) {
   return {};
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include "sim/time_steps_internal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 MouseDevice::MouseDevice(const MouseOptions& options, const Vec3& start)
     : options_(options), targets_(Target{start, 0}), target_{start, 0} {
@@ -37,4 +38,5 @@ DeviceState MouseDevice::read(double time) {
   return state_;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

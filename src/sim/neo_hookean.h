@@ -13,7 +13,8 @@
 #include "incise/geom/vec.h"
 #include "incise/sim/material.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 using Mat3 = Eigen::Matrix3d;
 using Mat9 = Eigen::Matrix<double, 9, 9>;
@@ -94,4 +95,5 @@ inline Mat9 without_negative_part(const Mat9& m) {
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

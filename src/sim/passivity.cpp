@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -98,4 +99,5 @@ PassivityReport PassivityController::report() const {
   return report;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -66,4 +67,5 @@ DeviceState PoseTrack::at(double time) const {
   return state;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

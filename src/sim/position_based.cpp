@@ -4,7 +4,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 namespace {
@@ -146,4 +147,5 @@ void project(DeformableBody::State& state, double h) {
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

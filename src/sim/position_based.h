@@ -5,7 +5,8 @@
 
 #include "sim/body_state.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// Goes through one substep of `h` seconds: from where inertia and gravity take the awake vertices to where the tets
@@ -14,4 +15,5 @@ namespace detail {
 void project(DeformableBody::State& state, double h);
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "sim/block_matrix.h"
 #include "sim/elastic_body.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 struct ReferenceSolver::Model {
   ElasticBody body;
@@ -327,4 +328,5 @@ std::vector<double> ReferenceSolver::masses() const {
   return result;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

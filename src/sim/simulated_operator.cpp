@@ -5,7 +5,8 @@
 
 #include "sim/time_steps_internal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 Status check(const HandOptions& options) {
   const auto is_amount = [](double number) { return number >= 0 && std::isfinite(number); };
@@ -36,4 +37,5 @@ DeviceState SimulatedOperator::read(double time) {
   return state_;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

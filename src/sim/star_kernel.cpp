@@ -17,7 +17,8 @@
 #if INCISE_WITH_HIGHWAY
 HWY_BEFORE_NAMESPACE();
 #endif
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 namespace INCISE_LANES_NAMESPACE {
 
@@ -212,13 +213,15 @@ void find_quadratic(const Descent& d, std::uint32_t vertex, Quadratic& quadratic
 
 }  // namespace INCISE_LANES_NAMESPACE
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise
 #if INCISE_WITH_HIGHWAY
 HWY_AFTER_NAMESPACE();
 #endif
 
 #if !INCISE_WITH_HIGHWAY || HWY_ONCE
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 #if INCISE_WITH_HIGHWAY
@@ -289,5 +292,6 @@ Quadratic quadratic_of(const Descent& descent, std::uint32_t vertex) {
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise
 #endif

@@ -10,7 +10,8 @@
 #include "incise/geom/vec.h"
 #include "sim/stars.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// A vertex in motion: what pulls it besides its tets. Places are single precision, against the body's middle.
@@ -85,4 +86,5 @@ void find_slopes(const Descent& descent, std::span<const std::uint32_t> order, f
 [[nodiscard]] Quadratic quadratic_of(const Descent& descent, std::uint32_t vertex);
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 static constexpr std::uint32_t kHole = 0xFFFFFFFFU;  // in place of an owner
@@ -148,4 +149,5 @@ double Stars::diagonal(VertexId vertex) const {
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

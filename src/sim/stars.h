@@ -11,7 +11,8 @@
 #include "incise/mesh/tet_mesh.h"
 #include "sim/element.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 inline constexpr std::uint32_t kLanes = 8;
@@ -86,4 +87,5 @@ class Stars {
 };
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 void SweepOrder::ensure(std::uint32_t vertex_slots) {
@@ -112,4 +113,5 @@ void SweepOrder::refresh() {
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

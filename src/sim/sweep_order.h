@@ -11,7 +11,8 @@
 #include "incise/mesh/tet_mesh.h"
 #include "sim/stars.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// The vertices that move, in three parts: no vertex of the first shares a tet with one of the second, so that both
@@ -96,4 +97,5 @@ void SweepOrder::cool(const Stars& stars, const Moved& moved, const Rest& rest) 
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Brings `now` to `time` (s) and calls `step(dt)` with equal steps of at most 1 ms, but at most 100 of them: a device
 /// that was not read for a second must not stall the thread that reads it.
@@ -18,4 +19,5 @@ void for_time_steps(double& now, double time, const Step& step) {
   now = time;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

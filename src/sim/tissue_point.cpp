@@ -6,7 +6,8 @@
 #include "incise/geom/box.h"
 #include "sim/element.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -120,4 +121,5 @@ std::vector<std::optional<TissuePoint>> find_tissue(const TetMesh& mesh, BodySha
   return found;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

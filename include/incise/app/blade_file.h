@@ -9,7 +9,8 @@
 #include "incise/core/result.h"
 #include "incise/cut/stroke.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Bounds on what a blade file may hold.
@@ -31,4 +32,5 @@ inline constexpr std::size_t kMaxBladePoints = 1U << 20U;  ///< points over all 
 [[nodiscard]] Result<std::vector<Stroke>> read_blade(const std::filesystem::path& path);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

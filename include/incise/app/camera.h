@@ -7,7 +7,8 @@
 #include "incise/geom/box.h"
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 using Vec2 = Eigen::Vector2d;
@@ -67,4 +68,5 @@ void frame_points(Camera& camera, const Viewport& viewport, std::span<const Eige
 void look_along(Camera& camera, const Vec3& direction);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

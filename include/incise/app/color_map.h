@@ -4,7 +4,8 @@
 #include <array>
 #include <cstdint>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Red, green, blue of sRGB, each in [0, 255].
@@ -21,4 +22,5 @@ using Color = std::array<std::uint8_t, 3>;
 [[nodiscard]] Color label_color(std::uint32_t label);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

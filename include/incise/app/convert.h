@@ -7,7 +7,8 @@
 
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Whether `io::write_mesh` knows the extension, `.gz` aside. Cost: O(1).
@@ -30,4 +31,5 @@ struct Conversion {
 [[nodiscard]] Result<Conversion> convert(const std::filesystem::path& in, const std::filesystem::path& out);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

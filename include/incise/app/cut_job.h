@@ -11,7 +11,8 @@
 #include "incise/engine/engine.h"
 #include "incise/io/mesh_data.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// The greatest budget of time for maintenance, in microseconds: an hour.
@@ -60,4 +61,5 @@ struct JobResult {
 [[nodiscard]] Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "incise/cut/stroke.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Adds the surfaces that strokes sweep, as translucent triangles of `Ink::kTrajectory`: violet in the paper's
@@ -27,4 +28,5 @@ void mark_incision(SurfaceFrame& frame, Marks& marks);
 void mark_cut_vertices(const TetMesh& mesh, const SurfaceFrame& frame, Marks& marks);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

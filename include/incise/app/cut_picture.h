@@ -5,7 +5,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A picture of what cuts did to a body at rest, where lips lie on each other: several pieces stand apart, and where
@@ -14,4 +15,5 @@ namespace app {
 [[nodiscard]] Picture picture_of_cut(const TetMesh& mesh, const Journal& journal, const Viewport& viewport);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

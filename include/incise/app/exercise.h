@@ -9,7 +9,8 @@
 #include "incise/app/scene_stroke.h"
 #include "incise/engine/engine.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 struct Scene;
@@ -47,4 +48,5 @@ struct Exercise {
 [[nodiscard]] Scene with_ideal(const Scene& scene);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 #include "incise/app/exercise.h"
 #include "incise/engine/simulation.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Points taken off, and why.
@@ -93,4 +94,5 @@ class ExerciseScorer {
 [[nodiscard]] std::string to_text(const ExerciseScore& score);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "incise/core/result.h"
 #include "incise/io/mesh_data.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Writes a body over time as ParaView reads it: NAME.pvd, and one .vtu per moment in the folder NAME_frames beside.
@@ -43,4 +44,5 @@ class FrameSeries {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// All points with normal · x <= offset.
@@ -13,4 +14,5 @@ struct HalfSpace {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "incise/app/tools.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Brings what hands do at the pace of a pointer to frames at the pace of a simulation.
@@ -31,4 +32,5 @@ class HandQueue {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 #include "incise/sim/haptic_device.h"
 #include "incise/sim/haptic_tool.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 struct HapticLoopOptions {
@@ -94,4 +95,5 @@ class HapticLoop {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 
 #include "incise/app/session_thread.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A row of a display: what, how much, and where there is something to say about it, what.
@@ -60,4 +61,5 @@ struct QualityRow {
 [[nodiscard]] std::string with_commas(std::uint64_t number);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

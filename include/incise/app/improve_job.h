@@ -5,7 +5,8 @@
 
 #include "incise/app/cut_job.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 struct ImproveJob {
@@ -22,4 +23,5 @@ struct ImproveJob {
 [[nodiscard]] Result<JobResult> run_improve(LoadedMesh loaded, const ImproveJob& job, bool wants_mesh);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

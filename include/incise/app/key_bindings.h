@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Everything that a person can ask for by a key.
@@ -95,4 +96,5 @@ struct KeyRow {
 [[nodiscard]] std::string list_of_keys();
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

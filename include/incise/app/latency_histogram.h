@@ -8,7 +8,8 @@
 
 #include "incise/app/report.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Counts durations in buckets of at most 1.6 % of their value, so that percentiles need no samples and no memory.
@@ -34,4 +35,5 @@ class LatencyHistogram {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

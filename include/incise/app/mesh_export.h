@@ -8,7 +8,8 @@
 #include "incise/mesh/components.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Which of its two positions a vertex has in a file.
@@ -30,4 +31,5 @@ enum class MeshPose : std::uint8_t { kAtRest, kAsItStands };
 [[nodiscard]] io::SurfaceSoup to_surface(const TetMesh& mesh);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -12,7 +12,8 @@
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/validate.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What is in a mesh file, and what is wrong with it: `incise info`.
@@ -47,4 +48,5 @@ struct MeshCheck {
 [[nodiscard]] std::string to_text(const MeshCheck& check);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 #include "incise/mesh/defects.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What a mesh file is, without its arrays.
@@ -53,4 +54,5 @@ std::vector<std::uint32_t> drop_mid_nodes(io::MeshFile& file);
 [[nodiscard]] Result<LoadedMesh> load_mesh(const std::filesystem::path& path);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

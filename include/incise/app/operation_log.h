@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What a person did, or had done, in the order in which it happened.
@@ -32,4 +33,5 @@ class OperationLog {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "incise/app/camera.h"
 #include "incise/app/surface_view.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A place on a surface that a ray meets.
@@ -23,4 +24,5 @@ struct SurfaceHit {
 [[nodiscard]] std::optional<SurfaceHit> pick(const SurfaceFrame& surface, const Ray& ray);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "incise/app/camera.h"
 #include "incise/app/surface_view.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 enum class Theme : std::uint8_t { kDark, kLight };
@@ -86,4 +87,5 @@ struct Picture {
 [[nodiscard]] Box bounds_of(const SurfaceFrame& frame);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

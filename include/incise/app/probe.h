@@ -9,7 +9,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What is at a place of the surface.
@@ -31,4 +32,5 @@ struct ProbeInfo {
 [[nodiscard]] std::vector<std::string> to_lines(const ProbeInfo& probe);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

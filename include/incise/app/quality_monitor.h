@@ -9,7 +9,8 @@
 #include "incise/mesh/star.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// The quality of all tets at rest, as a display shows it. L/r as in `QualityStats`.
@@ -52,4 +53,5 @@ class QualityMonitor {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

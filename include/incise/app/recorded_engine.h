@@ -9,7 +9,8 @@
 #include "incise/app/recording.h"
 #include "incise/engine/engine.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Where a session is recorded, and what its header says beside the engine's options.
@@ -55,7 +56,7 @@ class RecordedEngine {
 
   template <class Call>
   auto timed(const Call& call);
-  template <class Outcome, class Fill>
+  template <class Fill, class Outcome>
   Outcome recorded(CallKind kind, Outcome outcome, const Fill& fill);
 
   Engine engine_;
@@ -64,4 +65,5 @@ class RecordedEngine {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

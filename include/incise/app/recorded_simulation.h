@@ -10,7 +10,8 @@
 #include "incise/app/simulation_recording.h"
 #include "incise/core/log.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Where and how a scene's simulation runs, beside what the scene says.
@@ -74,4 +75,5 @@ class RecordedSimulation {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -13,7 +13,8 @@
 #include "incise/core/result.h"
 #include "incise/engine/engine.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What a session started from.
@@ -112,4 +113,5 @@ class RecordingReader {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

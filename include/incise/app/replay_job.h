@@ -12,7 +12,8 @@
 #include "incise/app/report.h"
 #include "incise/io/mesh_data.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 struct ReplayJob {
@@ -68,4 +69,5 @@ Result<std::optional<ReplayDifference>> replay_call(Engine& engine, const Record
 [[nodiscard]] std::string to_text(const ReplayResult& result);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

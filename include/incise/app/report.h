@@ -12,7 +12,8 @@
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/validate.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 struct MeshCounts {
@@ -85,4 +86,5 @@ struct JobReport {
 [[nodiscard]] std::string to_text(const JobReport& report);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -19,7 +19,8 @@
 #include "incise/core/result.h"
 #include "incise/engine/simulation.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A generated box of Kuhn tets; see `kuhn_box` and `jitter`.
@@ -116,4 +117,5 @@ inline constexpr std::size_t kMaxSceneItems = 1000;  ///< attachments, tools, ho
 [[nodiscard]] FrameInput scene_input(const Scene& scene, std::uint64_t frame);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

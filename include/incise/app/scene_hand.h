@@ -9,7 +9,8 @@
 #include "incise/sim/haptic_tool.h"
 #include "incise/sim/simulated_operator.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What a hand felt over a whole scene.
@@ -50,4 +51,5 @@ class SceneHand {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "incise/app/scene.h"
 #include "incise/core/log.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Where the file of a scene's model is: seen from the scene's folder, else as its path stands.
@@ -32,4 +33,5 @@ namespace app {
                                                  LogSink log = {});
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

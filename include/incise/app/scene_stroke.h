@@ -3,7 +3,8 @@
 
 #include "incise/cut/stroke.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// A stroke of the blade; its times are the scene's.
@@ -13,4 +14,5 @@ struct SceneStroke {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

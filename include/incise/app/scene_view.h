@@ -8,7 +8,8 @@
 #include "incise/app/half_space.h"
 #include "incise/app/picture.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 struct Scene;
@@ -39,4 +40,5 @@ struct SceneView {
 [[nodiscard]] ViewOptions view_options_of(const Scene& scene);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

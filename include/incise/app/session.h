@@ -18,7 +18,8 @@
 #include "incise/app/scene.h"
 #include "incise/app/tools.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// The scene of a mesh without one: soft tissue (20 kPa, 1000 kg/m³) whose longest side is 10 cm, held by its
@@ -134,4 +135,5 @@ class Session {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

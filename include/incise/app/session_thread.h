@@ -14,7 +14,8 @@
 #include "incise/app/surface_view.h"
 #include "incise/app/validity_monitor.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What another thread sees of a session after a frame. A value: it stays as it is while the session goes on.
@@ -92,4 +93,5 @@ class SessionThread {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/app/scene.h"
 #include "incise/app/simulation_report.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Work units that a microsecond of maintenance buys (see `MaintainOptions`): a simulation counts work, and reads no
@@ -46,4 +47,5 @@ struct SimulateResult {
 [[nodiscard]] Result<SimulateResult> run_simulate(const Scene& scene, const SimulateJob& job);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -12,7 +12,8 @@
 #include "incise/app/scene.h"
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What a recorded simulation started from.
@@ -88,4 +89,5 @@ class SimulationReader {
 [[nodiscard]] bool is_simulation_recording(const std::filesystem::path& path);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 #include "incise/app/scene_hand.h"
 #include "incise/sim/body.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What the hands felt and did, over all frames. SI units.
@@ -64,4 +65,5 @@ struct SimulationReport {
 [[nodiscard]] std::string to_text(const SimulationReport& report);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include "incise/app/surface_view.h"
 #include "incise/mesh/components.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Moves the face-connected pieces of a body apart in what is seen of it, so that the walls of its cuts can be looked
@@ -19,4 +20,5 @@ namespace app {
 void spread_pieces(const TetMesh& mesh, const Components& pieces, double share, SurfaceFrame& frame);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

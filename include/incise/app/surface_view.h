@@ -12,7 +12,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// What a triangle is, in four bytes as a renderer takes them.
@@ -84,4 +85,5 @@ class SurfaceView {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

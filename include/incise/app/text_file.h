@@ -8,7 +8,8 @@
 
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// Whether there is a file that can be opened for reading. Errors: kBadFile, naming the file. Cost: O(1).
@@ -23,4 +24,5 @@ namespace app {
 [[nodiscard]] Status write_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -15,7 +15,8 @@
 #include "incise/cut/stroke.h"
 #include "incise/engine/simulation.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 enum class ToolKind : std::uint8_t {
@@ -120,4 +121,5 @@ class ToolMachine {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

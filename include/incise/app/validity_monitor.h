@@ -7,7 +7,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 enum class ValidityState : std::uint8_t { kUnknown, kChecking, kValid, kBroken };
@@ -40,4 +41,5 @@ class ValidityMonitor {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -14,7 +14,8 @@
 #include "incise/app/session_thread.h"
 #include "incise/app/tools.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace app {
 
 /// How much is shown beside the picture.
@@ -87,4 +88,5 @@ class Viewer {
 };
 
 }  // namespace app
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

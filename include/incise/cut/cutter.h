@@ -11,7 +11,8 @@
 #include "incise/cut/stroke.h"
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Cuts a mesh along strokes: the paper's sections 2.2 to 2.4, or their exact counterpart (see `Profile`).
 ///
@@ -61,4 +62,5 @@ class Cutter {
   std::unique_ptr<Pipeline> pipeline_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include "incise/improve/options.h"
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Maintains a mesh as the paper does, to the letter where it is unambiguous: the baseline.
 ///
@@ -22,4 +23,5 @@ MaintainStatistics maintain_as_paper(TetMesh& mesh, Journal& journal, std::size_
 MaintainStatistics maintain_all_as_paper(TetMesh& mesh, Journal& journal, const MaintainOptions& options,
                                          StageTimes& times);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// An OpenGL 3.3 core context without a window and without an X server, through EGL's surfaceless platform (Mesa).
@@ -40,4 +41,5 @@ class HeadlessContext {
 [[nodiscard]] bool is_software_renderer(const std::string& name);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// A picture of `width × height` pixels, row by row from the upper left; red, green, blue (sRGB) and opacity.
@@ -49,4 +50,5 @@ struct ImageDifference {
 [[nodiscard]] bool is_blank(const Image& image);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "incise/core/result.h"
 #include "incise/render/image.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// A framebuffer of RGBA8 pixels that is no window: for headless runs, and for a window that saves what it shows.
@@ -38,4 +39,5 @@ class OffscreenTarget {
 [[nodiscard]] Result<Image> read_framebuffer(unsigned framebuffer, const app::Viewport& viewport);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include "incise/core/result.h"
 #include "incise/render/image.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Draws one picture without a window, in a context of its own; whoever draws many keeps a `HeadlessContext`, a
@@ -17,4 +18,5 @@ namespace render {
                                            unsigned samples = 4);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

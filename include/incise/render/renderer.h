@@ -7,7 +7,8 @@
 #include "incise/app/picture.h"
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// What one `Renderer::draw` did. Times are processor time of the calling thread, in ms, and leave out what the
@@ -62,4 +63,5 @@ class Renderer {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

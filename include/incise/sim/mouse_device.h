@@ -6,7 +6,8 @@
 #include "incise/core/triple_buffer.h"
 #include "incise/sim/haptic_device.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 struct MouseOptions {
   double scale = 1;              ///< m of the device per unit of the pointer, any sign
@@ -49,4 +50,5 @@ class MouseDevice final : public HapticDevice {
   double time_ = 0;              // the haptic thread's
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise
