@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cut/edge_table.h"
+#include "cut/sheet_crossing.h"
 #include "cut/split_template.h"
 #include "incise/mesh/tet_mesh.h"
 

@@ -4,7 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "cut/subdivide.h"
+#include "cut/incision_face.h"
+#include "incise/core/grow_array.h"
 
 namespace incise {
 inline namespace v0 {

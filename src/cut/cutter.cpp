@@ -9,10 +9,11 @@
 #include <utility>
 
 #include "cut/blade_motion.h"
+#include "cut/constants.h"
 #include "cut/far_blade.h"
 #include "cut/front_carry.h"
 #include "cut/material_blade.h"
-#include "cut/paper_cut.h"
+#include "cut/spacing.h"
 #include "cut/stroke_cut.h"
 #include "cut/sweep.h"
 #include "cut/twist.h"
@@ -22,10 +23,6 @@ inline namespace v0 {
 
 namespace {
 
-/// A blade within this share of the mesh's spacing from what it swept before is in its own slit.
-constexpr double kSlitShare = 0.02;
-/// Consecutive parts of a sweep that meets itself overlap by so many spacings.
-constexpr double kOverlapShare = 3.0;
 /// Two crossings of one edge at rest, in different steps, that are further apart are two passes of the blade.
 constexpr double kApart = 0.05;
 /// A border of the sheet that lies at most so many spacings beyond the rim of an older cut reaches on into it.
@@ -67,26 +64,6 @@ constexpr double kStartShare = 0.2, kMostStarts = 1024.0;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
 
-/// The mean edge length of a few tets, as a scale for overlaps.
-double typical_spacing(const TetMesh& mesh) {
-  double sum = 0;
-  std::size_t count = 0;
-  const std::uint32_t stride = std::max(1U, mesh.tet_slots() / 64U);
-  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); slot += stride) {
-    if (!mesh.is_live(TetId(slot))) continue;
-    const TetVertices& v = mesh.vertices(TetId(slot));
-    for (const auto& [a, b] : kEdgeCorners) {
-      sum += (mesh.rest(v[a]) - mesh.rest(v[b])).norm();
-      ++count;
-    }
-  }
-  return count == 0 ? 0.0 : sum / static_cast<double>(count);
-}
-
-}  // namespace
-
-namespace {
-
 /// All that `CutStatistics` counts.
 constexpr std::array kCounts = {&CutStatistics::steps,
                                 &CutStatistics::cut_tets,
@@ -117,7 +94,7 @@ CutStatistics& CutStatistics::operator-=(const CutStatistics& other) {
 
 class Cutter::Pipeline {
  public:
-  Pipeline(CutOptions options, unsigned threads) : options_(options), paper_cut_(threads), stroke_cut_(options) {}
+  explicit Pipeline(CutOptions options) : options_(options), stroke_cut_(options) {}
 
   void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
              std::uint32_t tag) {
@@ -475,20 +452,14 @@ class Cutter::Pipeline {
       swept_.triangles.push_back({first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
     }
   }
-  bool is_paper() const { return options_.profile == Profile::kPaper; }
-
   /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
   Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
     is_in_material_ = false;
     const double spacing = spacing_ = typical_spacing(mesh);
-    const Stroke divided = is_paper() ? stroke : with_divided_edge(stroke, kTwist * spacing);
-    const SweptSurface surface = sweep(divided, kSlitShare * spacing);
-    for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
-      Status status = is_paper() ? paper_cut_.cut(mesh, journal, Sheet(surface, part), tag, statistics_, times)
-                                 : cut_strip(mesh, journal, part_of(surface, part), tag, times);
-      if (!status) {
-        return status;
-      }
+    const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
+    const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
+    for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
+      if (Status status = cut_strip(mesh, journal, part_of(surface, part), tag, times); !status) return status;
       ++statistics_.sheets;
     }
     return {};
@@ -508,7 +479,6 @@ class Cutter::Pipeline {
     return part;
   }
   CutOptions options_;
-  PaperCut paper_cut_;
   StrokeCut stroke_cut_;
   BladeMotion motion_;
   SweptTriangles swept_;
@@ -526,7 +496,7 @@ class Cutter::Pipeline {
   CutStatistics statistics_;  // of the stroke being cut
 };
 
-Cutter::Cutter(CutOptions options, unsigned threads) : pipeline_(std::make_unique<Pipeline>(options, threads)) {}
+Cutter::Cutter(CutOptions options) : pipeline_(std::make_unique<Pipeline>(options)) {}
 Cutter::Cutter(Cutter&&) noexcept = default;
 Cutter& Cutter::operator=(Cutter&&) noexcept = default;
 Cutter::~Cutter() = default;

@@ -8,7 +8,7 @@
 
 #include "cut/bisection_order.h"
 #include "cut/closed_complex.h"
-#include "cut/neighbourhood.h"
+#include "cut/parity.h"
 
 namespace incise {
 inline namespace v0 {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "cut/neighbourhood.h"
 #include "cut/older_walls.h"
+#include "cut/parity.h"
 #include "incise/mesh/star.h"
 
 namespace incise {

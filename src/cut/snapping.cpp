@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cut/neighbourhood.h"
+#include "cut/constants.h"
 #include "cut/old_children.h"
+#include "cut/parity.h"
 #include "incise/geom/quality.h"
 
 namespace incise {

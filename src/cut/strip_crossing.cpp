@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "cut/neighbourhood.h"
+#include "cut/constants.h"
 
 namespace incise {
 inline namespace v0 {

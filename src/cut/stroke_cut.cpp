@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "cut/dividable.h"
-#include "cut/neighbourhood.h"
+#include "cut/parity.h"
+#include "cut/pinched_edges.h"
 #include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
 #include "incise/mesh/verbs.h"
