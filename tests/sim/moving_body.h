@@ -17,7 +17,7 @@
 #include "incise/engine/engine.h"
 #include "incise/mesh/bounds.h"
 #include "incise/sim/body.h"
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
 
 namespace incise::test {
 

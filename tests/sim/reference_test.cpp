@@ -10,8 +10,8 @@
 
 #include "../geom/random.h"
 #include "beam.h"
-#include "sim/elastic_body.h"
-#include "sim/neo_hookean.h"
+#include "sim/reference/elastic_body.h"
+#include "sim/reference/neo_hookean.h"
 
 namespace incise {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/star_kernel.h"
+#include "sim/body/star_kernel.h"
 
 #include <gtest/gtest.h>
 

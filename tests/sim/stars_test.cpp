@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/stars.h"
+#include "sim/body/stars.h"
 
 #include <gtest/gtest.h>
 

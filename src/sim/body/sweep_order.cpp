@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep_order.h"
+#include "sim/body/sweep_order.h"
 
 #include <algorithm>
 

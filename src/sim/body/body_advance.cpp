@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "incise/geom/box.h"
-#include "sim/body_state.h"
-#include "sim/position_based.h"
+#include "sim/body/body_state.h"
+#include "sim/body/position_based.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/position_based.h"
+#include "sim/body/position_based.h"
 
 #include <Eigen/LU>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "incise/geom/box.h"
-#include "sim/element.h"
+#include "sim/body/element.h"
 
 namespace incise {
 inline namespace v0 {

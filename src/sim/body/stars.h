@@ -9,7 +9,7 @@
 #include "incise/core/grow_array.h"
 #include "incise/core/id_array.h"
 #include "incise/mesh/tet_mesh.h"
-#include "sim/element.h"
+#include "sim/body/element.h"
 
 namespace incise {
 inline namespace v0 {

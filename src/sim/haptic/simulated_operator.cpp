@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/time_steps_internal.h"
+#include "incise/sim/time_steps.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/sim/mouse_device.h"
 
-#include "sim/time_steps_internal.h"
+#include "incise/sim/time_steps.h"
 
 namespace incise {
 inline namespace v0 {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
 
 namespace incise {
 inline namespace v0 {

@@ -9,10 +9,10 @@
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/journal_cursor.h"
 #include "incise/sim/body.h"
-#include "sim/coarse_lattice.h"
-#include "sim/star_kernel.h"
-#include "sim/stars.h"
-#include "sim/sweep_order.h"
+#include "sim/body/coarse_lattice.h"
+#include "sim/body/star_kernel.h"
+#include "sim/body/stars.h"
+#include "sim/body/sweep_order.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each instruction set; the best that the machine has is chosen when the program runs.
-#include "sim/star_kernel.h"
+#include "sim/body/star_kernel.h"
 
 #include <cmath>
 #include <cstring>
@@ -9,10 +9,10 @@
 // 8 lanes are all that a star fills: wider sets would only compile longer.
 #define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sim/star_kernel.cpp"  // NOLINT(readability-identifier-naming): Highway's name
-#include <hwy/foreach_target.h>                   // NOLINT(misc-header-include-cycle): it includes this file
+#define HWY_TARGET_INCLUDE "sim/body/star_kernel.cpp"  // NOLINT(readability-identifier-naming): Highway's name
+#include <hwy/foreach_target.h>                        // NOLINT(misc-header-include-cycle): it includes this file
 #endif
-#include "sim/lanes-inl.h"
+#include "sim/body/lanes-inl.h"
 
 #if INCISE_WITH_HIGHWAY
 HWY_BEFORE_NAMESPACE();

@@ -9,7 +9,7 @@
 
 #include "incise/core/id_array.h"
 #include "incise/mesh/tet_mesh.h"
-#include "sim/stars.h"
+#include "sim/body/stars.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/band_matrix.h"
+#include "sim/body/band_matrix.h"
 
 #include <algorithm>
 #include <cmath>

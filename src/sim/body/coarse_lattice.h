@@ -13,7 +13,7 @@
 
 #include "incise/core/id_array.h"
 #include "incise/sim/body.h"
-#include "sim/band_matrix.h"
+#include "sim/body/band_matrix.h"
 
 namespace incise {
 inline namespace v0 {

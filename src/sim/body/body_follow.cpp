@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/body_rewind.h"
-#include "sim/body_state.h"
+#include "sim/body/body_rewind.h"
+#include "sim/body/body_state.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/coarse_lattice.h"
+#include "sim/body/coarse_lattice.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
 
 namespace incise {
 inline namespace v0 {

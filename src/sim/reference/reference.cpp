@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "sim/block_matrix.h"
-#include "sim/elastic_body.h"
+#include "sim/reference/block_matrix.h"
+#include "sim/reference/elastic_body.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/block_matrix.h"
+#include "sim/reference/block_matrix.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "incise/core/hash.h"
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/body_rewind.h"
+#include "sim/body/body_rewind.h"
 
 #include <algorithm>
 #include <cmath>

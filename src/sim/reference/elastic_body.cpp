@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/elastic_body.h"
+#include "sim/reference/elastic_body.h"
 
 #include <algorithm>
 #include <numeric>

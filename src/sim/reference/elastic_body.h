@@ -7,8 +7,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/reference.h"
-#include "sim/block_matrix.h"
-#include "sim/neo_hookean.h"
+#include "sim/reference/block_matrix.h"
+#include "sim/reference/neo_hookean.h"
 
 namespace incise {
 inline namespace v0 {

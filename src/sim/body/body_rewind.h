@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "incise/geom/box.h"
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
 
 namespace incise {
 inline namespace v0 {

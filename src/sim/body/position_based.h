@@ -3,7 +3,7 @@
 // is far too soft at few iterations.
 #pragma once
 
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
 
 namespace incise {
 inline namespace v0 {

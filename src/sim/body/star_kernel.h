@@ -8,7 +8,7 @@
 #include <span>
 
 #include "incise/geom/vec.h"
-#include "sim/stars.h"
+#include "sim/body/stars.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/element.h"
+#include "sim/body/element.h"
 
 #include <algorithm>
 #include <cmath>
