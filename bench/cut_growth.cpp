@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "accuracy.h"
+#include "app/model/mesh_loader.h"
 #include "blades.h"
-#include "incise/app/mesh_loader.h"
 #include "incise/engine/engine.h"
 #include "incise/geom/predicates.h"
 #include "incise/mesh/bounds.h"

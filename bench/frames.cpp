@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/scene_simulation.h"
 #include "frames_large.h"
 #include "frames_run.h"
-#include "incise/app/scene_simulation.h"
 
 namespace incise::bench {
 

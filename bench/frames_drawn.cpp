@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/scene_simulation.h"
+#include "app/view/scene_camera.h"
+#include "app/view/surface_view.h"
 #include "frames_run.h"
-#include "incise/app/scene_simulation.h"
-#include "incise/app/scene_view.h"
-#include "incise/app/surface_view.h"
-#include "incise/render/headless_context.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
+#include "render/headless_context.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 
 namespace incise::bench {
 

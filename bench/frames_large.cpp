@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "app/scene/scene_simulation.h"
 #include "frames_run.h"
-#include "incise/app/scene_simulation.h"
 #include "incise/mesh/shapes.h"
 
 namespace incise::bench {

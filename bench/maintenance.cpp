@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "incise/app/mesh_loader.h"
+#include "app/model/mesh_loader.h"
 #include "maintenance_cases.h"
 #include "maintenance_figures.h"
 #include "maintenance_measure.h"

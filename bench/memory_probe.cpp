@@ -6,7 +6,7 @@
 #include <fstream>
 #include <memory>
 
-#include "incise/app/mesh_loader.h"
+#include "app/model/mesh_loader.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
 

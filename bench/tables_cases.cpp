@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "incise/app/blade_file.h"
-#include "incise/app/mesh_loader.h"
+#include "app/model/mesh_loader.h"
+#include "app/scene/blade_file.h"
 #include "incise/mesh/shapes.h"
 #include "maintenance_cases.h"
 

@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "incise/app/mesh_export.h"
+#include "app/model/mesh_export.h"
 #include "incise/geom/quality.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/components.h"

@@ -8,14 +8,14 @@
 #include <optional>
 #include <utility>
 
+#include "app/jobs/cut_job.h"
+#include "app/jobs/improve_job.h"
+#include "app/jobs/replay_job.h"
+#include "app/model/convert.h"
+#include "app/model/mesh_info.h"
+#include "app/scene/blade_file.h"
+#include "app/text/text_file.h"
 #include "command_support.h"
-#include "incise/app/blade_file.h"
-#include "incise/app/convert.h"
-#include "incise/app/cut_job.h"
-#include "incise/app/improve_job.h"
-#include "incise/app/mesh_info.h"
-#include "incise/app/replay_job.h"
-#include "incise/app/text_file.h"
 #include "incise/mesh/bounds.h"
 #include "picture.h"
 

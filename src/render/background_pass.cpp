@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "background_pass.h"
+#include "render/background_pass.h"
 
 #include <epoxy/gl.h>
 
-#include "full_screen.h"
-#include "ink_style.h"
+#include "render/full_screen.h"
+#include "render/ink_style.h"
 
 namespace incise {
 inline namespace v0 {

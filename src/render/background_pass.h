@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gl_object.h"
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 #include "incise/core/result.h"
+#include "render/gl_object.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "canvas.h"
+#include "render/canvas.h"
 
 #include <epoxy/gl.h>
 

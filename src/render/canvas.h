@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gl_object.h"
-#include "incise/app/camera.h"
+#include "app/view/camera.h"
+#include "render/gl_object.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gl_object.h"
+#include "render/gl_object.h"
 
 #include <epoxy/gl.h>
 

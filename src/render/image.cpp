@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/image.h"
+#include "render/image.h"
 
 #include <zlib.h>
 
@@ -40,7 +40,7 @@ unsigned char* pack(unsigned char* data, int size, int* packed_size, int /*level
 #include <memory>
 #include <string>
 
-#include "incise/app/text_file.h"
+#include "app/text/text_file.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ink_style.h"
+#include "render/ink_style.h"
 
 namespace incise {
 inline namespace v0 {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 
 namespace incise {
 inline namespace v0 {

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "gl_object.h"
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 #include "incise/core/result.h"
-#include "incise/render/renderer.h"
-#include "mirrored_buffer.h"
-#include "view_matrices.h"
+#include "render/gl_object.h"
+#include "render/mirrored_buffer.h"
+#include "render/renderer.h"
+#include "render/view_matrices.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirrored_buffer.h"
+#include "render/mirrored_buffer.h"
 
 #include <epoxy/gl.h>
 

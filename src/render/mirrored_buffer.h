@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "gl_object.h"
+#include "render/gl_object.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "occlusion_pass.h"
+#include "render/occlusion_pass.h"
 
 #include <epoxy/gl.h>
 
-#include "full_screen.h"
+#include "render/full_screen.h"
 
 namespace incise {
 inline namespace v0 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "canvas.h"
-#include "gl_object.h"
 #include "incise/core/result.h"
-#include "view_matrices.h"
+#include "render/canvas.h"
+#include "render/gl_object.h"
+#include "render/view_matrices.h"
 
 namespace incise {
 inline namespace v0 {

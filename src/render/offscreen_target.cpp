@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/offscreen_target.h"
+#include "render/offscreen_target.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 
-#include "gl_object.h"
-#include "viewport_check.h"
+#include "render/gl_object.h"
+#include "render/viewport_check.h"
 
 namespace incise {
 inline namespace v0 {

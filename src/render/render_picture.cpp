@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/render_picture.h"
+#include "render/render_picture.h"
 
-#include "incise/render/headless_context.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
+#include "render/headless_context.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 
 namespace incise {
 inline namespace v0 {

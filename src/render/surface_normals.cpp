@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface_normals.h"
+#include "render/surface_normals.h"
 
 #include <cmath>
 

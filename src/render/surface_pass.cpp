@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface_pass.h"
+#include "render/surface_pass.h"
 
 #include <epoxy/gl.h>
 
@@ -7,10 +7,10 @@
 #include <array>
 #include <string>
 
-#include "incise/app/color_map.h"
-#include "ink_style.h"
-#include "stop_watch.h"
-#include "surface_shaders.h"
+#include "app/view/color_map.h"
+#include "render/ink_style.h"
+#include "render/stop_watch.h"
+#include "render/surface_shaders.h"
 
 namespace incise {
 inline namespace v0 {

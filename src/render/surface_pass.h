@@ -3,13 +3,13 @@
 
 #include <memory>
 
-#include "gl_object.h"
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 #include "incise/core/result.h"
-#include "incise/render/renderer.h"
-#include "mirrored_buffer.h"
-#include "surface_normals.h"
-#include "view_matrices.h"
+#include "render/gl_object.h"
+#include "render/mirrored_buffer.h"
+#include "render/renderer.h"
+#include "render/surface_normals.h"
+#include "render/view_matrices.h"
 
 namespace incise {
 inline namespace v0 {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "incise/app/camera.h"
+#include "app/view/camera.h"
 
 namespace incise {
 inline namespace v0 {

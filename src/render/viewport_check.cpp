@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewport_check.h"
+#include "render/viewport_check.h"
 
 #include <epoxy/gl.h>
 

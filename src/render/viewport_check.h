@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "incise/app/camera.h"
+#include "app/view/camera.h"
 #include "incise/core/result.h"
 
 namespace incise {

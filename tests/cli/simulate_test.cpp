@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/scene_cases.h"
+#include "app/scene/scene_cases.h"
 #include "cli/program.h"
 #include "incise/io/mesh_file.h"
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "app/recording_lines.h"
+#include "app/recording/recording_lines.h"
 
 namespace {
 

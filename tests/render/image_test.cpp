@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/image.h"
+#include "render/image.h"
 
 #include <gtest/gtest.h>
 

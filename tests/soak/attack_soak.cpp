@@ -15,8 +15,8 @@
 #include <sstream>
 #include <utility>
 
+#include "app/model/mesh_loader.h"
 #include "cut/bodies.h"
-#include "incise/app/mesh_loader.h"
 #include "incise/io/mesh_file.h"
 #include "soak/attack_run.h"
 #include "soak/attack_strokes.h"

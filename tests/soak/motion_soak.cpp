@@ -7,7 +7,7 @@
 #include <fstream>
 #include <map>
 
-#include "incise/app/mesh_loader.h"
+#include "app/model/mesh_loader.h"
 #include "soak/minimise.h"
 #include "soak/models.h"
 #include "soak/motion_run.h"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "app/model/mesh_loader.h"
 #include "cut/bodies.h"
 #include "cut/random_strokes.h"
 #include "cut/strokes.h"
-#include "incise/app/mesh_loader.h"
 #include "soak/models.h"
 
 namespace incise::test {

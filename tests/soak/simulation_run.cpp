@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "app/jobs/cut_job.h"
 #include "geom/random.h"
-#include "incise/app/cut_job.h"
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/tet_tables.h"

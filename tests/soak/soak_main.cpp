@@ -30,10 +30,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/jobs/cut_job.h"
+#include "app/model/mesh_loader.h"
 #include "cut/bodies.h"
 #include "cut/random_strokes.h"
-#include "incise/app/cut_job.h"
-#include "incise/app/mesh_loader.h"
 #include "incise/engine/engine.h"
 #include "incise/geom/quality.h"
 #include "incise/mesh/bounds.h"
