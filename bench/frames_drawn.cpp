@@ -172,7 +172,7 @@ void add_row(const PaperRow& paper, const std::string& what, const Means& m, dou
 
 void measure(const PaperRow& paper, const Settings& settings, Screen& screen, Table& table) {
   const Result<app::Scene> scene = app::read_scene(settings.root / "scenes" / (std::string(paper.file) + ".json"));
-  const Result<app::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<app::LoadedMesh>(scene.error());
+  const Result<io::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<io::LoadedMesh>(scene.error());
   if (!loaded.ok()) {
     std::fprintf(stderr, "%s is left out: %s\n", paper.name, loaded.error().message.c_str());
     return;

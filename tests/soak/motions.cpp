@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "app/model/mesh_loader.h"
 #include "cut/bodies.h"
 #include "cut/random_strokes.h"
 #include "cut/strokes.h"
+#include "incise/io/mesh_loader.h"
 #include "soak/models.h"
 
 namespace incise::test {
@@ -259,7 +259,7 @@ TetSoup make_body(const BodyPlan& plan) {
     case Kind::kNeedle:
       return needle(2 * plan.n);
     case Kind::kModel:
-      return to_soup(app::load_mesh(plan.model).value().mesh);
+      return to_soup(io::load_mesh(plan.model).value().mesh);
     default:
       return doubled_cube(plan.n);
   }

@@ -31,11 +31,11 @@
 #include <vector>
 
 #include "app/jobs/cut_job.h"
-#include "app/model/mesh_loader.h"
 #include "cut/bodies.h"
 #include "cut/random_strokes.h"
 #include "incise/engine/engine.h"
 #include "incise/geom/quality.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/defects.h"
 #include "incise/mesh/quality_stats.h"
@@ -426,7 +426,7 @@ int soak_corpus(const Settings& settings) {
         return !part.empty() && name.find(part) != std::string::npos;
       };
       if (clock.is_over() || (!settings.only.empty() && !is_named(settings.only)) || is_named(settings.skip)) continue;
-      const Result<app::LoadedMesh> loaded = app::load_mesh(path);
+      const Result<io::LoadedMesh> loaded = io::load_mesh(path);
       if (!loaded.ok()) continue;  // refusals are the readers' tests
       if (loaded->mesh.tet_count() == 0 || loaded->mesh.tet_count() > settings.max_tets) continue;
       const double start = clock.elapsed();

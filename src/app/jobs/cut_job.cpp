@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "app/jobs/job_internal.h"
-#include "app/model/mesh_export.h"
 #include "app/recording/recorded_engine.h"
+#include "incise/io/mesh_export.h"
 #include "incise/mesh/bounds.h"
 
 namespace incise {
@@ -108,7 +108,7 @@ Status keep_last_valid(RecordedEngine& engine, const CutJob& job, JobReport& rep
 
 }  // namespace
 
-Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh) {
+Result<JobResult> run_cut(io::LoadedMesh loaded, const CutJob& job, bool wants_mesh) {
   JobResult result;
   JobReport& report = result.report;
   report.options = job.options;
@@ -125,7 +125,7 @@ Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh)
     if (const Status status = keep_last_valid(*engine, job, report); !status.ok()) return status.error();
     pieces = find_components(engine->mesh());
   }
-  if (wants_mesh) result.mesh = to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
+  if (wants_mesh) result.mesh = io::to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
   if (job.look) job.look(engine->engine());
   return result;
 }

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/jobs/report.h"
-#include "app/model/mesh_loader.h"
 #include "incise/engine/engine.h"
 #include "incise/io/mesh_data.h"
+#include "incise/io/mesh_loader.h"
 
 namespace incise {
 inline namespace v0 {
@@ -58,7 +58,7 @@ struct JobResult {
 /// @param wants_mesh  whether `JobResult::mesh` is filled.
 /// Errors: as `Engine::create` and `Engine::cut`, naming the stroke, and before anything is cut where a blade is too
 /// far from the body (`check_reach`); kIo where the recording fails. Cost: the cuts, plus about 3 µs per tet.
-[[nodiscard]] Result<JobResult> run_cut(LoadedMesh loaded, const CutJob& job, bool wants_mesh);
+[[nodiscard]] Result<JobResult> run_cut(io::LoadedMesh loaded, const CutJob& job, bool wants_mesh);
 
 }  // namespace app
 }  // namespace v0

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/jobs/job_internal.h"
-#include "app/model/mesh_export.h"
+#include "incise/io/mesh_export.h"
 
 namespace incise {
 inline namespace v0 {
@@ -27,7 +27,7 @@ Status improve(RecordedEngine& engine, const ImproveJob& job, JobReport& report)
 
 }  // namespace
 
-Result<JobResult> run_improve(LoadedMesh loaded, const ImproveJob& job, bool wants_mesh) {
+Result<JobResult> run_improve(io::LoadedMesh loaded, const ImproveJob& job, bool wants_mesh) {
   JobResult result;
   detail::describe_job(loaded, job.engine, job.budget_us, result.report);
   detail::measure_before(loaded.mesh, result.report);
@@ -35,7 +35,7 @@ Result<JobResult> run_improve(LoadedMesh loaded, const ImproveJob& job, bool wan
   if (!engine.ok()) return engine.error();
   if (const Status status = improve(*engine, job, result.report); !status.ok()) return status.error();
   const Components pieces = detail::measure_end(engine->engine(), result.report);
-  if (wants_mesh) result.mesh = to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
+  if (wants_mesh) result.mesh = io::to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
   return result;
 }
 

@@ -20,7 +20,7 @@ struct ImproveJob {
 ///
 /// @param wants_mesh  whether `JobResult::mesh` is filled.
 /// Errors: as `Engine::create`. Cost: the maintenance, plus about 3 µs per tet.
-[[nodiscard]] Result<JobResult> run_improve(LoadedMesh loaded, const ImproveJob& job, bool wants_mesh);
+[[nodiscard]] Result<JobResult> run_improve(io::LoadedMesh loaded, const ImproveJob& job, bool wants_mesh);
 
 }  // namespace app
 }  // namespace v0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/jobs/job_internal.h"
 
-#include "app/model/mesh_export.h"
+#include "incise/io/mesh_export.h"
 
 namespace incise {
 inline namespace v0 {
@@ -48,7 +48,8 @@ EngineOptions without_upkeep(EngineOptions options) {
   return options;
 }
 
-void describe_job(const LoadedMesh& loaded, const EngineOptions& engine, std::uint64_t budget_us, JobReport& report) {
+void describe_job(const io::LoadedMesh& loaded, const EngineOptions& engine, std::uint64_t budget_us,
+                  JobReport& report) {
   report.input = loaded.source.file;
   report.input_format = loaded.source.format;
   report.notes = loaded.source.notes;

@@ -39,7 +39,8 @@ class Upkeep {
 [[nodiscard]] EngineOptions without_upkeep(EngineOptions options);
 
 /// The fields of a report that say what was loaded and what was asked for.
-void describe_job(const LoadedMesh& loaded, const EngineOptions& engine, std::uint64_t budget_us, JobReport& report);
+void describe_job(const io::LoadedMesh& loaded, const EngineOptions& engine, std::uint64_t budget_us,
+                  JobReport& report);
 
 [[nodiscard]] MeshCounts counts_of(const TetMesh& mesh, const Components& pieces);
 

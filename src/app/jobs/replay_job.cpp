@@ -8,12 +8,12 @@
 
 #include "app/jobs/job_internal.h"
 #include "app/jobs/simulation_replay.h"
-#include "app/model/mesh_export.h"
 #include "app/recording/recorded_mesh.h"
 #include "app/recording/recording_lines.h"
 #include "app/recording/simulation_recording.h"
 #include "app/text/json_write.h"
 #include "app/text/line_reader.h"
+#include "incise/io/mesh_export.h"
 
 namespace incise {
 inline namespace v0 {
@@ -138,12 +138,12 @@ void finish(const Engine& engine, const std::vector<std::uint32_t>& file_vertex,
   result.strokes = engine.stroke_count();
   result.is_in_stroke = engine.is_in_stroke();
   result.hash = engine.mesh().hash();
-  if (wants_mesh && !result.difference) result.mesh = to_mesh_data(engine.mesh(), pieces, file_vertex);
+  if (wants_mesh && !result.difference) result.mesh = io::to_mesh_data(engine.mesh(), pieces, file_vertex);
 }
 
 }  // namespace
 
-Result<LoadedMesh> load_recorded_mesh(const RecordingHeader& header, const fs::path& recording) {
+Result<io::LoadedMesh> load_recorded_mesh(const RecordingHeader& header, const fs::path& recording) {
   const std::string where = recording.string() + ":1: ";
   if (header.mesh_file.empty()) {
     return Error{ErrorCode::kBadFile, where + "it was recorded on a mesh of no file; replay it in the program", {}};
@@ -156,7 +156,7 @@ Result<LoadedMesh> load_recorded_mesh(const RecordingHeader& header, const fs::p
                  where + "the mesh \"" + header.mesh_file + "\" is not there; put it where it was beside the recording",
                  {}};
   }
-  Result<LoadedMesh> loaded = load_mesh(path);
+  Result<io::LoadedMesh> loaded = io::load_mesh(path);
   if (!loaded.ok() || loaded->mesh.hash() == header.mesh_hash) return loaded;
   return Error{ErrorCode::kBadFile,
                path.string() + ": is not the mesh of the recording: its hash is " + hash_text(loaded->mesh.hash()) +
@@ -181,7 +181,7 @@ Result<ReplayResult> run_replay(const ReplayJob& job) {
   if (is_simulation_recording(job.recording)) return run_simulation_replay(job);
   Result<RecordingReader> reader = RecordingReader::open(job.recording);
   if (!reader.ok()) return reader.error();
-  Result<LoadedMesh> loaded = load_recorded_mesh(reader->header(), job.recording);
+  Result<io::LoadedMesh> loaded = load_recorded_mesh(reader->header(), job.recording);
   if (!loaded.ok()) return loaded.error();
   ReplayResult result;
   result.source = loaded->source;

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "app/jobs/report.h"
-#include "app/model/mesh_loader.h"
 #include "app/recording/recording.h"
 #include "incise/io/mesh_data.h"
+#include "incise/io/mesh_loader.h"
 
 namespace incise {
 inline namespace v0 {
@@ -34,7 +34,7 @@ struct ReplayDifference {
 
 /// What a replay came to.
 struct ReplayResult {
-  MeshSource source;
+  io::MeshSource source;
   MeshCounts before, after;
   std::uint64_t calls = 0;    ///< that were made
   std::uint64_t strokes = 0;  ///< that stand at the end: undone ones not counted
@@ -62,7 +62,7 @@ Result<std::optional<ReplayDifference>> replay_call(Engine& engine, const Record
 /// With `verify` it stops at the first difference; without, the hash is compared after the last call alone. A recording
 /// whose last line was cut off is replayed up to the line before.
 /// Errors: kBadFile, naming file and line, for a bad recording, a mesh that is not there or not the one that was
-/// recorded; others as `load_mesh`. Cost: the calls', plus one hash of the mesh for each with `verify`.
+/// recorded; others as `io::load_mesh`. Cost: the calls', plus one hash of the mesh for each with `verify`.
 [[nodiscard]] Result<ReplayResult> run_replay(const ReplayJob& job);
 
 /// A few lines for people.

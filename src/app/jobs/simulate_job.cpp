@@ -8,9 +8,9 @@
 #include "app/jobs/frame_series.h"
 #include "app/jobs/job_internal.h"
 #include "app/jobs/scene_hand.h"
-#include "app/model/mesh_export.h"
 #include "app/scene/exercise_score.h"
 #include "app/scene/scene_simulation.h"
+#include "incise/io/mesh_export.h"
 
 namespace incise {
 inline namespace v0 {
@@ -27,7 +27,7 @@ class SceneRunner {
   }
 
   Status settle();
-  Status run_frames(FrameSeries* series, const LoadedMesh& loaded);
+  Status run_frames(FrameSeries* series, const io::LoadedMesh& loaded);
   void measure();
 
   [[nodiscard]] const Simulation& simulation() const { return simulation_.simulation(); }
@@ -66,13 +66,13 @@ Status SceneRunner::settle() {
   return {};
 }
 
-Status SceneRunner::run_frames(FrameSeries* series, const LoadedMesh& loaded) {
+Status SceneRunner::run_frames(FrameSeries* series, const io::LoadedMesh& loaded) {
   const std::uint64_t every = job_.every > 0 ? job_.every : (scene_.frames + kSeriesFiles - 1) / kSeriesFiles;
   const auto add_moment = [&](std::uint64_t done) -> Status {
     if (series == nullptr || (done % every != 0 && done != scene_.frames)) return {};
     const TetMesh& mesh = simulation().mesh();
     return series->add(static_cast<double>(done) * scene_.options.frame_seconds,
-                       to_mesh_data(mesh, find_components(mesh), loaded.file_vertex, MeshPose::kAsItStands));
+                       io::to_mesh_data(mesh, find_components(mesh), loaded.file_vertex, io::MeshPose::kAsItStands));
   };
   if (Status status = add_moment(0); !status.ok()) return status;
   for (std::uint64_t i = 0; i < scene_.frames && !stops(); ++i) {
@@ -149,7 +149,7 @@ void SceneRunner::measure() {
   if (scorer_) report_.exercise = scorer_->score(end);
 }
 
-void describe(const Scene& scene, const SimulateJob& job, const LoadedMesh& loaded, SimulationReport& report) {
+void describe(const Scene& scene, const SimulateJob& job, const io::LoadedMesh& loaded, SimulationReport& report) {
   EngineOptions engine = scene.options.engine;
   engine.threads = job.run.threads;
   detail::describe_job(loaded, engine, job.budget_us, report.job);
@@ -163,7 +163,7 @@ void describe(const Scene& scene, const SimulateJob& job, const LoadedMesh& load
 }  // namespace
 
 Result<SimulateResult> run_simulate(const Scene& scene, const SimulateJob& job) {
-  Result<LoadedMesh> loaded = load_model(scene);
+  Result<io::LoadedMesh> loaded = load_model(scene);
   if (!loaded.ok()) return loaded.error();
   SimulateResult result;
   describe(scene, job, *loaded, result.report);

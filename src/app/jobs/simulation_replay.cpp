@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "app/jobs/job_internal.h"
-#include "app/model/mesh_export.h"
 #include "app/recording/simulation_lines.h"
 #include "app/recording/simulation_recording.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/json_write.h"
 #include "app/text/line_reader.h"
+#include "incise/io/mesh_export.h"
 
 namespace incise {
 inline namespace v0 {
@@ -91,13 +91,14 @@ void finish(const Simulation& simulation, const std::vector<std::uint32_t>& file
   result.strokes = simulation.engine().stroke_count();
   result.is_in_stroke = simulation.engine().is_in_stroke();
   result.hash = simulation.hash();
-  if (wants_mesh && !result.difference) result.mesh = to_mesh_data(mesh, pieces, file_vertex, MeshPose::kAsItStands);
+  if (wants_mesh && !result.difference)
+    result.mesh = io::to_mesh_data(mesh, pieces, file_vertex, io::MeshPose::kAsItStands);
 }
 
 }  // namespace
 
-Result<LoadedMesh> load_recorded_model(const SimulationHeader& header) {
-  Result<LoadedMesh> loaded = load_model(header.scene);
+Result<io::LoadedMesh> load_recorded_model(const SimulationHeader& header) {
+  Result<io::LoadedMesh> loaded = load_model(header.scene);
   if (!loaded.ok() || loaded->mesh.hash() == header.mesh_hash) return loaded;
   return Error{ErrorCode::kBadFile,
                loaded->source.file + ": is not the model of the recording: its hash is " +
@@ -109,7 +110,7 @@ Result<LoadedMesh> load_recorded_model(const SimulationHeader& header) {
 Result<ReplayResult> run_simulation_replay(const ReplayJob& job) {
   Result<SimulationReader> reader = SimulationReader::open(job.recording);
   if (!reader.ok()) return reader.error();
-  Result<LoadedMesh> loaded = load_recorded_model(reader->header());
+  Result<io::LoadedMesh> loaded = load_recorded_model(reader->header());
   if (!loaded.ok()) return loaded.error();
   ReplayResult result;
   result.source = loaded->source;

@@ -9,7 +9,7 @@ inline namespace v0 {
 namespace app {
 
 /// The model of a recording's scene, checked to be the one. Errors: as `load_model`; kBadFile where it is another one.
-[[nodiscard]] Result<LoadedMesh> load_recorded_model(const SimulationHeader& header);
+[[nodiscard]] Result<io::LoadedMesh> load_recorded_model(const SimulationHeader& header);
 
 /// `run_replay` of a simulation's recording. The mesh is given as it stands, deformed.
 [[nodiscard]] Result<ReplayResult> run_simulation_replay(const ReplayJob& job);

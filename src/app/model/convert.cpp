@@ -6,8 +6,8 @@
 #include <cctype>
 #include <string_view>
 
-#include "app/model/mesh_export.h"
-#include "app/model/mesh_loader.h"
+#include "incise/io/mesh_export.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/io/surface_file.h"
 
 namespace incise {
@@ -40,9 +40,9 @@ Result<Conversion> convert_surface(const fs::path& in, const fs::path& out) {
 }
 
 Result<Conversion> mesh_to_surface(io::MeshFile file, const fs::path& in, const fs::path& out) {
-  Result<LoadedMesh> loaded = build_mesh(std::move(file), in);
+  Result<io::LoadedMesh> loaded = io::build_mesh(std::move(file), in);
   if (!loaded.ok()) return loaded.error();
-  return write_surface(out, to_surface(loaded->mesh), {loaded->source.notes});
+  return write_surface(out, io::to_surface(loaded->mesh), {loaded->source.notes});
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ Result<Conversion> convert(const fs::path& in, const fs::path& out) {
   Result<io::MeshFile> file = io::read_mesh(in);
   if (!file.ok()) return wants_surface && is_surface_extension(in) ? convert_surface(in, out) : file.error();
   if (wants_surface) return mesh_to_surface(std::move(file).value(), in, out);
-  drop_mid_nodes(*file);
+  io::drop_mid_nodes(*file);
   if (const Status status = io::write_mesh(out, file->data); !status.ok()) return status.error();
   return Conversion{file->notes};
 }

@@ -96,7 +96,7 @@ MeshInfo inspect(const io::MeshFile& file, const std::filesystem::path& path) {
   info.source = describe(file, path);
   count_regions(file.data.soup, info);
   measure_extent(file.data.soup, info);
-  info.defects = find_file_defects(file);
+  info.defects = io::find_file_defects(file);
   TetSoup turned = file.data.soup;
   const Normalised changes = normalise(turned);
   if (changes.flipped > 0) {
@@ -111,7 +111,7 @@ MeshInfo inspect(const io::MeshFile& file, const std::filesystem::path& path) {
 Result<MeshCheck> check_mesh(io::MeshFile file, const std::filesystem::path& path) {
   MeshCheck check;
   check.info = inspect(file, path);
-  Result<LoadedMesh> loaded = build_mesh(std::move(file), path);
+  Result<io::LoadedMesh> loaded = io::build_mesh(std::move(file), path);
   if (!loaded.ok()) return loaded.error();
   check.quality = measure_quality(loaded->mesh);
   check.validity = validate(loaded->mesh, ValidateLevel::kGeometry);
@@ -132,7 +132,7 @@ std::string to_json(const MeshCheck& check) {
 }
 
 std::string to_text(const MeshInfo& info) {
-  const MeshSource& source = info.source;
+  const io::MeshSource& source = info.source;
   std::string text = fmt::format("{}: {}\n", source.file, source.format);
   text += fmt::format("  vertices    {}{}\n", source.vertices, source.ten_node ? " (mid-edge nodes included)" : "");
   text += fmt::format("  tets        {}{}\n", source.tets, source.ten_node ? " of ten nodes" : "");

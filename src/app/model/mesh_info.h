@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/mesh_loader.h"
 #include "incise/geom/vec.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/mesh/defects.h"
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/validate.h"
@@ -18,7 +18,7 @@ namespace app {
 
 /// What is in a mesh file, and what is wrong with it: `incise info`.
 struct MeshInfo {
-  MeshSource source;
+  io::MeshSource source;
   std::vector<std::pair<std::int32_t, std::uint64_t>> regions;  ///< label and tets, rising
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();                 ///< of the points that tets use, length units
   double volume = 0;                                            ///< sum of |V|, cubed length units

@@ -102,18 +102,18 @@ Result<fs::path> find_model(const Scene& scene) {
                {}};
 }
 
-Result<LoadedMesh> load_model(const Scene& scene) {
+Result<io::LoadedMesh> load_model(const Scene& scene) {
   if (scene.model.file.empty()) {
     io::MeshFile file = make_box(scene.model.box, scene.seed);
     paint(scene.model.regions, file.data.soup);
-    return build_mesh(std::move(file), "box");
+    return io::build_mesh(std::move(file), "box");
   }
   const Result<fs::path> path = find_model(scene);
   if (!path.ok()) return path.error();
   Result<io::MeshFile> file = io::read_mesh(*path);
   if (!file.ok()) return file.error();
   paint(scene.model.regions, file->data.soup);
-  return build_mesh(std::move(file).value(), *path);
+  return io::build_mesh(std::move(file).value(), *path);
 }
 
 std::vector<VertexId> find_attached(const TetMesh& mesh, const Attachment& attachment) {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "app/model/mesh_loader.h"
 #include "app/scene/scene.h"
 #include "incise/core/log.h"
+#include "incise/io/mesh_loader.h"
 
 namespace incise {
 inline namespace v0 {
@@ -17,8 +17,8 @@ namespace app {
 
 /// Reads or makes a scene's model and paints its regions.
 ///
-/// Errors: as `find_model` and `load_mesh`.
-[[nodiscard]] Result<LoadedMesh> load_model(const Scene& scene);
+/// Errors: as `find_model` and `io::load_mesh`.
+[[nodiscard]] Result<io::LoadedMesh> load_model(const Scene& scene);
 
 /// The vertices that an attachment holds, by their rest positions, in the order of their slots. Cost: O(tets).
 [[nodiscard]] std::vector<VertexId> find_attached(const TetMesh& mesh, const Attachment& attachment);

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/model/mesh_export.h"
 #include "app/session/session_state.h"
 #include "app/text/json_write.h"
+#include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/components.h"
 
@@ -255,7 +255,7 @@ bool Session::is_recording() const {
 }
 
 Status Session::export_mesh(const std::filesystem::path& path) const {
-  return io::write_mesh(path, to_mesh_data(mesh(), find_components(mesh()), state_->file_vertex));
+  return io::write_mesh(path, io::to_mesh_data(mesh(), find_components(mesh()), state_->file_vertex));
 }
 
 // --- what there is

@@ -51,7 +51,7 @@ Status read_calls(Reader& reader, std::vector<Call>& calls) {
   }
 }
 
-void take(LoadedMesh loaded, std::vector<std::uint32_t>& file_vertex, TetMesh& mesh) {
+void take(io::LoadedMesh loaded, std::vector<std::uint32_t>& file_vertex, TetMesh& mesh) {
   file_vertex = std::move(loaded.file_vertex);
   mesh = std::move(loaded.mesh);
 }
@@ -87,13 +87,13 @@ Result<Session> Session::open(const fs::path& path, const SessionOptions& option
     if (session.ok() && scene->name.empty()) session->state_->title = path.filename().string();
     return session;
   }
-  Result<LoadedMesh> loaded = load_mesh(path);
+  Result<io::LoadedMesh> loaded = io::load_mesh(path);
   if (!loaded.ok()) return loaded.error();
   return open(scene_of_mesh(path, rest_bounds(loaded->mesh), options.up), options);
 }
 
 Result<Session> Session::open(const Scene& scene, const SessionOptions& options) {
-  Result<LoadedMesh> loaded = load_model(scene);
+  Result<io::LoadedMesh> loaded = load_model(scene);
   if (!loaded.ok()) return loaded.error();
   auto state = std::make_unique<State>();
   state->options = options;
@@ -106,7 +106,7 @@ Result<Session> Session::open(const Scene& scene, const SessionOptions& options)
 Result<Session> Session::open_simulation_recording(const fs::path& path, const SessionOptions& options) {
   Result<SimulationReader> reader = SimulationReader::open(path);
   if (!reader.ok()) return reader.error();
-  Result<LoadedMesh> loaded = load_recorded_model(reader->header());
+  Result<io::LoadedMesh> loaded = load_recorded_model(reader->header());
   if (!loaded.ok()) return loaded.error();
   auto state = std::make_unique<State>();
   if (const Status status = read_calls(*reader, state->calls); !status.ok()) return status.error();
@@ -122,7 +122,7 @@ Result<Session> Session::open_simulation_recording(const fs::path& path, const S
 Result<Session> Session::open_engine_recording(const fs::path& path, const SessionOptions& options) {
   Result<RecordingReader> reader = RecordingReader::open(path);
   if (!reader.ok()) return reader.error();
-  Result<LoadedMesh> loaded = load_recorded_mesh(reader->header(), path);
+  Result<io::LoadedMesh> loaded = load_recorded_mesh(reader->header(), path);
   if (!loaded.ok()) return loaded.error();
   auto state = std::make_unique<State>();
   if (const Status status = read_calls(*reader, state->engine_calls); !status.ok()) return status.error();

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/jobs/job_internal.h"
-#include "app/model/mesh_export.h"
 #include "app/model/mesh_info.h"
+#include "incise/io/mesh_export.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
 
@@ -28,7 +28,7 @@ io::MeshFile cube_file() {
 
 /// The paper's cube, cut in half and not maintained.
 app::JobResult cut_cube(Profile profile) {
-  Result<app::LoadedMesh> loaded = app::build_mesh(cube_file(), "cube");
+  Result<io::LoadedMesh> loaded = io::build_mesh(cube_file(), "cube");
   EXPECT_TRUE(loaded.ok());
   app::CutJob job;
   job.engine.cut.profile = profile;
@@ -127,7 +127,7 @@ TEST(CutJob, report_has_every_key_of_the_contract) {
 }
 
 TEST(CutJob, takes_strokes_back_until_the_mesh_is_valid) {
-  TetMesh mesh = app::build_mesh(cube_file(), "cube")->mesh;
+  TetMesh mesh = io::build_mesh(cube_file(), "cube")->mesh;
   const Box box = rest_bounds(mesh);
   EngineOptions options;
   options.maintain.merge = options.maintain.improve = false;
@@ -148,7 +148,7 @@ TEST(CutJob, takes_strokes_back_until_the_mesh_is_valid) {
 }
 
 TEST(CutJob, refuses_a_blade_out_of_reach_before_anything_is_cut) {
-  Result<app::LoadedMesh> loaded = app::build_mesh(cube_file(), "cube");
+  Result<io::LoadedMesh> loaded = io::build_mesh(cube_file(), "cube");
   app::CutJob job;
   const Box box = rest_bounds(loaded->mesh);
   job.strokes = {*plane_stroke(box, Vec3(1, 0, 0), 0.5), *plane_stroke(box, Vec3(1, 0, 0), 1e8)};
@@ -169,13 +169,13 @@ TEST(MeshLoader, leaves_mid_edge_nodes_out_and_remembers_the_files_numbers) {
   file.data.triangles = {{0, 2, 3}, {0, 1, 2}};
   file.data.triangle_stroke = {4, 5};
   file.mid_nodes = {1};
-  EXPECT_EQ(app::find_file_defects(file).unreferenced_vertices, 0U);
-  const auto loaded = app::build_mesh(file, "x");
+  EXPECT_EQ(io::find_file_defects(file).unreferenced_vertices, 0U);
+  const auto loaded = io::build_mesh(file, "x");
   ASSERT_TRUE(loaded.ok());
   EXPECT_EQ(loaded->file_vertex, (std::vector<std::uint32_t>{0, 2, 3, 4}));
   EXPECT_GT(loaded->mesh.rest_volume(TetId(0)), 0);
   EXPECT_EQ(loaded->source.notes.size(), 2U);  // the mid-edge node, and the tet that was turned
-  app::drop_mid_nodes(file);
+  io::drop_mid_nodes(file);
   ASSERT_EQ(file.data.triangles.size(), 1U);
   EXPECT_EQ(file.data.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
   EXPECT_EQ(file.data.triangle_stroke, (std::vector<std::int32_t>{4}));
@@ -198,8 +198,8 @@ TEST(MeshInfo, says_what_a_file_has_and_whether_it_is_valid) {
 }
 
 TEST(MeshExport, surface_of_a_cube_is_closed) {
-  const auto loaded = app::build_mesh(cube_file(), "cube");
-  const io::SurfaceSoup surface = app::to_surface(loaded->mesh);
+  const auto loaded = io::build_mesh(cube_file(), "cube");
+  const io::SurfaceSoup surface = io::to_surface(loaded->mesh);
   EXPECT_EQ(surface.triangles.size(), 300U);
   EXPECT_EQ(surface.points.size(), 152U);
 }

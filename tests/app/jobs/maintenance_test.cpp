@@ -14,10 +14,10 @@ namespace {
 using namespace incise;
 using nlohmann::json;
 
-app::LoadedMesh load(TetSoup soup) {
+io::LoadedMesh load(TetSoup soup) {
   io::MeshFile file;
   file.data.soup = std::move(soup);
-  return app::build_mesh(std::move(file), "made").value();
+  return io::build_mesh(std::move(file), "made").value();
 }
 
 /// A cube whose cells are bent, so that cuts without snapping leave slivers.

@@ -23,7 +23,7 @@ using incise_test::read;
 const Box kUnitBox{Vec3(0, 0, 0), Vec3(1, 1, 1)};
 
 app::RecordedEngine record_on(const std::string& mesh_file, const std::string& recording, EngineOptions options = {}) {
-  app::LoadedMesh loaded = app::load_mesh(mesh_file).value();
+  io::LoadedMesh loaded = io::load_mesh(mesh_file).value();
   return app::RecordedEngine::create(std::move(loaded.mesh), std::move(options), {recording, mesh_file, 7}).value();
 }
 
@@ -120,7 +120,7 @@ TEST_F(Replay, does_every_kind_of_call_again) {
 TEST_F(Replay, restores_where_a_deforming_body_stood) {
   const app::RecordedEngine engine =
       record(2, [](app::RecordedEngine& e) { ASSERT_TRUE(e.set_positions(stretched(e.mesh())).ok()); });
-  Engine again = Engine::create(app::load_mesh(folder_ / "cube.mesh")->mesh).value();
+  Engine again = Engine::create(io::load_mesh(folder_ / "cube.mesh")->mesh).value();
   Result<app::RecordingReader> reader = app::RecordingReader::open(log_);
   ASSERT_TRUE(reader.ok());
   const auto call = reader->next();
@@ -257,7 +257,7 @@ TEST_F(Replay, of_a_cut_job_with_a_clock_gives_its_mesh) {
     job.budget_us = 2000;
     job.record = log_;
     job.strokes = {*plane_stroke(kUnitBox, Vec3(1, 0.1, 0.2), 0.63), *plane_stroke(kUnitBox, Vec3(0.2, 1, 0), 0.48)};
-    const app::JobResult cut = app::run_cut(app::load_mesh(mesh).value(), job, true).value();
+    const app::JobResult cut = app::run_cut(io::load_mesh(mesh).value(), job, true).value();
     const app::ReplayResult result = replay();
     EXPECT_FALSE(result.difference.has_value());
     EXPECT_EQ(result.hash, cut.report.hash);
@@ -279,7 +279,7 @@ TEST_F(Replay, leaves_the_figures_of_a_cut_job_alone) {
   job.strokes = {stroke, stroke};
   job.strokes[1].edges.resize(2);  // before it meets the body
   job.strokes[1].times.resize(2);
-  const app::JobReport report = app::run_cut(app::load_mesh(mesh).value(), job, false)->report;
+  const app::JobReport report = app::run_cut(io::load_mesh(mesh).value(), job, false)->report;
   EXPECT_EQ(report.step_ms.size(), 9U);
   EXPECT_EQ(report.stage_ms.size(), 9U);
   EXPECT_EQ(report.units_per_stroke.size(), 2U);
@@ -293,7 +293,7 @@ TEST_F(Replay, leaves_the_figures_of_a_cut_job_alone) {
   EXPECT_NEAR(stages, report.times.total(), 1e-9);
   EXPECT_LE(stages, sum);
   job.engine.cut.profile = Profile::kPaper;  // cuts whole strokes
-  EXPECT_EQ(app::run_cut(app::load_mesh(mesh).value(), job, false)->report.step_ms.size(), 2U);
+  EXPECT_EQ(app::run_cut(io::load_mesh(mesh).value(), job, false)->report.step_ms.size(), 2U);
 }
 
 // The recordings in tests/recordings replay on every build. After a change that means to change results, and after

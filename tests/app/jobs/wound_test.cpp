@@ -4,11 +4,11 @@
 
 #include <set>
 
-#include "app/model/mesh_export.h"
-#include "app/model/mesh_loader.h"
 #include "cut/bodies.h"
 #include "cut/strokes.h"
 #include "incise/engine/engine.h"
+#include "incise/io/mesh_export.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/mesh/validate.h"
 
 namespace incise::test {
@@ -75,15 +75,15 @@ Engine cut_body(const Case& tried) {
 }
 
 io::MeshData packed(const TetMesh& mesh) {
-  return app::to_mesh_data(mesh, find_components(mesh));
+  return io::to_mesh_data(mesh, find_components(mesh));
 }
 
-app::LoadedMesh written_and_read(const io::MeshData& data, const char* extension) {
+io::LoadedMesh written_and_read(const io::MeshData& data, const char* extension) {
   const Result<std::string> bytes = io::write_mesh_bytes(extension, data);
   EXPECT_TRUE(bytes.ok());
   Result<io::MeshFile> file = io::read_mesh_bytes(*bytes);
   EXPECT_TRUE(file.ok()) << file.error().message;
-  Result<app::LoadedMesh> loaded = app::build_mesh(std::move(file).value(), "again");
+  Result<io::LoadedMesh> loaded = io::build_mesh(std::move(file).value(), "again");
   EXPECT_TRUE(loaded.ok()) << loaded.error().message;
   return std::move(loaded).value();
 }
@@ -150,7 +150,7 @@ TEST_P(Wound, is_the_same_after_it_was_written_and_read) {
   const TetMesh& mesh = engine.mesh();
   EXPECT_EQ(strokes_of(mesh).size(), GetParam().strokes.size());
   for (const char* format : kFormats) {
-    const app::LoadedMesh again = written_and_read(packed(mesh), format);
+    const io::LoadedMesh again = written_and_read(packed(mesh), format);
     const Differences found = compare(mesh, again.mesh);
     EXPECT_EQ(found.places + found.corners, 0U) << format;
     EXPECT_EQ(found.tags, 0U) << format;
@@ -168,7 +168,7 @@ TEST_P(Wound, ends_where_its_lips_meet_if_the_file_does_not_say) {
   const Engine engine = cut_body(GetParam());
   io::MeshData data = packed(engine.mesh());
   data.cut_front.clear();
-  const app::LoadedMesh again = written_and_read(data, ".vtk");
+  const io::LoadedMesh again = written_and_read(data, ".vtk");
   const Differences found = compare(engine.mesh(), again.mesh);
   EXPECT_EQ(found.tags + found.surfaces, 0U);
   EXPECT_EQ(front_size(again.mesh), front_size(engine.mesh()) + found.fronts);  // none is missing
@@ -232,7 +232,7 @@ TEST(Walls, that_are_no_boundary_faces_are_left_out_with_a_note) {
   io::MeshFile file = two_tets();
   file.data.triangles = {{1, 2, 3}, {0, 2, 1}, {0, 1, 4}, {0, 1, 3}};
   file.data.triangle_stroke = {1, 7, 2, -3};
-  const Result<app::LoadedMesh> loaded = app::build_mesh(file, "x");
+  const Result<io::LoadedMesh> loaded = io::build_mesh(file, "x");
   ASSERT_TRUE(loaded.ok());
   EXPECT_EQ(strokes_of(loaded->mesh), (std::set<std::uint32_t>{7}));
   ASSERT_EQ(loaded->source.notes.size(), 1U);
@@ -244,18 +244,18 @@ TEST(Walls, of_other_programs_labels_are_skin) {
   file.data.triangles = {{0, 2, 1}, {0, 1, 3}};
   file.data.triangle_stroke = {1, 2};
   file.data.has_foreign_labels = true;
-  const Result<app::LoadedMesh> loaded = app::build_mesh(file, "x");
+  const Result<io::LoadedMesh> loaded = io::build_mesh(file, "x");
   ASSERT_TRUE(loaded.ok());
   EXPECT_TRUE(strokes_of(loaded->mesh).empty());
   EXPECT_TRUE(loaded->source.notes.empty());
-  EXPECT_EQ(loaded->mesh.hash(), app::build_mesh(two_tets(), "x")->mesh.hash());
+  EXPECT_EQ(loaded->mesh.hash(), io::build_mesh(two_tets(), "x")->mesh.hash());
 }
 
 TEST(Walls, of_strokes_beyond_the_highest_number_name_the_file) {
   io::MeshFile file = two_tets();
   file.data.triangles = {{0, 2, 1}};
   file.data.triangle_stroke = {2147483647};
-  const Result<app::LoadedMesh> loaded = app::build_mesh(file, "some.vtu");
+  const Result<io::LoadedMesh> loaded = io::build_mesh(file, "some.vtu");
   ASSERT_FALSE(loaded.ok());
   EXPECT_EQ(loaded.error().message.substr(0, 17), "some.vtu: wall 0 ");
 }

@@ -329,7 +329,7 @@ TEST(SceneInput, has_tools_and_hooks_while_they_are_there) {
 
 TEST(SceneModel, is_painted_and_held_by_place) {
   const app::Scene scene = parsed(full_scene());
-  const Result<app::LoadedMesh> loaded = app::load_model(scene);
+  const Result<io::LoadedMesh> loaded = app::load_model(scene);
   ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const TetMesh& mesh = loaded->mesh;
   EXPECT_EQ(mesh.tet_count(), 72U);

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "app/folder.h"
-#include "app/model/mesh_loader.h"
 #include "app/recording/recorded_engine.h"
 #include "app/scene/scene_cases.h"
 #include "app/session/session.h"
+#include "incise/io/mesh_loader.h"
 
 namespace incise_test {
 
@@ -87,7 +87,7 @@ inline std::string write_simulation_recording(const Folder& folder, const std::s
 /// Writes a mesh and a recording of an engine on it: two strokes and an undo.
 inline std::string write_engine_recording(const Folder& folder, const std::string& name = "engine.jsonl") {
   const std::string mesh = folder.write("cube.mesh", cube_mesh(3));
-  incise::app::LoadedMesh loaded = incise::app::load_mesh(mesh).value();
+  incise::io::LoadedMesh loaded = incise::io::load_mesh(mesh).value();
   incise::app::RecordedEngine engine =
       incise::app::RecordedEngine::create(std::move(loaded.mesh), {}, {folder / name, mesh, 0}).value();
   EXPECT_TRUE(engine.cut(stroke_at(0.52)).ok());

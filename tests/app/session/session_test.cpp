@@ -9,9 +9,9 @@
 
 #include "app/jobs/replay_job.h"
 #include "app/jobs/simulate_job.h"
-#include "app/model/mesh_loader.h"
 #include "app/session/session_cases.h"
 #include "app/text/text_file.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/mesh/bounds.h"
 
 namespace {
@@ -656,7 +656,7 @@ TEST_F(SessionFiles, an_exported_mesh_reads_back) {
   cut_by_hand(session);
   for (const char* name : {"out.vtu", "out.mesh", "out.msh"}) {
     ASSERT_TRUE(session.export_mesh(folder_ / name).ok()) << name;
-    const Result<app::LoadedMesh> loaded = app::load_mesh(folder_ / name);
+    const Result<io::LoadedMesh> loaded = io::load_mesh(folder_ / name);
     ASSERT_TRUE(loaded.ok()) << loaded.error().message;
     EXPECT_EQ(loaded->mesh.tet_count(), session.mesh().tet_count());
     EXPECT_EQ(rest_bounds(loaded->mesh).hi, Vec3(1, 1, 1));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/model/mesh_export.h"
+#include "incise/io/mesh_export.h"
 
 namespace incise {
 inline namespace v0 {
-namespace app {
+namespace io {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -30,9 +30,9 @@ std::int32_t origin_of(const TetMesh& mesh, VertexId vertex, const std::vector<s
 
 }  // namespace
 
-io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces, const std::vector<std::uint32_t>& file_vertex,
-                          MeshPose pose) {
-  io::MeshData data;
+MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces, const std::vector<std::uint32_t>& file_vertex,
+                      MeshPose pose) {
+  MeshData data;
   std::vector<std::uint32_t> number(mesh.vertex_slots(), kInvalidIndex);
   mesh.for_each_vertex([&](VertexId v) {
     number[v.value] = static_cast<std::uint32_t>(data.soup.points.size());
@@ -56,8 +56,8 @@ io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces, const s
   return data;
 }
 
-io::SurfaceSoup to_surface(const TetMesh& mesh) {
-  io::SurfaceSoup surface;
+SurfaceSoup to_surface(const TetMesh& mesh) {
+  SurfaceSoup surface;
   std::vector<std::uint32_t> number(mesh.vertex_slots(), kInvalidIndex);
   for_each_boundary_side(mesh, [&](Side side) {
     for (const VertexId v : mesh.vertices(side)) {
@@ -70,6 +70,6 @@ io::SurfaceSoup to_surface(const TetMesh& mesh) {
   return surface;
 }
 
-}  // namespace app
+}  // namespace io
 }  // namespace v0
 }  // namespace incise

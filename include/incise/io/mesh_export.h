@@ -10,7 +10,7 @@
 
 namespace incise {
 inline namespace v0 {
-namespace app {
+namespace io {
 
 /// Which of its two positions a vertex has in a file.
 enum class MeshPose : std::uint8_t { kAtRest, kAsItStands };
@@ -22,14 +22,14 @@ enum class MeshPose : std::uint8_t { kAtRest, kAsItStands };
 /// @param pieces       of this mesh.
 /// @param file_vertex  as in `LoadedMesh`: the file's number of each input vertex, or empty.
 /// Cost: O(slots).
-[[nodiscard]] io::MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces,
-                                        const std::vector<std::uint32_t>& file_vertex = {},
-                                        MeshPose pose = MeshPose::kAtRest);
+[[nodiscard]] MeshData to_mesh_data(const TetMesh& mesh, const Components& pieces,
+                                    const std::vector<std::uint32_t>& file_vertex = {},
+                                    MeshPose pose = MeshPose::kAtRest);
 
 /// The boundary of a mesh, skin and cut walls, as triangles that turn counter-clockwise seen from outside.
 /// Cost: O(slots).
-[[nodiscard]] io::SurfaceSoup to_surface(const TetMesh& mesh);
+[[nodiscard]] SurfaceSoup to_surface(const TetMesh& mesh);
 
-}  // namespace app
+}  // namespace io
 }  // namespace v0
 }  // namespace incise

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/model/mesh_loader.h"
+#include "incise/io/mesh_loader.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace incise {
 inline namespace v0 {
-namespace app {
+namespace io {
 namespace {
 
 std::string counted(std::uint64_t count, const std::string& one, const std::string& many) {
@@ -35,7 +35,7 @@ void keep_points(std::vector<T>& values, const std::vector<std::uint32_t>& numbe
 }
 
 // Renumbers the triangles' corners; triangles that lose one go, with their labels.
-void keep_triangles(io::MeshData& data, const std::vector<std::uint32_t>& number) {
+void keep_triangles(MeshData& data, const std::vector<std::uint32_t>& number) {
   const bool has_labels = data.triangle_stroke.size() == data.triangles.size();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < data.triangles.size(); ++i) {
@@ -51,7 +51,7 @@ void keep_triangles(io::MeshData& data, const std::vector<std::uint32_t>& number
 }
 
 // What the file knows of earlier cuts. Strokes of 0 and below are skin.
-void take_cuts(const io::MeshData& data, TetSoup& soup) {
+void take_cuts(const MeshData& data, TetSoup& soup) {
   soup.origins = data.origin_vertex;
   if (data.has_foreign_labels) return;
   for (std::size_t i = 0; i < data.triangle_stroke.size(); ++i) {
@@ -94,10 +94,10 @@ void note_changes(const Normalised& changes, std::vector<std::string>& notes) {
 
 }  // namespace
 
-std::vector<std::uint32_t> drop_mid_nodes(io::MeshFile& file) {
+std::vector<std::uint32_t> drop_mid_nodes(MeshFile& file) {
   std::vector<std::uint32_t> kept;
   if (file.mid_nodes.empty()) return kept;
-  io::MeshData& data = file.data;
+  MeshData& data = file.data;
   const std::vector<std::uint32_t> number = renumber(data.soup.points.size(), file.mid_nodes);
   for (std::uint32_t i = 0; i < number.size(); ++i) {
     if (number[i] != kInvalidIndex) kept.push_back(i);
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> drop_mid_nodes(io::MeshFile& file) {
   return kept;
 }
 
-Defects find_file_defects(const io::MeshFile& file) {
+Defects find_file_defects(const MeshFile& file) {
   Defects defects = find_defects(file.data.soup);
   if (file.mid_nodes.empty()) return defects;
   defects.unreferenced_vertices -= std::min<std::uint64_t>(defects.unreferenced_vertices, file.mid_nodes.size());
@@ -127,7 +127,7 @@ Defects find_file_defects(const io::MeshFile& file) {
   return defects;
 }
 
-MeshSource describe(const io::MeshFile& file, const std::filesystem::path& path) {
+MeshSource describe(const MeshFile& file, const std::filesystem::path& path) {
   MeshSource source;
   source.file = path.string();
   source.format = file.format_name + (file.gzipped ? ", gzipped" : "");
@@ -138,7 +138,7 @@ MeshSource describe(const io::MeshFile& file, const std::filesystem::path& path)
   return source;
 }
 
-Result<LoadedMesh> build_mesh(io::MeshFile file, const std::filesystem::path& path) {
+Result<LoadedMesh> build_mesh(MeshFile file, const std::filesystem::path& path) {
   LoadedMesh loaded;
   loaded.file_vertex = drop_mid_nodes(file);
   loaded.source = describe(file, path);
@@ -160,11 +160,11 @@ Result<LoadedMesh> build_mesh(io::MeshFile file, const std::filesystem::path& pa
 }
 
 Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
-  Result<io::MeshFile> file = io::read_mesh(path);
+  Result<MeshFile> file = read_mesh(path);
   if (!file.ok()) return file.error();
   return build_mesh(std::move(file).value(), path);
 }
 
-}  // namespace app
+}  // namespace io
 }  // namespace v0
 }  // namespace incise

@@ -13,7 +13,7 @@
 
 namespace incise {
 inline namespace v0 {
-namespace app {
+namespace io {
 
 /// What a mesh file is, without its arrays.
 struct MeshSource {
@@ -37,22 +37,22 @@ struct LoadedMesh {
 ///
 /// @return the old number of each point that stays; empty where all stay. Triangles that used a mid-edge node go.
 /// Cost: O(n).
-std::vector<std::uint32_t> drop_mid_nodes(io::MeshFile& file);
+std::vector<std::uint32_t> drop_mid_nodes(MeshFile& file);
 
 /// The defects of a file as it stands; mid-edge nodes are no unreferenced vertices. Cost: as `find_defects`.
-[[nodiscard]] Defects find_file_defects(const io::MeshFile& file);
+[[nodiscard]] Defects find_file_defects(const MeshFile& file);
 
 /// Describes a file, `notes` of its reader included. Cost: O(1).
-[[nodiscard]] MeshSource describe(const io::MeshFile& file, const std::filesystem::path& path);
+[[nodiscard]] MeshSource describe(const MeshFile& file, const std::filesystem::path& path);
 
 /// Makes a mesh of what a file holds: mid-edge nodes left out, negative tets turned, exact duplicates dropped, all said
 /// in the notes. Walls, their strokes, where cuts end and origins of vertices are taken where the file is a cut mesh
 /// that Incise wrote. Errors: as `TetMesh::build`, naming the file. Cost: O(n log n).
-[[nodiscard]] Result<LoadedMesh> build_mesh(io::MeshFile file, const std::filesystem::path& path);
+[[nodiscard]] Result<LoadedMesh> build_mesh(MeshFile file, const std::filesystem::path& path);
 
-/// Reads and builds. Errors: as `io::read_mesh` and `build_mesh`.
+/// Reads and builds. Errors: as `read_mesh` and `build_mesh`.
 [[nodiscard]] Result<LoadedMesh> load_mesh(const std::filesystem::path& path);
 
-}  // namespace app
+}  // namespace io
 }  // namespace v0
 }  // namespace incise
