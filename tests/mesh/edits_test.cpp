@@ -13,9 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
-#include "geom/random.h"
 #include "incise/cut/cutter.h"
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/bounds.h"
@@ -23,7 +20,10 @@
 #include "incise/mesh/remesh.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
-#include "mesh/mirror_checks.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/mirror_checks.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

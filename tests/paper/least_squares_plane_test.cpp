@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geom/random.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

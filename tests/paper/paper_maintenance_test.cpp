@@ -8,13 +8,13 @@
 #include <set>
 #include <string>
 
-#include "cut/random_strokes.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/defects.h"
 #include "incise/mesh/quality_stats.h"
 #include "paper/paper_region.h"
 #include "paper/paper_support.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

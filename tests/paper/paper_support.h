@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/strokes.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 

@@ -9,13 +9,13 @@
 #include <numeric>
 #include <set>
 
-#include "cut/bodies.h"
 #include "cut/star_separation.h"
-#include "cut/strokes.h"
-#include "cut/support.h"
 #include "paper/contact.h"
 #include "paper/crossing.h"
 #include "paper/dividable.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/folder.h"
+#include "support/folder.h"
 
 using incise::ErrorCode;
 using incise::render::Image;

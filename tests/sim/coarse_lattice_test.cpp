@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "geom/random.h"
 #include "incise/sim/body.h"
-#include "sim/beam.h"
 #include "sim/body/body_state.h"
+#include "support/beam.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

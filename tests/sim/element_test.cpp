@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "../geom/random.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/body.h"
 #include "incise/sim/reference.h"
 #include "sim/body/body_state.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "../geom/random.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

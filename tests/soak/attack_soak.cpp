@@ -15,7 +15,6 @@
 #include <sstream>
 #include <utility>
 
-#include "cut/bodies.h"
 #include "incise/io/mesh_file.h"
 #include "incise/io/mesh_loader.h"
 #include "soak/attack_run.h"
@@ -24,6 +23,7 @@
 #include "soak/models.h"
 #include "soak/motion_soak.h"
 #include "soak/watch.h"
+#include "support/bodies.h"
 
 namespace incise::test {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/strokes.h"
 #include "incise/io/mesh_loader.h"
 #include "soak/models.h"
+#include "support/bodies.h"
+#include "support/random_strokes.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

@@ -12,12 +12,12 @@
 #include <utility>
 
 #include "app/jobs/cut_job.h"
-#include "geom/random.h"
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/tet_tables.h"
 #include "incise/mesh/validate.h"
 #include "soak/watch.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

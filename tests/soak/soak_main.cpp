@@ -31,8 +31,6 @@
 #include <vector>
 
 #include "app/jobs/cut_job.h"
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
 #include "incise/engine/engine.h"
 #include "incise/geom/quality.h"
 #include "incise/io/mesh_loader.h"
@@ -47,6 +45,8 @@
 #include "soak/simulation_run.h"
 #include "soak/stability.h"
 #include "soak/watch.h"
+#include "support/bodies.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "app/folder.h"
 #include "app/jobs/cut_job.h"
 #include "app/jobs/replay_job.h"
 #include "app/recording/recorded_engine.h"
 #include "app/text/text_file.h"
 #include "incise/mesh/bounds.h"
+#include "support/folder.h"
 
 namespace {
 

@@ -7,16 +7,16 @@
 #include <random>
 #include <sstream>
 
-#include "app/folder.h"
 #include "app/jobs/frame_series.h"
 #include "app/jobs/replay_job.h"
 #include "app/jobs/simulate_job.h"
 #include "app/recording/simulation_lines.h"
-#include "app/scene/scene_cases.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/text_file.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/shapes.h"
+#include "support/folder.h"
+#include "support/scene_cases.h"
 
 namespace {
 

@@ -4,12 +4,12 @@
 
 #include <set>
 
-#include "cut/bodies.h"
-#include "cut/strokes.h"
 #include "incise/engine/engine.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_loader.h"
 #include "incise/mesh/validate.h"
+#include "support/bodies.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

@@ -13,8 +13,8 @@
 #include <random>
 #include <sstream>
 
-#include "app/folder.h"
 #include "app/recording/recording_lines.h"
+#include "support/folder.h"
 
 namespace {
 

@@ -9,8 +9,8 @@
 
 #include "app/jobs/simulate_job.h"
 #include "app/scene/exercise_score.h"
-#include "app/scene/scene_cases.h"
 #include "app/scene/scene_simulation.h"
+#include "support/scene_cases.h"
 
 namespace {
 

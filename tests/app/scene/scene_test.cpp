@@ -10,11 +10,11 @@
 #include <set>
 #include <sstream>
 
-#include "app/folder.h"
-#include "app/scene/scene_cases.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/text_file.h"
 #include "app/view/scene_camera.h"
+#include "support/folder.h"
+#include "support/scene_cases.h"
 
 namespace {
 

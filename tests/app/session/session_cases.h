@@ -9,11 +9,11 @@
 #include <thread>
 #include <utility>
 
-#include "app/folder.h"
 #include "app/recording/recorded_engine.h"
-#include "app/scene/scene_cases.h"
 #include "app/session/session.h"
 #include "incise/io/mesh_loader.h"
+#include "support/folder.h"
+#include "support/scene_cases.h"
 
 namespace incise_test {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "../geom/random.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
+#include "support/random.h"
 
 namespace incise::test {
 

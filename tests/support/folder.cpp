@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/folder.h"
+#include "support/folder.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cut/support.h"
+#include "support/engines.h"
 
 #include <algorithm>
 #include <array>

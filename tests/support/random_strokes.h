@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "../cut/strokes.h"
-#include "../geom/random.h"
 #include "incise/geom/box.h"
+#include "support/random.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 
