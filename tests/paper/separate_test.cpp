@@ -9,10 +9,12 @@
 #include <numeric>
 #include <set>
 
+#include "cut/pinched_edges.h"
 #include "cut/star_separation.h"
 #include "paper/contact.h"
 #include "paper/crossing.h"
 #include "paper/dividable.h"
+#include "paper/subdivide.h"
 #include "support/bodies.h"
 #include "support/engines.h"
 #include "support/strokes.h"
