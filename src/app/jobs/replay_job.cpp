@@ -8,8 +8,8 @@
 
 #include "app/jobs/job_internal.h"
 #include "app/jobs/simulation_replay.h"
+#include "app/recording/engine_recording.h"
 #include "app/recording/recorded_mesh.h"
-#include "app/recording/recording_lines.h"
 #include "app/recording/simulation_recording.h"
 #include "app/text/json_write.h"
 #include "app/text/line_reader.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "app/jobs/report.h"
-#include "app/recording/recording.h"
+#include "app/recording/engine_recording.h"
 #include "incise/io/mesh_data.h"
 #include "incise/io/mesh_loader.h"
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/jobs/job_internal.h"
-#include "app/recording/simulation_lines.h"
 #include "app/recording/simulation_recording.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/json_write.h"

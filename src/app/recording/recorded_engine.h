@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "app/recording/recording.h"
+#include "app/recording/engine_recording.h"
 #include "incise/engine/engine.h"
 
 namespace incise {

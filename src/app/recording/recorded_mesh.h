@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "app/recording/recording.h"
+#include "app/recording/engine_recording.h"
 #include "incise/io/mesh_loader.h"
 
 namespace incise {

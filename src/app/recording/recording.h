@@ -1,115 +1,101 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of sessions: what was asked of an engine, call by call, as lines of JSON (docs/formats.md).
+// A recording is a text file: a header, then one line for each call. What the lines say is the codec's.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <istream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
+#include "app/text/append_file.h"
+#include "app/text/line_source.h"
 #include "incise/core/result.h"
-#include "incise/engine/engine.h"
 
 namespace incise {
 inline namespace v0 {
 namespace app {
-
-/// What a session started from.
-struct RecordingHeader {
-  std::string program;          ///< that recorded, with its version; left empty, a writer puts this one
-  std::string mesh_file;        ///< seen from the recording's folder; empty: the mesh was in no file
-  std::uint64_t mesh_hash = 0;  ///< `TetMesh::hash` before the first call
-  CutOptions cut;
-  MaintainOptions maintain;
-  std::uint64_t seed = 0;  ///< repeated, as in reports
-};
-
-/// The calls of `Engine` that change its state.
-enum class CallKind : std::uint8_t {
-  kBegin,
-  kStep,
-  kEnd,
-  kCut,
-  kUndo,
-  kRedo,
-  kMaintain,
-  kImprove,
-  kPositions,
-};
-
-/// One call with its arguments and what it left. Arguments of other kinds of calls are at their defaults.
-struct RecordedCall {
-  CallKind kind = CallKind::kUndo;
-  BladePose pose;                         ///< of begin and step
-  Stroke stroke;                          ///< of cut
-  std::vector<Vec3> positions;            ///< of positions: one per vertex slot, length unit of the mesh
-  std::uint64_t limit = kUnlimitedWork;   ///< of maintain: the work units allowed
-  std::optional<std::uint64_t> stop_ask;  ///< of maintain: it was told to stop when it had asked so often; unset: never
-  std::uint64_t work_units = 0;           ///< of maintain and improve: spent
-  std::optional<ErrorCode> error;         ///< how the call failed, if it did; never kBadArgument
-  std::uint64_t hash = 0;                 ///< `TetMesh::hash` after the call
-  std::uint32_t line = 0;                 ///< in its file, from 1; the header is line 1. Set by readers
-};
 
 /// Writes a recording while it is made: after each call its line is in the hands of the operating system.
 ///
 /// A program that is killed loses at most the line that it was writing. (A computer that loses power may lose more:
 /// nothing waits for the disk.) The file takes its place with the first call, header and line at once; what had its
 /// name before is whole until then. Not thread-safe.
-class RecordingWriter {
+///
+/// `Codec` names the types `Header` and `Call`, for which there is `to_line`.
+template <class Codec>
+class BasicRecordingWriter {
  public:
-  /// Opens nothing yet. Cost: O(1).
-  RecordingWriter(std::filesystem::path path, const RecordingHeader& header);
-  RecordingWriter(RecordingWriter&&) noexcept;
-  RecordingWriter& operator=(RecordingWriter&&) noexcept;
-  ~RecordingWriter();
+  /// Opens nothing yet. Cost: that of the header's line.
+  BasicRecordingWriter(std::filesystem::path path, const typename Codec::Header& header)
+      : file_(std::make_unique<AppendFile>(std::move(path))), header_(to_line(header)) {}
 
-  /// Appends one call as one line, in one write. Doubles read back bit for bit; those of a pose or stroke must be
-  /// finite. Errors: kIo, naming the file; all later calls then fail likewise, since a line may be missing.
-  /// Cost: O(points), about 0.1 ms per 1000.
-  Status write(const RecordedCall& call);
+  /// Appends one call as one line, in one write. Errors: kIo, naming the file; all later calls then fail likewise,
+  /// since a line may be missing. Cost: O(line).
+  Status write(const typename Codec::Call& call) { return file_->append(std::exchange(header_, {}) + to_line(call)); }
 
  private:
-  class File;
-  std::unique_ptr<File> file_;
+  std::unique_ptr<AppendFile> file_;
   std::string header_;  // until it has been written
 };
-
-class LineSource;
 
 /// Reads a recording line by line, so that it may be longer than memory.
 ///
 /// The last line may be cut off anywhere: it is left out, and `is_cut_off` says so. All else is strict.
-class RecordingReader {
+///
+/// `Codec` names the types `Header` and `Call`, and has `parse_header(text, file_name, folder)` and
+/// `parse_call(text, file_name, line)`, whose errors are kBadFile "FILE:LINE: what".
+template <class Codec>
+class BasicRecordingReader {
  public:
-  RecordingReader(RecordingReader&&) noexcept;
-  RecordingReader& operator=(RecordingReader&&) noexcept;
-  ~RecordingReader();
+  using Header = typename Codec::Header;
+  using Call = typename Codec::Call;
 
   /// Opens a file and reads its header. Errors: kBadFile "FILE:LINE: what; remedy" where it cannot be read, the header
-  /// is not whole, of another format or version, or has an unknown key. Cost: O(1).
-  static Result<RecordingReader> open(const std::filesystem::path& path);
-  /// The same for text in memory or elsewhere; `file_name` stands for FILE in messages.
-  static Result<RecordingReader> open(std::unique_ptr<std::istream> text, std::string file_name);
+  /// is not whole, of another format or version, or has an unknown key. Cost: that of the header.
+  static Result<BasicRecordingReader> open(const std::filesystem::path& path) {
+    Result<LineSource> lines = LineSource::open(path);
+    if (!lines.ok()) return lines.error();
+    return open(std::move(lines).value(), path.parent_path());
+  }
+  /// The same for text in memory or elsewhere; `path` stands for FILE in messages, and its folder for the file's.
+  static Result<BasicRecordingReader> open(std::unique_ptr<std::istream> text, const std::filesystem::path& path) {
+    return open(LineSource(std::move(text), path.string()), path.parent_path());
+  }
 
-  [[nodiscard]] const RecordingHeader& header() const { return header_; }
-  [[nodiscard]] const std::string& file_name() const;
+  [[nodiscard]] const Header& header() const { return header_; }
+  [[nodiscard]] const std::string& file_name() const { return lines_.file_name(); }
 
   /// The next call, or nothing at the end. Errors: kBadFile "FILE:LINE: what", for instance for an unknown call or key,
   /// a number that is not finite, or a line of more than 1 GiB. Cost: O(line).
-  Result<std::optional<RecordedCall>> next();
+  Result<std::optional<Call>> next() {
+    std::string line;
+    const Result<bool> got = lines_.next(line);
+    if (!got.ok()) return got.error();
+    if (!*got) return std::optional<Call>();
+    Result<Call> call = Codec::parse_call(line, file_name(), lines_.number());
+    if (!call.ok()) return call.error();
+    return std::optional<Call>(std::move(call).value());
+  }
   /// Whether the end, once it was reached, was within a line.
-  [[nodiscard]] bool is_cut_off() const;
+  [[nodiscard]] bool is_cut_off() const { return lines_.is_cut_off(); }
 
  private:
-  explicit RecordingReader(LineSource lines);
-  static Result<RecordingReader> open(LineSource lines);
+  explicit BasicRecordingReader(LineSource lines) : lines_(std::move(lines)) {}
 
-  std::unique_ptr<LineSource> lines_;
-  RecordingHeader header_;
+  static Result<BasicRecordingReader> open(LineSource lines, const std::filesystem::path& folder) {
+    BasicRecordingReader reader(std::move(lines));
+    const Result<std::string> line = reader.lines_.header();
+    if (!line.ok()) return line.error();
+    Result<Header> header = Codec::parse_header(*line, reader.file_name(), folder);
+    if (!header.ok()) return header.error();
+    reader.header_ = std::move(header).value();
+    return reader;
+  }
+
+  LineSource lines_;
+  Header header_;
 };
 
 }  // namespace app

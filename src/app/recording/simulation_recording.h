@@ -4,11 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <istream>
-#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "app/recording/recording.h"
 #include "app/scene/scene.h"
 #include "incise/core/result.h"
 
@@ -36,54 +36,24 @@ struct SimulationCall {
   std::uint32_t line = 0;             ///< in its file, from 1; the header is line 1. Set by readers
 };
 
-/// Writes a recording while it is made, as `RecordingWriter` does: after each call its line is in the hands of the
-/// operating system. Not thread-safe.
-class SimulationWriter {
- public:
-  /// Opens nothing yet. Cost: O(size of the scene).
-  SimulationWriter(std::filesystem::path path, const SimulationHeader& header);
-  SimulationWriter(SimulationWriter&&) noexcept;
-  SimulationWriter& operator=(SimulationWriter&&) noexcept;
-  ~SimulationWriter();
+/// The name of a call in recordings and messages.
+[[nodiscard]] const char* name_of(SimulationCallKind kind);
 
-  /// Appends one call as one line, in one write. Doubles read back bit for bit and must be finite.
-  /// Errors: kIo, naming the file; all later calls then fail likewise. Cost: O(points).
-  Status write(const SimulationCall& call);
+/// One line, with a newline at the end. Doubles read back bit for bit and must be finite. Cost: O(points).
+[[nodiscard]] std::string to_line(const SimulationHeader& header);
+[[nodiscard]] std::string to_line(const SimulationCall& call);
 
- private:
-  class File;
-  std::unique_ptr<File> file_;
-  std::string header_;  // until it has been written
+/// How the lines of a simulation are read; see `SimulationReader`.
+struct SimulationCodec {
+  using Header = SimulationHeader;
+  using Call = SimulationCall;
+  static Result<Header> parse_header(std::string_view text, std::string_view file_name,
+                                     const std::filesystem::path& folder);
+  static Result<Call> parse_call(std::string_view text, std::string_view file_name, std::uint32_t line);
 };
 
-/// Reads a recording line by line. The last line may be cut off anywhere: it is left out. All else is strict.
-class SimulationReader {
- public:
-  SimulationReader(SimulationReader&&) noexcept;
-  SimulationReader& operator=(SimulationReader&&) noexcept;
-  ~SimulationReader();
-
-  /// Opens a file and reads its header. Errors: kBadFile "FILE:LINE: what; remedy". Cost: O(size of the scene).
-  static Result<SimulationReader> open(const std::filesystem::path& path);
-  /// The same for text in memory or elsewhere; `path` stands for FILE in messages, and its folder for the scene's.
-  static Result<SimulationReader> open(std::unique_ptr<std::istream> text, const std::filesystem::path& path);
-
-  [[nodiscard]] const SimulationHeader& header() const { return header_; }
-  [[nodiscard]] const std::string& file_name() const;
-
-  /// The next call, or nothing at the end. Errors: kBadFile "FILE:LINE: what". Cost: O(line).
-  Result<std::optional<SimulationCall>> next();
-  /// Whether the end, once it was reached, was within a line.
-  [[nodiscard]] bool is_cut_off() const;
-
- private:
-  class Lines;
-  explicit SimulationReader(std::unique_ptr<Lines> lines);
-  static Result<SimulationReader> open(SimulationReader reader, const std::filesystem::path& folder);
-
-  std::unique_ptr<Lines> lines_;
-  SimulationHeader header_;
-};
+using SimulationWriter = BasicRecordingWriter<SimulationCodec>;
+using SimulationReader = BasicRecordingReader<SimulationCodec>;
 
 /// Whether a file begins as a recording of a simulation does. Whatever else it is, it is not read further.
 [[nodiscard]] bool is_simulation_recording(const std::filesystem::path& path);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/recording/recording.h"
+#include "app/recording/engine_recording.h"
 #include "app/session/session.h"
 
 namespace incise {

@@ -4,13 +4,9 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <istream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "app/text/json_tree.h"
 #include "app/text/json_write.h"
@@ -43,34 +39,6 @@ template <class Enum, std::size_t kCount>
 [[nodiscard]] std::string line_of(const Json& root);
 /// Whether a text can be the whole of a line: JSON that was cut off never is. Cost: O(size).
 [[nodiscard]] bool is_whole_json(std::string_view text);
-
-/// The lines of a recording, which may be longer than memory, one after the other. Its last line may be cut off.
-class LineSource {
- public:
-  /// `file_name` stands for FILE in messages.
-  LineSource(std::unique_ptr<std::istream> text, std::string file_name)
-      : text_(std::move(text)), file_name_(std::move(file_name)) {}
-  /// Errors: kBadFile, naming the file.
-  static Result<LineSource> open(const std::filesystem::path& path);
-
-  /// The first line. Errors: kBadFile where it is cut off or above 1 GiB.
-  Result<std::string> header();
-  /// Reads the next line; false at the end, or where the line is cut off. Errors: kBadFile for a line above 1 GiB.
-  Result<bool> next(std::string& line);
-  [[nodiscard]] const std::string& file_name() const { return file_name_; }
-  [[nodiscard]] std::uint32_t number() const { return number_; }  ///< of the line read last, from 1
-  /// Whether the end, once it was reached, was within a line.
-  [[nodiscard]] bool is_cut_off() const { return is_cut_off_; }
-
- private:
-  Result<bool> read(std::string& line);
-
-  std::unique_ptr<std::istream> text_;
-  std::string file_name_;
-  std::uint32_t number_ = 0;
-  bool has_line_end_ = true;
-  bool is_cut_off_ = false;
-};
 
 /// What all kinds of lines are read with. Each returns false where the value is not as asked, and keeps the error.
 class LineReader {

@@ -10,7 +10,7 @@
 #include "app/jobs/frame_series.h"
 #include "app/jobs/replay_job.h"
 #include "app/jobs/simulate_job.h"
-#include "app/recording/simulation_lines.h"
+#include "app/recording/simulation_recording.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/text_file.h"
 #include "incise/io/mesh_file.h"
@@ -338,7 +338,7 @@ TEST(SimulationLines, keep_every_double_bit_for_bit) {
     call.input.tools = {BallTool{point(), number()}, RodTool{point(), point(), number()}, PlaneTool{point(), number()},
                         FlatTool{{point(), point()}, point(), number()}};
     call.hash = random();
-    const auto again = app::parse_simulation_call(to_line(call), "x", 2);
+    const auto again = app::SimulationCodec::parse_call(to_line(call), "x", 2);
     ASSERT_TRUE(again.ok()) << again.error().message;
     EXPECT_EQ(to_line(*again), to_line(call));
     const Vec3& a = again->input.blade->edge[0];

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings as files: what is written reads back bit for bit, and what is no recording is refused by name and line.
-#include "app/recording/recording.h"
-
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -13,7 +11,7 @@
 #include <random>
 #include <sstream>
 
-#include "app/recording/recording_lines.h"
+#include "app/recording/engine_recording.h"
 #include "support/folder.h"
 
 namespace {
@@ -68,7 +66,7 @@ bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 RecordedCall there_and_back(const RecordedCall& call) {
   const std::string line = to_line(call);
   EXPECT_EQ(line.find('\n'), line.size() - 1);
-  const Result<RecordedCall> back = app::parse_call(line, "r.jsonl", 5);
+  const Result<RecordedCall> back = app::EngineCodec::parse_call(line, "r.jsonl", 5);
   EXPECT_TRUE(back.ok()) << back.error().message;
   return back.ok() ? *back : RecordedCall();
 }
@@ -132,7 +130,7 @@ TEST(Recording, header_reads_back) {
   header.cut = {Profile::kPaper, 0.1};
   header.maintain = {false, true, 77};
   header.seed = ~std::uint64_t{0};
-  const Result<app::RecordingHeader> back = app::parse_header(to_line(header), "r.jsonl");
+  const Result<app::RecordingHeader> back = app::EngineCodec::parse_header(to_line(header), "r.jsonl");
   ASSERT_TRUE(back.ok()) << back.error().message;
   EXPECT_EQ(back->program.substr(0, 7), "incise ");
   EXPECT_EQ(back->mesh_file, header.mesh_file);
@@ -150,18 +148,18 @@ TEST(Recording, header_says_where_the_boundary_is_not_smoothed) {
   app::RecordingHeader header;
   EXPECT_EQ(to_line(header).find("smooth_boundary"), std::string::npos);
   header.maintain.smooth_boundary = false;
-  const Result<app::RecordingHeader> back = app::parse_header(to_line(header), "r.jsonl");
+  const Result<app::RecordingHeader> back = app::EngineCodec::parse_header(to_line(header), "r.jsonl");
   ASSERT_TRUE(back.ok()) << back.error().message;
   EXPECT_FALSE(back->maintain.smooth_boundary);
 }
 
 std::string header_error(const std::string& line) {
-  const auto header = app::parse_header(line, "r.jsonl");
+  const auto header = app::EngineCodec::parse_header(line, "r.jsonl");
   return header.ok() ? "" : header.error().message;
 }
 
 std::string call_error(const std::string& line) {
-  const auto call = app::parse_call(line, "r.jsonl", 7);
+  const auto call = app::EngineCodec::parse_call(line, "r.jsonl", 7);
   return call.ok() ? "" : call.error().message;
 }
 

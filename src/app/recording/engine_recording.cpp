@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/recording/recording_lines.h"
+#include "app/recording/engine_recording.h"
 
 #include <array>
 #include <cstring>
@@ -246,7 +246,8 @@ std::string to_line(const RecordedCall& call) {
   return line_of(root);
 }
 
-Result<RecordingHeader> parse_header(std::string_view text, std::string_view file_name) {
+Result<RecordingHeader> EngineCodec::parse_header(std::string_view text, std::string_view file_name,
+                                                  const std::filesystem::path& /*folder*/) {
   const Result<JsonValue> root = parse_json(text, file_name, kLineLimits);
   if (!root.ok()) return root.error();
   RecordingHeader header;
@@ -255,7 +256,7 @@ Result<RecordingHeader> parse_header(std::string_view text, std::string_view fil
   return header;
 }
 
-Result<RecordedCall> parse_call(std::string_view text, std::string_view file_name, std::uint32_t line) {
+Result<RecordedCall> EngineCodec::parse_call(std::string_view text, std::string_view file_name, std::uint32_t line) {
   const Result<JsonValue> root = parse_json(text, file_name, kLineLimits, line);
   if (!root.ok()) return root.error();
   RecordedCall call;
