@@ -16,7 +16,7 @@ inline Vec3 affine_velocity(const Vec3& x) {
 }
 
 /// A mirror with that velocity.
-inline JournalMirror mirror_of(const TetMesh& mesh, JournalMirror::Reading reading = JournalMirror::Reading::kEdits) {
+inline JournalMirror mirror_of(const TetMesh& mesh, StepReading reading = StepReading::kEdits) {
   JournalMirror mirror(mesh, {}, reading);
   mesh.for_each_vertex([&](VertexId v) { mirror.vertex(v).velocity = affine_velocity(mesh.rest(v)); });
   return mirror;

@@ -7,6 +7,7 @@
 
 #include "incise/geom/quality.h"
 #include "incise/mesh/journal_cursor.h"
+#include "incise/mesh/journal_visitor.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/star.h"
 
@@ -45,6 +46,27 @@ void keep_single(std::vector<std::array<std::uint32_t, 2>>& edges) {
   edges.resize(kept);
 }
 
+/// The tets whose sides a step may have changed, with repeats, and the vertices that it moved.
+struct ChangedTets final : JournalVisitor {
+  std::vector<std::uint32_t> tets;
+  std::vector<VertexId> moved_vertices;
+
+  void clear() {
+    tets.clear();
+    moved_vertices.clear();
+  }
+  void moved(const MovedVertex& vertex) override { moved_vertices.push_back(vertex.id); }
+  void replaced(std::span<const ConsumedTet> consumed, std::span<const ProducedTet> produced) override {
+    for (const ConsumedTet& tet : consumed) tets.push_back(tet.id.value);
+    for (const ProducedTet& tet : produced) tets.push_back(tet.id.value);
+  }
+  void rewired(const RewiredTet& tet) override { tets.push_back(tet.id.value); }
+  void opened(const OpenedFace& face) override {
+    tets.push_back(face.a.tet().value);
+    tets.push_back(face.b.tet().value);
+  }
+};
+
 }  // namespace
 
 std::uint8_t quality_byte(double lr) {
@@ -67,10 +89,10 @@ struct SurfaceView::State {
   std::array<std::vector<std::uint32_t>, kKinds> point_of;  // per vertex slot
   std::vector<std::uint32_t> uses;                          // per point: triangles at it
   std::vector<std::uint32_t> free_points;
-  std::vector<char> is_clipped;        // per tet slot; empty without a clip plane
-  StarWalker walker;                   // scratch
-  std::vector<std::uint32_t> touched;  // tet slots, scratch
-  std::uint32_t newest = 0;            // the greatest tag of a wall
+  std::vector<char> is_clipped;  // per tet slot; empty without a clip plane
+  StarWalker walker;             // scratch
+  ChangedTets changes;           // scratch
+  std::uint32_t newest = 0;      // the greatest tag of a wall
   JournalCursor cursor;
   bool is_stale = true;  // the options changed
 
@@ -126,23 +148,18 @@ void SurfaceView::State::find_clipped(const TetMesh& mesh) {
 void SurfaceView::State::apply(const Step& step, const TetMesh& mesh) {
   slot_of_side.resize(std::size_t{mesh.tet_slots()} * 4, kNone);
   for (auto& points : point_of) points.resize(mesh.vertex_slots(), kNone);
-  touched.clear();
-  for (const ConsumedTet& tet : step.consumed) touched.push_back(tet.id.value);
-  for (const ProducedTet& tet : step.produced) touched.push_back(tet.id.value);
-  for (const RewiredTet& tet : step.rewired) touched.push_back(tet.id.value);
-  for (const OpenedFace& face : step.opened) {
-    touched.push_back(face.a.tet().value);
-    touched.push_back(face.b.tet().value);
-  }
+  changes.clear();
+  visit(step, changes, StepReading::kNet);
+  std::vector<std::uint32_t>& touched = changes.tets;
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   for (const std::uint32_t slot : touched) hide_tet(TetId(slot));
   for (const std::uint32_t slot : touched) {
     if (mesh.is_live(TetId(slot))) show_tet(mesh, TetId(slot));
   }
-  for (const MovedVertex& moved : step.moved) {
-    if (!mesh.is_live(moved.id)) continue;
-    for (const TetId tet : walker.star(mesh, moved.id)) grade(mesh, tet);
+  for (const VertexId vertex : changes.moved_vertices) {
+    if (!mesh.is_live(vertex)) continue;
+    for (const TetId tet : walker.star(mesh, vertex)) grade(mesh, tet);
   }
 }
 

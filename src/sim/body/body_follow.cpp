@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "incise/mesh/journal_visitor.h"
 #include "sim/body/body_rewind.h"
 #include "sim/body/body_state.h"
 
@@ -226,46 +227,64 @@ void DeformableBody::State::note_fresh(VertexId v, Fresh how) {
   is_fresh[v.value] = std::max(is_fresh[v.value], static_cast<std::uint8_t>(how));
 }
 
-/// The tets around a moved vertex have other rest shapes, even where the step does not name them.
-void DeformableBody::State::note(const Step& step) {
-  for (const TetImage& tet : step.before.tets) note_tet(tet.id);
-  for (const TetId tet : step.new_tets) note_tet(tet);
-  for (const BornVertex& born : step.born) note_fresh(born.id, Fresh::kNew);
-  for (const CopiedVertex& copied : step.copied) note_fresh(copied.id, Fresh::kNew);
-  for (const MovedVertex& moved : step.moved) {
-    note_fresh(moved.id, Fresh::kMoved);
-    stars.for_each_tet(moved.id, [&](TetId t) { note_tet(t); });
-  }
-}
+namespace {
 
 /// Of a parent that has no part in a birth: rounding alone gives it one.
 constexpr double kNoWeight = 1e-9;
 
+/// Takes steps in: notes what they put in place, and hands holds and pieces on.
+///
 /// A birth between vertices that are all held rigidly is held as they are; a copy is held as its source. A slot that
 /// was somebody else's is not held as that one was.
-void DeformableBody::State::hand_on(const Step& step) {
-  for (const BornVertex& born : step.born) {
-    clear_hold(born.id);
+class StepFollower final : private JournalVisitor {
+ public:
+  explicit StepFollower(DeformableBody::State& state) : s_(state) {}
+
+  void follow(const Step& step) {
+    for (const TetImage& tet : step.before.tets) s_.note_tet(tet.id);
+    for (const TetId tet : step.new_tets) s_.note_tet(tet);
+    visit(step, *this, StepReading::kNet);
+    // The tets around a moved vertex have other rest shapes, even where the step does not name them.
+    for (const VertexId v : moved_) {
+      s_.note_fresh(v, Fresh::kMoved);
+      s_.stars.for_each_tet(v, [&](TetId t) { s_.note_tet(t); });
+    }
+    moved_.clear();
+  }
+
+ private:
+  using Fresh = DeformableBody::State::Fresh;
+
+  void born(const BornVertex& born) override {
+    s_.note_fresh(born.id, Fresh::kNew);
+    s_.clear_hold(born.id);
     bool is_held = true;
     for (unsigned i = 0; i < 4; ++i) {
       if (!born.parents[i].is_valid() || std::abs(born.weights[i]) < kNoWeight) continue;
-      is_held = is_held && held[born.parents[i]] == Held::kRigidly;
-      piece_of[born.id] = piece_of[born.parents[i]];
+      is_held = is_held && s_.held[born.parents[i]] == Held::kRigidly;
+      s_.piece_of[born.id] = s_.piece_of[born.parents[i]];
     }
-    if (is_held) set_hold(born.id, {std::numeric_limits<double>::infinity(), born.current, born.rest});
+    if (is_held) s_.set_hold(born.id, {std::numeric_limits<double>::infinity(), born.current, born.rest});
   }
-  for (const MovedVertex& moved : step.moved) {
-    if (held[moved.id] == Held::kNot) continue;
-    Hold& hold = holds[moved.id.value];
-    hold.target = held_place(moved.rest, hold.target - hold.rest, moved.basis, moved.weights);
+  void moved(const MovedVertex& moved) override {
+    moved_.push_back(moved.id);
+    if (s_.held[moved.id] == Held::kNot) return;
+    Hold& hold = s_.holds[moved.id.value];
+    hold.target = s_.held_place(moved.rest, hold.target - hold.rest, moved.basis, moved.weights);
     hold.rest = moved.rest;
   }
-  for (const CopiedVertex& copied : step.copied) {
-    clear_hold(copied.id);
-    if (held[copied.source] != Held::kNot) set_hold(copied.id, Hold(holds[copied.source.value]));
-    piece_of[copied.id] = piece_of[copied.source];
+  void copied(const CopiedVertex& copied) override {
+    s_.note_fresh(copied.id, Fresh::kNew);
+    s_.clear_hold(copied.id);
+    if (s_.held[copied.source] != Held::kNot) s_.set_hold(copied.id, Hold(s_.holds[copied.source.value]));
+    s_.piece_of[copied.id] = s_.piece_of[copied.source];
   }
-}
+
+  DeformableBody::State& s_;
+  std::vector<VertexId> moved_;  // of the step: noted behind what is new
+};
+
+}  // namespace
 
 /// Whether a tet that may have changed has.
 bool DeformableBody::State::differs(const TetMesh& mesh, TetId t) const {
@@ -294,10 +313,8 @@ Result<FollowReport> DeformableBody::follow(const Journal& journal, const TetMes
   if (has_rewound) {
     rewind.compare(s, mesh);
   } else {
-    for (std::size_t i = s.cursor.position(); i < journal.position(); ++i) {
-      s.note(journal.step(i));
-      s.hand_on(journal.step(i));
-    }
+    StepFollower follower(s);
+    for (std::size_t i = s.cursor.position(); i < journal.position(); ++i) follower.follow(journal.step(i));
   }
   s.drop_lost_pulls(mesh);
   s.cursor.move_to(journal);

@@ -146,11 +146,9 @@ struct DeformableBody::State {
   void build(const TetMesh& mesh);
   void ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots);
   void lay_out_stars();
-  void note(const Step& step);
   void note_tet(TetId t);
   enum class Fresh : std::uint8_t { kMoved = 1, kNew };
   void note_fresh(VertexId v, Fresh how);
-  void hand_on(const Step& step);
   void remove_touched(const TetMesh& mesh, FollowReport& report);
   void put_fresh(const TetMesh& mesh);
   void add_touched(const TetMesh& mesh, FollowReport& report);
