@@ -8,7 +8,8 @@
 #include "cut/twist.h"
 #include "incise/geom/closest.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -408,4 +409,5 @@ BladeMotion::Move BladeMotion::end(const OwnSheet& sheet, const Touches& touches
   return advance(last, sheet, touches, around, true);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

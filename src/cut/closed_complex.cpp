@@ -5,7 +5,8 @@
 #include <cassert>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 void ClosedComplex::clear() {
   for (std::uint32_t i = 0; i < size(); ++i) {
@@ -488,4 +489,5 @@ void ClosedComplex::flood_star(const TetMesh& mesh, VertexId vertex, std::size_t
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "cut/edge_table.h"
+#include "cut/sheet_crossing.h"
 #include "cut/split_template.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// An edge of the closed complex, with what the blade did to it. `a` has the lower slot.
 struct ClosedEdge {
@@ -346,4 +348,5 @@ void ClosedComplex::for_each_around(std::uint32_t edge, Visit&& visit) const {
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

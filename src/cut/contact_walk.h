@@ -8,7 +8,8 @@
 #include "cut/strip.h"
 #include "cut/surface_index.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The live tet that holds a rest point, or none where the point lies outside the body. Exact: a point on a face
 /// belongs to one side of it. Looks for the surface along a ray, and walks back from there. Cost: O(cells and tets on
@@ -79,4 +80,5 @@ class ContactWalk {
   std::uint32_t walk_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

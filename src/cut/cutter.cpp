@@ -9,24 +9,22 @@
 #include <utility>
 
 #include "cut/blade_motion.h"
+#include "cut/constants.h"
 #include "cut/far_blade.h"
 #include "cut/front_carry.h"
 #include "cut/material_blade.h"
-#include "cut/paper_cut.h"
 #include "cut/piece_finder.h"
 #include "cut/reversal.h"
+#include "cut/spacing.h"
 #include "cut/stroke_cut.h"
 #include "cut/sweep.h"
 #include "cut/twist.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
-/// A blade within this share of the mesh's spacing from what it swept before is in its own slit.
-constexpr double kSlitShare = 0.02;
-/// Consecutive parts of a sweep that meets itself overlap by so many spacings.
-constexpr double kOverlapShare = 3.0;
 /// Two crossings of one edge at rest, in different steps, that are further apart are two passes of the blade.
 constexpr double kApart = 0.05;
 /// A border of the sheet that lies at most so many spacings beyond the rim of an older cut reaches on into it.
@@ -70,26 +68,6 @@ constexpr double kStartShare = 0.2, kMostStarts = 1024.0;
 constexpr double kStands = 0.05, kStandsInTissue = 0.08;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
-
-/// The mean edge length of a few tets, as a scale for overlaps.
-double typical_spacing(const TetMesh& mesh) {
-  double sum = 0;
-  std::size_t count = 0;
-  const std::uint32_t stride = std::max(1U, mesh.tet_slots() / 64U);
-  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); slot += stride) {
-    if (!mesh.is_live(TetId(slot))) continue;
-    const TetVertices& v = mesh.vertices(TetId(slot));
-    for (const auto& [a, b] : kEdgeCorners) {
-      sum += (mesh.rest(v[a]) - mesh.rest(v[b])).norm();
-      ++count;
-    }
-  }
-  return count == 0 ? 0.0 : sum / static_cast<double>(count);
-}
-
-}  // namespace
-
-namespace {
 
 /// All that `CutStatistics` counts.
 constexpr std::array kCounts = {&CutStatistics::steps,
@@ -149,7 +127,7 @@ class Cutter::Pause {
 
 class Cutter::Pipeline : private OpenStroke {
  public:
-  Pipeline(CutOptions options, unsigned threads) : options_(options), paper_cut_(threads), stroke_cut_(options) {}
+  explicit Pipeline(CutOptions options) : options_(options), stroke_cut_(options) {}
 
   void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
              std::uint32_t tag) {
@@ -562,20 +540,14 @@ class Cutter::Pipeline : private OpenStroke {
       swept_.triangles.push_back({first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
     }
   }
-  bool is_paper() const { return options_.profile == Profile::kPaper; }
-
   /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
   Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
     is_in_material_ = false;
     const double spacing = spacing_ = typical_spacing(mesh);
-    const Stroke divided = is_paper() ? stroke : with_divided_edge(stroke, kTwist * spacing);
-    const SweptSurface surface = sweep(divided, kSlitShare * spacing);
-    for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
-      Status status = is_paper() ? paper_cut_.cut(mesh, journal, Sheet(surface, part), tag, statistics_, times)
-                                 : cut_strip(mesh, journal, part_of(surface, part), tag, times);
-      if (!status) {
-        return status;
-      }
+    const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
+    const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
+    for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
+      if (Status status = cut_strip(mesh, journal, part_of(surface, part), tag, times); !status) return status;
       ++statistics_.sheets;
     }
     return {};
@@ -595,14 +567,13 @@ class Cutter::Pipeline : private OpenStroke {
     return part;
   }
   CutOptions options_;
-  PaperCut paper_cut_;
   StrokeCut stroke_cut_;
   PieceFinder finder_;
   std::function<void()> between_sheets_;
   CutStatistics statistics_;  // of the stroke being cut
 };
 
-Cutter::Cutter(CutOptions options, unsigned threads) : pipeline_(std::make_unique<Pipeline>(options, threads)) {}
+Cutter::Cutter(CutOptions options) : pipeline_(std::make_unique<Pipeline>(options)) {}
 Cutter::Cutter(Cutter&&) noexcept = default;
 Cutter& Cutter::operator=(Cutter&&) noexcept = default;
 Cutter::~Cutter() = default;
@@ -647,4 +618,5 @@ const SweptTriangles& Cutter::swept() const {
   return pipeline_->swept();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/geom/closest.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -540,4 +541,5 @@ void MaterialBlade::find_masters(const TetMesh& mesh, const SurfaceIndex& surfac
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "cut/closed_complex.h"
 #include "cut/surface_index.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Where the edge of a blade stands in the material of a body that moves: its points, dense enough to follow the
 /// tissue, each with the rest point that the front has reached there.
@@ -104,4 +105,5 @@ class MaterialBlade {
   std::uint64_t next_key_ = std::uint64_t{1} << 48U;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

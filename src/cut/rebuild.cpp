@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <array>
 
-#include "cut/neighbourhood.h"
 #include "cut/older_walls.h"
+#include "cut/parity.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -853,4 +854,5 @@ RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex,
   return Run(*this, transaction, complex, sheet, settings).run();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

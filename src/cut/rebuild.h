@@ -15,7 +15,8 @@
 #include "cut/surface_edges.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A master falls apart into so many children at most.
 inline constexpr std::size_t kMostChildren = 24;
@@ -92,4 +93,5 @@ class Rebuild {
   std::uint32_t round_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/mesh/star.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -155,4 +156,5 @@ Step reversal_of(TetMesh& mesh, const Step& step) {
   return Reversal(mesh, step).run();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Restores what a step changed, by a new step: connectivity, rest positions and ids are bit for bit as before it.
 ///
@@ -14,4 +15,5 @@ namespace incise::inline v0 {
 /// move. Source: ours.
 [[nodiscard]] Step reversal_of(TetMesh& mesh, const Step& step);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

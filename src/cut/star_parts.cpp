@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -259,4 +260,5 @@ StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& c
   return done;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

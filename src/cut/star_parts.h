@@ -10,7 +10,8 @@
 #include "cut/old_children.h"
 #include "cut/stroke_tags.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// One live tet around a closed vertex.
 struct StarTet {
@@ -99,4 +100,5 @@ class StarParts {
   ZeroedArray<std::uint32_t> index_of_tet_;  // 1 + index into the star; all zero between calls
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "cut/sweep.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// What a blade swept in one step, in the rest shape: a small sheet with its free border.
 struct Strip {
@@ -69,4 +70,5 @@ class OwnSheet {
   std::vector<Strip::Segment> border_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

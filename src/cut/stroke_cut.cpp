@@ -6,13 +6,14 @@
 #include <tuple>
 #include <utility>
 
-#include "cut/dividable.h"
-#include "cut/neighbourhood.h"
+#include "cut/parity.h"
+#include "cut/pinched_edges.h"
 #include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -615,4 +616,5 @@ void StrokeCut::part_edges(TetMesh& mesh, Journal& journal, CutStatistics& stati
   if (!step.is_empty()) journal.append(std::move(step));
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -19,7 +19,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The cut of one stroke, strip by strip: collision → subdivision → separation (paper, Figure 1, first four boxes).
 ///
@@ -173,4 +174,5 @@ class StrokeCut::Pause {
   std::uint32_t first_tag_ = 1;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

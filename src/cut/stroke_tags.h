@@ -6,7 +6,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The strokes that an incision was made in, so far: [first, last].
 struct StrokeTags {
@@ -20,4 +21,5 @@ struct StrokeTags {
   [[nodiscard]] Link wall() const { return Link::boundary(last); }
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

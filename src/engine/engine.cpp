@@ -7,10 +7,12 @@
 #include <string>
 #include <utility>
 
-#include "incise/improve/paper_maintenance.h"
 #include "incise/mesh/bounds.h"
+#include "incise/paper/paper_cut.h"
+#include "incise/paper/paper_maintenance.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -59,7 +61,7 @@ Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
 Engine::Engine(TetMesh mesh, EngineOptions options)
     : mesh_(std::move(mesh)),
       options_(std::move(options)),
-      cutter_(options_.cut, options_.threads),
+      cutter_(options_.cut),
       maintainer_(options_.maintain),
       earlier_strokes_(highest_tag(mesh_)),
       rest_box_(rest_bounds(mesh_)),
@@ -79,7 +81,9 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   report.stroke = next_stroke();
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first_step = journal_.position();
-  Result<CutStatistics> cut = cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
+  Result<CutStatistics> cut = is_paper()
+                                  ? cut_as_paper(mesh_, journal_, stroke, report.stroke, options_.threads, report.times)
+                                  : cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
   if (!cut) {
     forget_lost_redo();
     return cut.error();
@@ -490,4 +494,5 @@ bool Engine::redo() {
   return true;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 #include "engine/wall_area.h"
 #include "incise/core/hash.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -399,4 +400,5 @@ std::uint64_t Simulation::hash() const {
   return hash.value();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "incise/mesh/tet_tables.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 namespace {
@@ -60,4 +61,5 @@ double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

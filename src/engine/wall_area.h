@@ -7,7 +7,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// By how much the steps of a journal from `first_step` on have made the walls of cuts grow: one side of the two,
@@ -16,4 +17,5 @@ namespace detail {
 [[nodiscard]] double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh& mesh);
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -390,4 +391,5 @@ void Transaction::rollback() {
   journal.undo(mesh_);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

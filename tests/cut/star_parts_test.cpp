@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <set>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/star.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -11,29 +11,30 @@
 #include "incise/cut/stroke.h"
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
-/// Cuts a mesh along strokes: the paper's sections 2.2 to 2.4, or their exact counterpart (see `Profile`).
+/// Cuts a mesh along strokes, in the profile incise: the exact counterpart of the paper's sections 2.2 to 2.4. What
+/// the profile paper does is `cut_as_paper`.
 ///
 /// Keeps scratch memory and split templates between strokes. One mesh at a time; not thread-safe.
 class Cutter {
  public:
-  /// `threads` in [1, 256] search the mesh; the result does not depend on it.
-  explicit Cutter(CutOptions options, unsigned threads = 1);
+  explicit Cutter(CutOptions options);
   Cutter(Cutter&&) noexcept;
   Cutter& operator=(Cutter&&) noexcept;
   ~Cutter();
 
   /// Cuts along the whole stroke and appends the journal steps of each part of the sweep that does not meet itself.
   ///
-  /// The profile incise cuts up to where the blade stops, inside elements; the paper's ends at the last tets that it
-  /// has crossed completely. Walls get `tag`, which must be in [1, 2^31). Appends nothing where the blade misses.
+  /// Cuts up to where the blade stops, inside elements. Walls get `tag`, which must be in [1, 2^31). Appends nothing
+  /// where the blade misses.
   /// Errors: kBadArgument for a malformed stroke, kOutOfMemory where the mesh would exceed its id range; the mesh is
   /// then as before. Cost: one pass over the mesh at first, then O(cut tets).
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times);
 
-  /// Puts the blade in place for a stroke that is cut step by step (profile incise). `row`: its edge as the body
+  /// Puts the blade in place for a stroke that is cut step by step. `row`: its edge as the body
   /// stands, at least two finite points; `has_moved`: whether the body stands otherwise than at rest. Cost: one pass
   /// over the mesh at first, to find its surface.
   void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved, std::uint32_t tag);
@@ -78,4 +79,5 @@ class Cutter {
   std::unique_ptr<Pipeline> pipeline_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -18,7 +18,8 @@
 #include "incise/mesh/step_check.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 struct EngineOptions {
   CutOptions cut;
@@ -204,4 +205,5 @@ class Engine {
   static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Where a vertex stands once it is moved to the rest place with the coordinates `weights` in `basis`: there where all
 /// of them are at rest, else at the sampled current place. Cost: O(1).
@@ -118,4 +119,5 @@ class Transaction {
   bool is_open_ = true;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise
