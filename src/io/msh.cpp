@@ -5,6 +5,7 @@
 #include <map>
 
 #include "incise/core/id.h"
+#include "io/msh_mark.h"
 #include "io/reader.h"
 
 namespace incise::inline v0 {
@@ -18,6 +19,13 @@ constexpr int kTet10 = 11;
 // Nodes per element type 0 to 31; 0 where the type does not exist.
 constexpr std::array<std::uint8_t, 32> kNodesOfType = {0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
                                                        8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
+
+// What elements that are left out are called; empty for points and lines, which nobody misses.
+constexpr std::array<std::string_view, 32> kKindOfType = {
+    "",        "",           "",          "quadrilaterals", "",         "hexahedra", "prisms",    "pyramids",
+    "",        "triangles6", "quadrilaterals9", "",         "hexahedra27", "prisms18", "pyramids14", "",
+    "quadrilaterals8", "hexahedra20", "prisms15", "pyramids13", "triangles9", "triangles10", "triangles12", "triangles15",
+    "triangles15", "triangles21", "", "", "", "", "", ""};
 
 std::size_t nodes_of(std::int64_t type) {
   return type >= 0 && type < 32 ? kNodesOfType[static_cast<std::size_t>(type)] : 0;
@@ -95,7 +103,7 @@ class MshReader {
       if (section.empty() || section[0] != '$') return in_.text.fail("expected a section, found " + in_quotes(section));
       if (!read_section(section.substr(1))) return false;
     }
-    if (version_ == 0) return in_.text.fail("there is no $MeshFormat section; export it from Gmsh as MSH 2.2");
+    if (version_ == 0) return in_.text.fail("there is no $MeshFormat section; export it from Gmsh as MSH 4.1");
     if (!has_nodes_ || !has_elements_) return in_.text.fail("the sections of nodes and elements must both be there");
     return true;
   }
@@ -107,7 +115,7 @@ class MshReader {
     if (name == "NOD") return once(has_nodes_, "$NOD") && nodes_2() && end_section("ENDNOD");
     if (name == "ELM") return once(has_elements_, "$ELM") && elements_1() && end_section("ENDELM");
     if (version_ == 0 && (name == "Nodes" || name == "Elements" || name == "Entities")) {
-      return in_.text.fail("$" + std::string(name) + " comes before any $MeshFormat; export it from Gmsh as MSH 2.2");
+      return in_.text.fail("$" + std::string(name) + " comes before any $MeshFormat; export it from Gmsh as MSH 4.1");
     }
     if (name == "Nodes") {
       return once(has_nodes_, "$Nodes") && (version_ == 2 ? nodes_2() : nodes_4()) && end_section("EndNodes");
@@ -118,6 +126,7 @@ class MshReader {
              end_section("EndElements");
     }
     if (name == "Entities" && version_ == 4) return entities() && end_section("EndEntities");
+    if (name == "Comments") return comments();
     if (name == "ElementData") return data(true) && end_section("EndElementData");
     if (name == "NodeData") return data(false) && end_section("EndNodeData");
     return skip_section(name);
@@ -147,6 +156,14 @@ class MshReader {
     return true;
   }
 
+  bool comments() {
+    const std::size_t from = in_.text.position();
+    if (!skip_section("Comments")) return false;
+    const std::string_view text = in_.text.bytes().substr(from, in_.text.position() - from);
+    is_ours_ = text.find(kMshMark) != std::string_view::npos;
+    return true;
+  }
+
   bool mesh_format() {
     double version = 0;
     std::int64_t type = 0;
@@ -161,7 +178,7 @@ class MshReader {
       version_ = 4;
     } else {
       return job_.fail("MSH versions 1.0, 2.x and 4.1 can be read, but not " + std::to_string(version).substr(0, 3) +
-                           "; export it from Gmsh as MSH 2.2",
+                           "; export it from Gmsh as MSH 4.1",
                        ErrorCode::kUnsupported);
     }
     if ((type != 0 && type != 1) || (size != 4 && size != 8)) return text.fail("file type or data size is unknown");
@@ -242,16 +259,37 @@ class MshReader {
       data.triangles.push_back({row[0], row[1], row[2]});
       data.triangle_stroke.push_back(tag);
       data.has_foreign_labels = true;  // until $ElementData says that they are strokes
-    } else if (type > kTet && n > 0) {
-      ++skipped_;
+    } else {
+      left_out_.add(kKindOfType[static_cast<std::size_t>(type)]);
     }
     return true;
   }
 
   bool seal_elements() {
-    if (skipped_ > 0) job_.out.notes.push_back(std::to_string(skipped_) + " elements that are not tets were left out");
-    if (tet_ids_.seal() && triangle_ids_.seal()) return true;
-    return in_.fail("an element number is there twice");
+    left_out_.note(job_.out.notes);
+    if (!tet_ids_.seal() || !triangle_ids_.seal()) return in_.fail("an element number is there twice");
+    if (is_ours_ && version_ == 4) restore_order();
+    return true;
+  }
+
+  // Of a file that Incise wrote: the blocks of entities took elements out of their order.
+  void restore_order() {
+    auto& data = job_.out.data;
+    const std::vector<std::uint32_t> tets = tet_ids_.put_in_order();
+    reorder(data.soup.tets, tets);
+    reorder(data.soup.regions, tets);
+    const std::vector<std::uint32_t> triangles = triangle_ids_.put_in_order();
+    reorder(data.triangles, triangles);
+    reorder(data.triangle_stroke, triangles);
+  }
+
+  // Puts at each place what stood at `from[place]`.
+  template <class T>
+  static void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+    std::vector<T> old = std::move(values);
+    values.clear();
+    values.reserve(old.size());
+    for (const std::uint32_t place : from) values.push_back(old[place]);
   }
 
   bool elements_1() {
@@ -535,7 +573,8 @@ class MshReader {
   int version_ = 0;
   bool has_nodes_ = false;
   bool has_elements_ = false;
-  std::uint64_t skipped_ = 0;
+  bool is_ours_ = false;
+  LeftOut left_out_;
   IdMap node_ids_;
   IdMap tet_ids_;
   IdMap triangle_ids_;
