@@ -53,6 +53,10 @@ const std::string& RecordingReader::file_name() const {
   return lines_->file_name();
 }
 
+std::uint64_t RecordingReader::bytes() const {
+  return lines_->bytes();
+}
+
 Result<std::optional<RecordedCall>> RecordingReader::next() {
   std::string line;
   const Result<bool> got = lines_->next(line);

@@ -60,6 +60,10 @@ const std::string& SimulationReader::file_name() const {
   return lines_->file_name();
 }
 
+std::uint64_t SimulationReader::bytes() const {
+  return lines_->bytes();
+}
+
 Result<std::optional<SimulationCall>> SimulationReader::next() {
   std::string line;
   const Result<bool> got = lines_->next(line);

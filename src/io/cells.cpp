@@ -15,11 +15,34 @@ CellInt nodes_of(CellInt type) {
 
 // What cells that are left out are called, after vtkCellType.h; empty for points and lines, which nobody misses.
 std::string kind_of(CellInt type) {
-  constexpr std::array<std::string_view, 28> kKinds = {
-      "empty cells", "", "", "", "", "triangles", "triangle strips", "polygons", "pixels", "quadrilaterals", "tets",
-      "voxels", "hexahedra", "prisms", "pyramids", "pentagonal prisms", "hexagonal prisms", "", "", "", "", "",
-      "quadratic triangles", "quadratic quadrilaterals", "quadratic tets", "quadratic hexahedra", "quadratic prisms",
-      "quadratic pyramids"};
+  constexpr std::array<std::string_view, 28> kKinds = {"empty cells",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "triangles",
+                                                       "triangle strips",
+                                                       "polygons",
+                                                       "pixels",
+                                                       "quadrilaterals",
+                                                       "tets",
+                                                       "voxels",
+                                                       "hexahedra",
+                                                       "prisms",
+                                                       "pyramids",
+                                                       "pentagonal prisms",
+                                                       "hexagonal prisms",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "quadratic triangles",
+                                                       "quadratic quadrilaterals",
+                                                       "quadratic tets",
+                                                       "quadratic hexahedra",
+                                                       "quadratic prisms",
+                                                       "quadratic pyramids"};
   if (type >= 0 && static_cast<std::size_t>(type) < kKinds.size() && (type < 17 || type > 20)) {
     return std::string(kKinds[static_cast<std::size_t>(type)]);
   }

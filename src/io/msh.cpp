@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gmsh MSH 1.0, 2.x and 4.1, ASCII and binary, after the format chapter of the Gmsh reference manual.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <map>
 
 #include "incise/core/id.h"
-#include "io/msh_mark.h"
 #include "io/reader.h"
+#include "io/writer.h"
 
 namespace incise::inline v0 {
 namespace io {
@@ -21,11 +22,38 @@ constexpr std::array<std::uint8_t, 32> kNodesOfType = {0, 2,  3,  4,  4, 8,  6, 
                                                        8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
 
 // What elements that are left out are called; empty for points and lines, which nobody misses.
-constexpr std::array<std::string_view, 32> kKindOfType = {
-    "",        "",           "",          "quadrilaterals", "",         "hexahedra", "prisms",    "pyramids",
-    "",        "triangles6", "quadrilaterals9", "",         "hexahedra27", "prisms18", "pyramids14", "",
-    "quadrilaterals8", "hexahedra20", "prisms15", "pyramids13", "triangles9", "triangles10", "triangles12", "triangles15",
-    "triangles15", "triangles21", "", "", "", "", "", ""};
+constexpr std::array<std::string_view, 32> kKindOfType = {"",
+                                                          "",
+                                                          "",
+                                                          "quadrilaterals",
+                                                          "",
+                                                          "hexahedra",
+                                                          "prisms",
+                                                          "pyramids",
+                                                          "",
+                                                          "triangles6",
+                                                          "quadrilaterals9",
+                                                          "",
+                                                          "hexahedra27",
+                                                          "prisms18",
+                                                          "pyramids14",
+                                                          "",
+                                                          "quadrilaterals8",
+                                                          "hexahedra20",
+                                                          "prisms15",
+                                                          "pyramids13",
+                                                          "triangles9",
+                                                          "triangles10",
+                                                          "triangles12",
+                                                          "triangles15",
+                                                          "triangles15",
+                                                          "triangles21",
+                                                          "",
+                                                          "",
+                                                          "",
+                                                          "",
+                                                          "",
+                                                          ""};
 
 std::size_t nodes_of(std::int64_t type) {
   return type >= 0 && type < 32 ? kNodesOfType[static_cast<std::size_t>(type)] : 0;
@@ -105,6 +133,7 @@ class MshReader {
     }
     if (version_ == 0) return in_.text.fail("there is no $MeshFormat section; export it from Gmsh as MSH 4.1");
     if (!has_nodes_ || !has_elements_) return in_.text.fail("the sections of nodes and elements must both be there");
+    if (job_.mids.empty()) restore_order();
     return true;
   }
 
@@ -126,7 +155,6 @@ class MshReader {
              end_section("EndElements");
     }
     if (name == "Entities" && version_ == 4) return entities() && end_section("EndEntities");
-    if (name == "Comments") return comments();
     if (name == "ElementData") return data(true) && end_section("EndElementData");
     if (name == "NodeData") return data(false) && end_section("EndNodeData");
     return skip_section(name);
@@ -153,14 +181,6 @@ class MshReader {
     if (at == std::string_view::npos) return in_.text.fail("section $" + std::string(name) + " does not end");
     in_.text.seek(at + mixed.size());
     in_.text.line();
-    return true;
-  }
-
-  bool comments() {
-    const std::size_t from = in_.text.position();
-    if (!skip_section("Comments")) return false;
-    const std::string_view text = in_.text.bytes().substr(from, in_.text.position() - from);
-    is_ours_ = text.find(kMshMark) != std::string_view::npos;
     return true;
   }
 
@@ -267,29 +287,40 @@ class MshReader {
 
   bool seal_elements() {
     left_out_.note(job_.out.notes);
-    if (!tet_ids_.seal() || !triangle_ids_.seal()) return in_.fail("an element number is there twice");
-    if (is_ours_ && version_ == 4) restore_order();
-    return true;
+    if (tet_ids_.seal() && triangle_ids_.seal()) return true;
+    return in_.fail("an element number is there twice");
   }
 
   // Of a file that Incise wrote: the blocks of entities took elements out of their order.
   void restore_order() {
     auto& data = job_.out.data;
-    const std::vector<std::uint32_t> tets = tet_ids_.put_in_order();
+    const Order tets = sorted(tet_order_, data.soup.tets.size());
     reorder(data.soup.tets, tets);
     reorder(data.soup.regions, tets);
-    const std::vector<std::uint32_t> triangles = triangle_ids_.put_in_order();
+    reorder(data.piece, tets);
+    const Order triangles = sorted(triangle_order_, data.triangles.size());
     reorder(data.triangles, triangles);
     reorder(data.triangle_stroke, triangles);
   }
 
-  // Puts at each place what stood at `from[place]`.
+  using Order = std::vector<std::size_t>;
+
+  // Where the element for each place stands; empty where no order is known.
+  static Order sorted(const std::vector<std::int32_t>& places, std::size_t n) {
+    Order from;
+    if (places.size() != n) return from;
+    for (std::size_t i = 0; i < n; ++i) from.push_back(i);
+    std::stable_sort(from.begin(), from.end(), [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+    return from;
+  }
+
   template <class T>
-  static void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+  static void reorder(std::vector<T>& values, const Order& from) {
+    if (values.size() != from.size()) return;
     std::vector<T> old = std::move(values);
     values.clear();
     values.reserve(old.size());
-    for (const std::uint32_t place : from) values.push_back(old[place]);
+    for (const std::size_t i : from) values.push_back(old[i]);
   }
 
   bool elements_1() {
@@ -535,7 +566,8 @@ class MshReader {
   }
 
   static bool is_label_name(std::string_view name) {
-    return name == "region" || name == "piece" || name == "stroke" || name == "origin_vertex" || name == "cut_front";
+    return name == "region" || name == "piece" || name == "stroke" || name == "origin_vertex" || name == "cut_front" ||
+           name == kMshOrder;
   }
 
   // Triangles that the data leave out are skin, whatever their physical tag.
@@ -563,6 +595,9 @@ class MshReader {
       put(data.soup.regions, n_tets, tet_ids_.find(id), value);
     } else if (name == "piece") {
       put(data.piece, n_tets, tet_ids_.find(id), value);
+    } else if (name == kMshOrder) {
+      put(tet_order_, n_tets, tet_ids_.find(id), value);
+      put(triangle_order_, data.triangles.size(), triangle_ids_.find(id), value);
     } else if (name == "stroke") {
       put(data.triangle_stroke, data.triangles.size(), triangle_ids_.find(id), value);
     }
@@ -573,8 +608,8 @@ class MshReader {
   int version_ = 0;
   bool has_nodes_ = false;
   bool has_elements_ = false;
-  bool is_ours_ = false;
   LeftOut left_out_;
+  std::vector<std::int32_t> tet_order_, triangle_order_;
   IdMap node_ids_;
   IdMap tet_ids_;
   IdMap triangle_ids_;

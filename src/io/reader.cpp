@@ -117,15 +117,6 @@ std::uint32_t IdMap::find(std::int64_t id) const {
   return at != entries_.end() && at->id == id ? at->position : kInvalidIndex;
 }
 
-std::vector<std::uint32_t> IdMap::put_in_order() {
-  std::vector<std::uint32_t> from(size_);
-  for (std::uint32_t i = 0; i < size_; ++i) {
-    from[i] = entries_.empty() ? i : entries_[i].position;
-    if (!entries_.empty()) entries_[i].position = i;
-  }
-  return from;
-}
-
 void LeftOut::add(std::string_view kind, std::uint64_t n) {
   if (kind.empty() || n == 0) return;
   const auto at = counts_.find(kind);

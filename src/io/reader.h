@@ -64,8 +64,6 @@ class IdMap {
   /// The position, or `kInvalidIndex`.
   [[nodiscard]] std::uint32_t find(std::int64_t id) const;
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Makes the positions follow the numbers. Returns which position each comes from. Call after `seal`.
-  [[nodiscard]] std::vector<std::uint32_t> put_in_order();
 
  private:
   struct Entry {

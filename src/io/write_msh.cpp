@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gmsh MSH 4.1, ASCII and binary, and 2.2 ASCII, after the format chapter of the Gmsh reference manual. In 4.1 an
 // element belongs to an entity, and the entity to physical groups: each region, and each stroke, is an entity of its
-// own with one group. Elements keep their numbers, which tell the order that the blocks of entities lose.
+// own with one group. The blocks of entities lose the order of the elements, which is kept as data of its own.
 #include <algorithm>
 #include <map>
 
 #include "incise/geom/box.h"
-#include "io/msh_mark.h"
 #include "io/writer.h"
 
 namespace incise::inline v0 {
@@ -64,27 +63,32 @@ class MshText {
   std::string out_;
 };
 
-// Elements by their index, in the order of the file; empty where that is rising.
-using Order = std::vector<std::size_t>;
-
 // $ElementData or $NodeData with one value for every element or node, in the order of the file: readers such as meshio
 // want no fewer, and no other order.
-void add_data(MshText& out, std::string_view section, std::string_view name, const Labels& values,
-              const Order& order = {}) {
+void add_data(MshText& out, std::string_view section, std::string_view name, const Labels& values) {
   out.begin_section(section);
   const std::string count = std::to_string(values.size());
   out.text("1\n\"").text(name).text("\"\n1\n0\n3\n0\n1\n").text(count).text("\n");
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    const std::size_t i = order.empty() ? row : order[row];
+  for (std::size_t i = 0; i < values.size(); ++i) {
     out.integer(static_cast<std::int32_t>(i + 1)).real(values[i]).end_row();
   }
   out.end_section(section);
 }
 
+// Elements, tets before triangles, in the order of the file; empty where that is rising.
+using Order = std::vector<std::size_t>;
+
+Labels in_order(const Labels& values, const Order& order) {
+  if (order.empty()) return values;
+  Labels ordered(values.size());
+  for (std::size_t row = 0; row < values.size(); ++row) ordered[row] = values[order[row]];
+  return ordered;
+}
+
 void add_all_data(MshText& out, const MeshData& data, bool with_regions, const Order& order = {}) {
   const auto add_cells = [&](std::string_view name, const Labels& of_tets, const Labels& of_triangles) {
     if (of_tets.empty() && of_triangles.empty()) return;
-    add_data(out, "ElementData", name, cell_array(data, of_tets, of_triangles), order);
+    add_data(out, "ElementData", name, in_order(cell_array(data, of_tets, of_triangles), order));
   };
   if (with_regions) add_cells("region", data.soup.regions, {});
   add_cells("piece", data.piece, {});
@@ -144,6 +148,7 @@ class Msh41Writer {
     add_entities();
     add_nodes();
     add_elements();
+    add_order();
     add_all_data(out_, data_, false, order_);
     return out_.take();
   }
@@ -156,7 +161,6 @@ class Msh41Writer {
     out_.text(out_.is_binary() ? "4.1 1 8\n" : "4.1 0 8\n");
     if (out_.is_binary()) out_.integer(1);
     out_.end_section("MeshFormat");
-    out_.text("$Comments\n").text(kMshMark).text("\n$EndComments\n");
   }
 
   // Groups of positive labels: Gmsh takes the sign for an orientation, and 0 for no group.
@@ -202,14 +206,14 @@ class Msh41Writer {
   }
 
   template <std::size_t N>
-  void add_blocks(const Entities& entities, int dimension, int type, std::size_t first_number,
+  void add_blocks(const Entities& entities, int dimension, int type, std::size_t first,
                   const std::vector<std::array<std::uint32_t, N>>& elements) {
     std::int32_t tag = 0;
     for (const auto& [label, entity] : entities) {
       out_.integer(dimension).integer(++tag).integer(type).size(entity.elements.size()).end_row();
       for (const std::size_t i : entity.elements) {
-        order_.push_back(first_number + i - 1);
-        out_.size(first_number + i);
+        order_.push_back(first + i);
+        out_.size(order_.size());
         for (const std::uint32_t v : elements[i]) out_.size(v + std::size_t{1});
         out_.end_row();
       }
@@ -218,11 +222,17 @@ class Msh41Writer {
 
   void add_elements() {
     const std::size_t n_tets = data_.soup.tets.size(), n = n_tets + data_.triangles.size();
+    order_.reserve(n);
     out_.begin_section("Elements");
     out_.size(surfaces_.size() + volumes_.size()).size(n).size(1).size(n).end_row();
-    add_blocks(surfaces_, kSurfaceDimension, kTriangle, n_tets + 1, data_.triangles);
-    add_blocks(volumes_, kVolumeDimension, kTet, 1, data_.soup.tets);
+    add_blocks(volumes_, kVolumeDimension, kTet, 0, data_.soup.tets);
+    add_blocks(surfaces_, kSurfaceDimension, kTriangle, n_tets, data_.triangles);
     out_.end_section("Elements");
+  }
+
+  void add_order() {
+    if (std::is_sorted(order_.begin(), order_.end())) return;
+    add_data(out_, "ElementData", kMshOrder, Labels(order_.begin(), order_.end()));
   }
 
   const MeshData& data_;

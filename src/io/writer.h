@@ -83,6 +83,9 @@ struct NamedLabels {
 /// The labels of points that a mesh has.
 [[nodiscard]] std::vector<NamedLabels> point_arrays(const MeshData& data);
 
+/// The name of the data in a MSH file that say at which place each element stood, tets before triangles.
+inline constexpr std::string_view kMshOrder = "incise:order";
+
 /// Gmsh .msh, see `MshVariant`.
 [[nodiscard]] std::string write_msh(const MeshData& data, MshVariant variant);
 

@@ -398,7 +398,8 @@ TEST(ReadMesh, elements_that_are_left_out_are_counted_by_name) {
                               "Edges\n1\n1 2 0\nHexahedra\n1\n1 2 3 4 5 1 2 3 0\nQuadrilaterals\n2\n1 2 3 4 0\n1 2 3 4 "
                               "0\nPrisms\n1\n1 2 3 4 5 1 0\n")),
             "1 hexahedra, 1 prisms and 2 quadrilaterals" + rest);
-  EXPECT_EQ(notes_of(replaced(bytes_of("v2.msh"), "$Elements\n3\n", "$Elements\n5\n8 5 2 0 1 9 7 5 3 1 9 7 5\n9 3 2 0 1 9 7 5 3\n")),
+  EXPECT_EQ(notes_of(replaced(bytes_of("v2.msh"), "$Elements\n3\n",
+                              "$Elements\n5\n8 5 2 0 1 9 7 5 3 1 9 7 5\n9 3 2 0 1 9 7 5 3\n")),
             "1 hexahedra and 1 quadrilaterals" + rest);
   std::string vtk = replaced(bytes_of("ascii.vtk"), "CELLS 2 10\n", "CELLS 4 22\n5 0 1 2 3 4\n5 0 1 2 3 4\n");
   vtk = replaced(replaced(vtk, "CELL_TYPES 2\n", "CELL_TYPES 4\n14 99 "), "CELL_DATA 2", "CELL_DATA 4");

@@ -96,6 +96,8 @@ class RecordingReader {
 
   [[nodiscard]] const RecordingHeader& header() const { return header_; }
   [[nodiscard]] const std::string& file_name() const;
+  /// Bytes of the file that were read so far.
+  [[nodiscard]] std::uint64_t bytes() const;
 
   /// The next call, or nothing at the end. Errors: kBadFile "FILE:LINE: what", for instance for an unknown call or key,
   /// a number that is not finite, or a line of more than 1 GiB. Cost: O(line).

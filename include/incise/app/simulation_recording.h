@@ -69,6 +69,8 @@ class SimulationReader {
 
   [[nodiscard]] const SimulationHeader& header() const { return header_; }
   [[nodiscard]] const std::string& file_name() const;
+  /// Bytes of the file that were read so far.
+  [[nodiscard]] std::uint64_t bytes() const;
 
   /// The next call, or nothing at the end. Errors: kBadFile "FILE:LINE: what". Cost: O(line).
   Result<std::optional<SimulationCall>> next();

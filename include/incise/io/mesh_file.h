@@ -80,8 +80,8 @@ enum class MshVariant : std::uint8_t {
 
 /// How a mesh is written, where the name of its file leaves that open.
 struct WriteOptions {
-  std::string extension = {};              ///< such as ".vtu", instead of the file's own; empty: the file's own
-  MshVariant msh = MshVariant::k41;        ///< of ".msh"
+  std::string extension = {};        ///< such as ".vtu", instead of the file's own; empty: the file's own
+  MshVariant msh = MshVariant::k41;  ///< of ".msh"
 };
 
 /// The options that a short name stands for: "mesh", "msh" or "msh41", "msh41-binary", "msh22", "vtk", "vtu", "node",
