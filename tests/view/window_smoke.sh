@@ -141,7 +141,14 @@ status=0
 status=0
 env -u DISPLAY -u WAYLAND_DISPLAY "$bin/incise-view" >out.txt 2>&1 || status=$?
 [ "$status" = 5 ] && grep -q -- --headless out.txt || fail "without a display: exit $status, $(cat out.txt)"
-env -u DISPLAY "$bin/incise-view" --headless --replay session.jsonl --frame 40 --screenshot headless.png --size 640x360 ||
-  fail "headless, without a display"
+env -u DISPLAY "$bin/incise-view" --headless --replay session.jsonl --frame 40 --screenshot headless.png --size 640x360 \
+  2>out.txt || fail "headless, without a display"
 picked headless.png
+[ "$(cat out.txt)" = "incise-view: wrote headless.png (picture, 640 x 360 pixels)" ] || fail "it said $(cat out.txt)"
+"$bin/incise-view" --headless -q --screenshot quiet.png --size 64x48 2>out.txt || fail "quiet"
+[ ! -s out.txt ] || fail "-q said $(cat out.txt)"
+status=0
+"$bin/incise-view" --heedless 2>out.txt || status=$?
+[ "$status" = 2 ] && grep -q '^incise-view: error: .*(did you mean --headless?); see incise-view --help$' out.txt ||
+  fail "an unknown option: exit $status, $(cat out.txt)"
 echo "window_smoke: all steps passed"
