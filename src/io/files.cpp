@@ -62,13 +62,17 @@ bool is_stale(const std::string& name, const std::string& beside) {
          !is_running(process);
 }
 
-// Takes away what killed processes left of earlier attempts to write this file.
+// Takes away what killed processes left of earlier attempts to write this file, as far as it is found among the first
+// names of its folder: a series of many files would look at all of them each time.
 void remove_stale(const fs::path& path) {
+  constexpr unsigned kNamesToLookAt = 1000;
   std::error_code code;
+  unsigned looked_at = 0;
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
   const std::string beside = path.filename().string() + ".";
   std::vector<fs::path> stale;
-  for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+  for (fs::directory_iterator at(folder, code), end; !code && at != end && looked_at < kNamesToLookAt;
+       at.increment(code), ++looked_at) {
     if (is_stale(at->path().filename().string(), beside)) stale.push_back(at->path());
   }
   for (const fs::path& file : stale) fs::remove(file, code);
