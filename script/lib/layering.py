@@ -16,6 +16,7 @@ MAY_INCLUDE = {
     "engine": LOWEST + ("cut", "improve", "sim", "io"),
     "app": LOWEST + ("cut", "improve", "sim", "io", "engine"),
     "render": LOWEST + ("app",),
+    "c": (),  # include/incise/c: C, and self-contained; bindings/c is a front end
 }
 FRONT_ENDS = ("apps", "bindings", "bench", "examples")
 # It names public headers for those who want all of them.
