@@ -109,6 +109,7 @@ build_packages=(
   libgtest-dev libgmock-dev librapidcheck-dev
   libepoxy-dev libegl-dev libstb-dev libegl1 libgl1-mesa-dri libglfw3-dev libimgui-dev fonts-dejavu-core
   xvfb xdotool pkg-config
+  python3:python3 python3-numpy python3-pytest python3-meshio mypy python3-pip
 )
 # shellcheck disable=SC2034
 quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags python3:python3)

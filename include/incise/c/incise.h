@@ -113,7 +113,7 @@ typedef struct incise_mesh_arrays {
   const double* points;   /* 3 n_points: x y z, finite */
   uint64_t n_points;      /* below 2^32 - 1 */
   const uint32_t* tets;   /* 4 n_tets: numbers of points; positive where (1-0) x (2-0) . (3-0) is */
-  uint64_t n_tets;        /* 1 to 2^28 */
+  uint64_t n_tets;        /* at most 2^28 */
   const int32_t* regions; /* n_tets; null: all 0 */
   const uint32_t* walls;  /* 4 n_walls: three points and the stroke, from 1, of a boundary face that a cut made */
   uint64_t n_walls;
