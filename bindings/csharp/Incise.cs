@@ -568,7 +568,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_write(IntPtr engine, [MarshalAs(UnmanagedType.LPUTF8Str)] string path, int pose);
 
-        /// <summary>The bytes of such a file; `extension` is ".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".</summary>
+        /// <summary>The bytes of such a file; `extension` is ".mesh", ".msh", ".msh2", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_write_bytes(IntPtr engine, [MarshalAs(UnmanagedType.LPUTF8Str)] string extension, int pose, IntPtr bytes, ulong room, ulong* count);
 

@@ -56,7 +56,7 @@ def _library(settings: Settings) -> Path:
     jobs = os.environ.get("INCISE_JOBS", str(os.cpu_count() or 1))
     environment = dict(os.environ, CCACHE_BASEDIR=str(ROOT), CCACHE_NOHASHDIR="1")
     for command in (["cmake", "-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DINCISE_BUILD_C=ON",
-                     "-DINCISE_WITH_TBB=OFF", "-DINCISE_INSTALL=OFF"] + options + arguments,
+                     "-DINCISE_WITH_TBB=OFF", "-DINCISE_INSTALL=OFF", "-DINCISE_WERROR=OFF"] + options + arguments,
                     ["cmake", "--build", str(build), "-j", jobs, "--target", "incise_c"]):
         subprocess.run(command, check=True, env=environment)
     return build / "bindings" / "c" / "libincise.so.0"

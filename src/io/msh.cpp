@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gmsh MSH 1.0, 2.x and 4.1, ASCII and binary, after the format chapter of the Gmsh reference manual.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <map>
+#include <numeric>
 
 #include "incise/core/id.h"
 #include "io/reader.h"
@@ -233,12 +235,12 @@ class MshReader {
     if (!to_label(label, tag)) return in_.fail("physical tag does not fit 32 bits");
     auto& data = job_.out.data;
     if (is_tet(type)) {
-      tet_ids_.add(id);
+      tet_numbers_.push_back(id);
       data.soup.tets.push_back({row[0], row[1], row[2], row[3]});
       data.soup.regions.push_back(tag);
       job_.mids.insert(job_.mids.end(), row.begin() + 4, row.begin() + static_cast<std::ptrdiff_t>(n));
     } else if (type == kTriangle) {
-      triangle_ids_.add(id);
+      triangle_numbers_.push_back(id);
       data.triangles.push_back({row[0], row[1], row[2]});
       data.triangle_stroke.push_back(tag);
       data.has_foreign_labels = true;  // until $ElementData says that they are strokes
@@ -248,7 +250,33 @@ class MshReader {
     return true;
   }
 
+  // MSH 4 groups elements by entity: their numbers tell the order in which they were before.
+  template <class Element>
+  static void restore_order(std::vector<std::int64_t>& numbers, std::vector<Element>& elements,
+                            std::vector<std::int32_t>& labels) {
+    if (std::is_sorted(numbers.begin(), numbers.end())) return;
+    std::vector<std::size_t> order(numbers.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return numbers[a] != numbers[b] ? numbers[a] < numbers[b] : a < b; });
+    const auto permute = [&order](auto& values) {
+      auto sorted = values;
+      for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = values[order[i]];
+      values.swap(sorted);
+    };
+    permute(numbers);
+    permute(elements);
+    permute(labels);
+  }
+
   bool seal_elements() {
+    auto& data = job_.out.data;
+    if (version_ == 4) {
+      restore_order(tet_numbers_, data.soup.tets, data.soup.regions);
+      restore_order(triangle_numbers_, data.triangles, data.triangle_stroke);
+    }
+    for (const std::int64_t number : tet_numbers_) tet_ids_.add(number);
+    for (const std::int64_t number : triangle_numbers_) triangle_ids_.add(number);
     if (skipped_ > 0) job_.out.notes.push_back(std::to_string(skipped_) + " elements that are not tets were left out");
     if (tet_ids_.seal() && triangle_ids_.seal()) return true;
     return in_.fail("an element number is there twice");
@@ -539,6 +567,7 @@ class MshReader {
   IdMap node_ids_;
   IdMap tet_ids_;
   IdMap triangle_ids_;
+  std::vector<std::int64_t> tet_numbers_, triangle_numbers_;                // as the file has them
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> physical_;  // (dimension, entity) → physical tag
 };
 

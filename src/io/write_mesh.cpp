@@ -124,14 +124,137 @@ std::vector<NamedLabels> point_arrays(const MeshData& data) {
   return arrays;
 }
 
-// $ElementData or $NodeData with one value for every element or node: readers such as meshio want no fewer.
+// What MSH 4 calls an entity: the tets of a region, or the triangles of a label, by their positions.
+struct MshEntity {
+  std::int32_t label;
+  std::vector<std::size_t> members;
+};
+
+// In the order in which the labels come.
+std::vector<MshEntity> msh_entities(const Labels& labels, std::size_t n) {
+  std::vector<MshEntity> entities;
+  std::map<std::int32_t, std::size_t> known;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t value = label(labels, i);
+    const auto [found, is_new] = known.try_emplace(value, entities.size());
+    if (is_new) entities.push_back({value, {}});
+    entities[found->second].members.push_back(i);
+  }
+  return entities;
+}
+
+// Gmsh MSH 4.1 in ASCII: what Gmsh, meshio and MuJoCo all read.
+class Msh4Writer {
+ public:
+  explicit Msh4Writer(const MeshData& data)
+      : data_(data),
+        volumes_(msh_entities(data.soup.regions, data.soup.tets.size())),
+        surfaces_(msh_entities(data.triangle_stroke, data.triangles.size())) {
+    for (const MshEntity& volume : volumes_) list(volume, 1);
+    for (const MshEntity& surface : surfaces_) list(surface, data.soup.tets.size() + 1);
+    // Either every entity has a physical group or none: meshio reads no other files.
+    has_groups_ = data.has_foreign_labels || !(volumes_.size() == 1 && volumes_[0].label == 0);
+  }
+
+  std::string run() {
+    out_ << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    entities();
+    nodes();
+    elements();
+    const auto& soup = data_.soup;
+    element_data("region", soup.regions, {});
+    element_data("piece", data_.piece, {});
+    if (has_strokes(data_)) element_data("stroke", {}, data_.triangle_stroke);
+    for (const NamedLabels& array : point_arrays(data_)) {
+      data_section("NodeData", array.name, array.values.size());
+      for (std::size_t i = 0; i < array.values.size(); ++i) out_ << i + 1 << ' ' << array.values[i] << '\n';
+      out_ << "$EndNodeData\n";
+    }
+    return out_.take();
+  }
+
+ private:
+  void list(const MshEntity& entity, std::size_t first) {
+    for (const std::size_t member : entity.members) numbers_.push_back(first + member);
+  }
+
+  void entities() {
+    Vec3 low = data_.soup.points[0], high = low;
+    for (const Vec3& p : data_.soup.points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    out_ << "$Entities\n0 0 " << surfaces_.size() << ' ' << volumes_.size() << '\n';
+    for (const auto* list : {&surfaces_, &volumes_}) {
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        out_ << i + 1 << ' ' << low << ' ' << high << ' ';
+        if (has_groups_) {
+          out_ << "1 " << (*list)[i].label << " 0\n";
+        } else {
+          out_ << "0 0\n";
+        }
+      }
+    }
+    out_ << "$EndEntities\n";
+  }
+
+  void nodes() {
+    const std::size_t n = data_.soup.points.size();
+    out_ << "$Nodes\n1 " << n << " 1 " << n << "\n3 1 0 " << n << '\n';
+    for (std::size_t i = 1; i <= n; ++i) out_ << i << '\n';
+    for (const Vec3& p : data_.soup.points) out_ << p << '\n';
+    out_ << "$EndNodes\n";
+  }
+
+  void elements() {
+    const std::size_t n = numbers_.size();
+    out_ << "$Elements\n" << volumes_.size() + surfaces_.size() << ' ' << n << " 1 " << n << '\n';
+    std::size_t written = 0;
+    blocks(volumes_, "3 ", " 4 ", data_.soup.tets, written);
+    blocks(surfaces_, "2 ", " 2 ", data_.triangles, written);
+    out_ << "$EndElements\n";
+  }
+
+  template <class Element>
+  void blocks(const std::vector<MshEntity>& list, std::string_view dimension, std::string_view type,
+              const std::vector<Element>& elements, std::size_t& written) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      out_ << dimension << i + 1 << type << list[i].members.size() << '\n';
+      for (const std::size_t member : list[i].members) {
+        (out_ << numbers_[written++] << ' ').row(elements[member], 1) << '\n';
+      }
+    }
+  }
+
+  void data_section(std::string_view section, std::string_view name, std::size_t n) {
+    out_ << "$" << section << "\n1\n\"" << name << "\"\n1\n0\n3\n0\n1\n" << n << '\n';
+  }
+
+  // One value for every element, in the order of the blocks: readers such as meshio want no other.
+  void element_data(std::string_view name, const Labels& of_tets, const Labels& of_triangles) {
+    if (of_tets.empty() && of_triangles.empty()) return;
+    const Labels values = cell_array(data_, of_tets, of_triangles);
+    data_section("ElementData", name, values.size());
+    for (const std::size_t number : numbers_) out_ << number << ' ' << values[number - 1] << '\n';
+    out_ << "$EndElementData\n";
+  }
+
+  const MeshData& data_;
+  std::vector<MshEntity> volumes_, surfaces_;
+  std::vector<std::size_t> numbers_;  // of the elements, from 1, as the blocks list them
+  bool has_groups_ = false;
+  Text out_;
+};
+
+// $ElementData or $NodeData of MSH 2, with one value for every element or node.
 void msh_data(Text& out, std::string_view section, std::string_view name, const Labels& values) {
   out << "$" << section << "\n1\n\"" << name << "\"\n1\n0\n3\n0\n1\n" << values.size() << '\n';
   for (std::size_t i = 0; i < values.size(); ++i) out << i + 1 << ' ' << values[i] << '\n';
   out << "$End" << section << '\n';
 }
 
-std::string write_msh(const MeshData& data) {
+// Gmsh MSH 2.2 in ASCII, for programs that read no other.
+std::string write_msh2(const MeshData& data) {
   Text out;
   const auto& soup = data.soup;
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << soup.points.size() << '\n';
@@ -408,7 +531,7 @@ const char* find_fault(const MeshData& data) {
 
 Error unknown_extension(std::string_view extension) {
   return {ErrorCode::kBadArgument, "no mesh can be written as " + in_quotes(extension) +
-                                       "; use .mesh, .msh, .vtk, .vtu, .node, .ele, .veg or .inp"};
+                                       "; use .mesh, .msh, .msh2, .vtk, .vtu, .node, .ele, .veg or .inp"};
 }
 
 }  // namespace
@@ -417,7 +540,8 @@ Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData&
   return guarded<std::string>(std::string(extension), [&]() -> Result<std::string> {
     if (const char* fault = find_fault(data)) return Error{ErrorCode::kBadArgument, fault};
     if (extension == ".mesh") return write_medit(data);
-    if (extension == ".msh") return write_msh(data);
+    if (extension == ".msh") return Msh4Writer(data).run();
+    if (extension == ".msh2") return write_msh2(data);
     if (extension == ".vtk") return write_vtk(data);
     if (extension == ".node") return write_node(data);
     if (extension == ".ele") return write_ele(data);

@@ -145,3 +145,19 @@ def test_engines_of_several_threads_run_side_by_side():
     for thread in threads:
         thread.join()
     assert len(set(results)) == 1 and results[0]
+
+def test_meshio_reads_our_msh(tmp_path):
+    """Trap 5: meshio and others read MSH 4.1, with regions as physical groups."""
+    meshio = pytest.importorskip("meshio")
+    cube = incise.box((3, 3, 3)).compact()
+    regions = (cube.points[cube.tets].mean(axis=1)[:, 0] > 0.5).astype(int) + 4
+    engine = incise.Engine(cube.points, cube.tets, regions)
+    engine.cut_plane((0.1, 1, 0), 0.5)
+    engine.write(tmp_path / "cut.msh")
+    mesh = meshio.read(tmp_path / "cut.msh")
+    tets = [index for index, block in enumerate(mesh.cells) if block.type == "tetra"]
+    assert sum(len(mesh.cells[index].data) for index in tets) == engine.tet_count
+    labels = np.concatenate([mesh.cell_data["gmsh:physical"][index] for index in tets])
+    assert sorted(labels.tolist()) == sorted(engine.compact().regions.tolist())
+    assert incise.read(tmp_path / "cut.msh").tet_count == engine.tet_count
+    assert incise.Engine.from_meshio(mesh).tet_count == engine.tet_count

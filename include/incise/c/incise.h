@@ -151,7 +151,8 @@ INCISE_API incise_status incise_engine_notes(const incise_engine* engine, char* 
 /* Writes the mesh in the format of the extension, with region and piece per tet, the stroke of each wall, and the
  * origin of each vertex, where the format can. No partial file is ever seen. */
 INCISE_API incise_status incise_engine_write(const incise_engine* engine, const char* path, int32_t pose);
-/* The bytes of such a file; `extension` is ".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp". */
+/* The bytes of such a file; `extension` is ".mesh", ".msh", ".msh2", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".
+ */
 INCISE_API incise_status incise_engine_write_bytes(const incise_engine* engine, const char* extension, int32_t pose,
                                                    void* bytes, uint64_t room, uint64_t* count);
 /* Writes skin and walls at rest as triangles: .obj, .stl, .ply or .off. */

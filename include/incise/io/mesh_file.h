@@ -72,18 +72,18 @@ using SiblingLoader = std::function<Result<std::string>(const std::string& name)
 
 /// Write a mesh in the format that the extension names, gzipped where `.gz` follows.
 ///
-/// `.mesh`, `.msh` (2.2 ASCII), `.vtk` (4.2 ASCII), `.vtu`, `.node` or `.ele` (both are written), `.veg`, `.inp`.
-/// Numbers read back bit for bit. `region` goes everywhere; `piece` everywhere but `.mesh`; triangles with `stroke`,
-/// and `cut_front`, to `.mesh .msh .vtk .vtu`; `origin_vertex` to these and `.node`. Foreign face labels stay what
-/// they are: no reader takes them for strokes.
-/// The file is written beside its place and renamed: no partial file is ever seen under its name.
+/// `.mesh`, `.msh` (4.1 ASCII, regions as physical groups), `.msh2` (2.2 ASCII), `.vtk` (4.2 ASCII), `.vtu`, `.node` or
+/// `.ele` (both are written), `.veg`, `.inp`. Numbers read back bit for bit. `region` goes everywhere; `piece`
+/// everywhere but `.mesh`; triangles with `stroke`, and `cut_front`, to `.mesh .msh .msh2 .vtk .vtu`; `origin_vertex`
+/// to these and `.node`. Foreign face labels stay what they are: no reader takes them for strokes. The file is written
+/// beside its place and renamed: no partial file is ever seen under its name.
 /// @param data  indices in range, finite points, arrays of the documented lengths.
 /// Errors: `kBadArgument` for bad data or an unknown extension, `kIo`. Cost: O(n); holds the file's bytes.
 [[nodiscard]] Status write_mesh(const std::filesystem::path& path, const MeshData& data);
 
 /// The bytes that `write_mesh` would put into the file of that extension (without `.gz`), for tests and the web.
 ///
-/// @param extension  ".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".
+/// @param extension  ".mesh", ".msh", ".msh2", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".
 [[nodiscard]] Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData& data);
 
 }  // namespace io
