@@ -22,7 +22,7 @@ Path = Union[str, "os.PathLike[str]"]
 
 
 def points(value: npt.ArrayLike, name: str = "points") -> Floats:
-    """n x 3 finite numbers, as C wants them; no copy where they are that already."""
+    """n x 3 numbers, as C wants them; no copy where they are that already."""
     array = np.ascontiguousarray(value, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise BadArgument(f"{name} has the shape {array.shape}; n x 3 is wanted")
@@ -66,7 +66,7 @@ def labels(value: Optional[npt.ArrayLike], n: int, name: str) -> Optional[Ints]:
 
 def address(array: Optional[npt.NDArray[Any]]) -> Optional[int]:
     """Where an array begins; the caller keeps it alive."""
-    return None if array is None else int(array.ctypes.data)
+    return None if array is None else array.__array_interface__["data"][0]
 
 
 class Rows:

@@ -6,7 +6,7 @@ import ctypes
 import weakref
 from ctypes import byref
 from dataclasses import dataclass
-from typing import Any, Callable, Iterable, Optional
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Optional
 
 import numpy as np
 import numpy.typing as npt
@@ -15,50 +15,56 @@ from . import _c, exchange
 from ._arrays import Asking, Path, address, indices, labels, path_bytes, points, vector
 from ._library import Handle, check, default, lib, sized
 from .errors import BadArgument
-from .mesh import Mesh, choice, fields_of
+from .mesh import Mesh, choice
 
 _PROFILES = {"paper": _c.PROFILE_PAPER, "incise": _c.PROFILE_INCISE}
 
 
-@dataclass(frozen=True)
-class Report:
+class Report(_c.incise_report):  # the struct itself: a step copies nothing
     """What a call did, summed over its steps. Times in ms."""
 
-    stroke: int
-    """Its number: the tag of its walls; 0: none."""
-    steps: int
-    cut_tets: int
-    created_tets: int
-    new_vertices: int
-    copied_vertices: int
-    incision_faces: int
-    snapped_vertices: int
-    bent_vertices: int
-    crumbs_kept: int
-    pinched_edges: int
-    latent_faces: int
-    blocked_edges: int
-    sheets: int
-    work_units: int
-    """Of maintenance, as what follows."""
-    collapsed_edges: int
-    moved_vertices: int
-    removed_edges: int
-    removed_faces: int
-    inserted_vertices: int
-    peeled_tets: int
-    waiting_tets: int
-    """0: all is done."""
-    maintenance_tets: int
-    collision_ms: float
-    subdivide_ms: float
-    separate_ms: float
-    merge_ms: float
-    improve_ms: float
-    relax_ms: float
-    journal_first: int
-    """The call's steps in the journal: [journal_first, journal_end)."""
-    journal_end: int
+    if TYPE_CHECKING:
+        stroke: int  # its number: the tag of its walls; 0: none
+        steps: int
+        cut_tets: int
+        created_tets: int
+        new_vertices: int
+        copied_vertices: int
+        incision_faces: int
+        snapped_vertices: int
+        bent_vertices: int
+        crumbs_kept: int
+        pinched_edges: int
+        latent_faces: int
+        blocked_edges: int
+        sheets: int
+        work_units: int  # of maintenance, as what follows
+        collapsed_edges: int
+        moved_vertices: int
+        removed_edges: int
+        removed_faces: int
+        inserted_vertices: int
+        peeled_tets: int
+        waiting_tets: int  # 0: all is done
+        maintenance_tets: int
+        collision_ms: float
+        subdivide_ms: float
+        separate_ms: float
+        merge_ms: float
+        improve_ms: float
+        relax_ms: float
+        journal_first: int  # the call's steps in the journal: [journal_first, journal_end)
+        journal_end: int
+
+    def as_dict(self) -> dict[str, float]:
+        """All figures by name."""
+        return {name: getattr(self, name) for name, *_ in self._fields_ if name != "size"}
+
+    def __repr__(self) -> str:
+        return "Report(%s)" % ", ".join(f"{name}={value:.6g}" for name, value in self.as_dict().items() if value)
+
+
+_REPORT_SIZE = ctypes.sizeof(Report)
 
 
 @dataclass(frozen=True)
@@ -210,9 +216,9 @@ class Engine(Mesh):
     # --- cutting
 
     def _reported(self, call: Callable[[Any], Any]) -> Report:
-        report = sized(_c.incise_report)
+        report = sized(Report)
         check(call(byref(report)))
-        return fields_of(Report, report)  # type: ignore[no-any-return]
+        return report
 
     def cut(self, stroke: "Stroke | npt.ArrayLike") -> Report:
         """Cuts along a whole stroke (or its points), and maintains what it left. One that misses is no error."""
@@ -238,9 +244,13 @@ class Engine(Mesh):
 
     def step(self, edge: npt.ArrayLike, direction: Optional[npt.ArrayLike] = None) -> Report:
         """Moves the blade on and cuts what it passes through, up to where it stands now."""
-        at, way = points(edge, "edge"), self._direction(direction)
-        return self._reported(lambda report: lib.incise_engine_step(self._engine(), address(at), len(at), address(way),
-                                                                    report))
+        at, way, report = points(edge, "edge"), None, Report(_REPORT_SIZE)
+        if direction is not None:
+            way = vector(direction, "direction")
+        status = lib.incise_engine_step(self._handle.pointer, address(at), len(at), address(way), byref(report))
+        if status:  # no more calls than it takes: a step costs 1 ms, and comes with cold caches
+            check(status)
+        return report
 
     def end_stroke(self) -> Report:
         """Lifts the blade off: what it cut stays, is finished and maintained. The report is of the whole stroke."""

@@ -18,7 +18,7 @@ from ._arrays import Floats, Path, Slots, address, path_bytes, points, vector
 from ._library import Handle, check, default, lib, sized
 from .engine import Report, engine_options, mesh_struct
 from .errors import BadArgument
-from .mesh import Mesh, choice, fields_of
+from .mesh import Mesh, choice
 
 _RELAXATIONS = {"block_descent": _c.BLOCK_DESCENT, "position_based": _c.POSITION_BASED}
 
@@ -269,9 +269,9 @@ class Simulation:
     @property
     def cut_report(self) -> Report:
         """What the last frame cut and maintained."""
-        report = sized(_c.incise_report)
+        report = sized(Report)
         check(lib.incise_simulation_cut_report(self._handle.pointer, byref(report)))
-        return fields_of(Report, report)  # type: ignore[no-any-return]
+        return report
 
     # --- what holds it
 
