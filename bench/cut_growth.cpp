@@ -13,9 +13,9 @@
 
 #include "accuracy.h"
 #include "blades.h"
-#include "incise/app/mesh_loader.h"
 #include "incise/engine/engine.h"
 #include "incise/geom/predicates.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/quality_stats.h"
@@ -345,7 +345,7 @@ std::vector<NamedMesh> box_meshes() {
 
 /// A file's mesh, where it is sound enough for the figures to mean something; says on stderr why not.
 void load(const std::string& file, std::vector<NamedMesh>& meshes) {
-  Result<app::LoadedMesh> loaded = app::load_mesh(file);
+  Result<io::LoadedMesh> loaded = io::load_mesh(file);
   if (!loaded) {
     std::fprintf(stderr, "left out: %s\n", loaded.error().message.c_str());
   } else if (!loaded->mesh.flat_at_load().empty() || loaded->mesh.touched_itself_at_load()) {

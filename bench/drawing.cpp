@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "incise/render/headless_context.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
+#include "render/headless_context.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 #include "report.h"
 
 namespace incise::bench {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/scene_simulation.h"
 #include "frames_large.h"
 #include "frames_run.h"
-#include "incise/app/scene_simulation.h"
 
 namespace incise::bench {
 
@@ -121,7 +121,7 @@ bool is_same(const PaperScene& scene, const std::vector<SceneRun>& runs) {
 
 void measure(const PaperScene& paper, const Settings& settings, Tables& tables, std::vector<Acceptance>& lines) {
   const Result<app::Scene> scene = app::read_scene(settings.root / "scenes" / (std::string(paper.file) + ".json"));
-  const Result<app::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<app::LoadedMesh>(scene.error());
+  const Result<io::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<io::LoadedMesh>(scene.error());
   if (!loaded) {
     std::fprintf(stderr, "%s is left out: %s\n", paper.name, loaded.error().message.c_str());
     return;

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/scene_simulation.h"
+#include "app/view/scene_camera.h"
+#include "app/view/surface_view.h"
 #include "frames_run.h"
-#include "incise/app/scene_simulation.h"
-#include "incise/app/scene_view.h"
-#include "incise/app/surface_view.h"
-#include "incise/render/headless_context.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
+#include "render/headless_context.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 
 namespace incise::bench {
 
@@ -172,7 +172,7 @@ void add_row(const PaperRow& paper, const std::string& what, const Means& m, dou
 
 void measure(const PaperRow& paper, const Settings& settings, Screen& screen, Table& table) {
   const Result<app::Scene> scene = app::read_scene(settings.root / "scenes" / (std::string(paper.file) + ".json"));
-  const Result<app::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<app::LoadedMesh>(scene.error());
+  const Result<io::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<io::LoadedMesh>(scene.error());
   if (!loaded.ok()) {
     std::fprintf(stderr, "%s is left out: %s\n", paper.name, loaded.error().message.c_str());
     return;

@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "app/scene/scene_simulation.h"
 #include "frames_run.h"
-#include "incise/app/scene_simulation.h"
 #include "incise/mesh/shapes.h"
 
 namespace incise::bench {
@@ -174,7 +174,7 @@ LiverFigures add_liver(const std::vector<SceneRun>& runs, unsigned threads, Tabl
 void report_liver(const std::filesystem::path& root, const std::filesystem::path& folder, unsigned repeats,
                   std::vector<Acceptance>& lines) {
   const Result<app::Scene> scene = app::read_scene(root / "scenes" / "sim_liver.json");
-  const Result<app::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<app::LoadedMesh>(scene.error());
+  const Result<io::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<io::LoadedMesh>(scene.error());
   const Result<TetMesh> mesh = loaded.ok() ? refine(loaded->mesh) : Result<TetMesh>(loaded.error());
   if (!mesh) {
     std::fprintf(stderr, "the liver is left out: %s\n", mesh.error().message.c_str());

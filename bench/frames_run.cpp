@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "incise/app/scene_simulation.h"
+#include "app/scene/scene_simulation.h"
 
 namespace incise::bench {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "incise/app/scene.h"
+#include "app/scene/scene.h"
 #include "report.h"
 
 namespace incise::bench {

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "incise/app/haptic_loop.h"
+#include "app/hands/haptic_loop.h"
 #include "incise/sim/simulated_operator.h"
 #include "report.h"
 

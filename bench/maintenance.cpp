@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "incise/app/mesh_loader.h"
+#include "incise/io/mesh_loader.h"
 #include "maintenance_cases.h"
 #include "maintenance_figures.h"
 #include "maintenance_measure.h"
@@ -218,8 +218,8 @@ void run_cube(const Settings& settings, const Cube& cube, Study& study) {
   }
 }
 
-Result<app::LoadedMesh> load(const std::string& file) {
-  Result<app::LoadedMesh> loaded = app::load_mesh(file);
+Result<io::LoadedMesh> load(const std::string& file) {
+  Result<io::LoadedMesh> loaded = io::load_mesh(file);
   if (!loaded) {
     std::fprintf(stderr, "left out: %s\n", loaded.error().message.c_str());
   }
@@ -235,7 +235,7 @@ std::vector<Cube> make_cubes(const Settings& settings) {
     }
   }
   for (const std::string& file : settings.boxes) {
-    if (const Result<app::LoadedMesh> box = load(file); box.ok()) {
+    if (const Result<io::LoadedMesh> box = load(file); box.ok()) {
       cubes.push_back(make_cube(std::filesystem::path(file).stem().string(), box->mesh));
     }
   }
@@ -340,7 +340,7 @@ bool parse(int argc, char** argv, Settings& settings) {
 }
 
 void run_body(const Settings& settings, const std::string& file, Study& study) {
-  const Result<app::LoadedMesh> body = load(file);
+  const Result<io::LoadedMesh> body = load(file);
   if (!body) {
     return;
   }

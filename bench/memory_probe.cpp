@@ -6,7 +6,7 @@
 #include <fstream>
 #include <memory>
 
-#include "incise/app/mesh_loader.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
 
@@ -34,7 +34,7 @@ Result<TetMesh> make_mesh(const std::string& source) {
   if (source.rfind("kuhn:", 0) == 0) {
     return TetMesh::build(kuhn_cube(static_cast<std::uint32_t>(std::strtoul(source.c_str() + 5, nullptr, 10))));
   }
-  Result<app::LoadedMesh> loaded = app::load_mesh(source);
+  Result<io::LoadedMesh> loaded = io::load_mesh(source);
   if (!loaded) {
     return loaded.error();
   }

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "incise/app/blade_file.h"
-#include "incise/app/mesh_loader.h"
+#include "app/scene/blade_file.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/mesh/shapes.h"
 #include "maintenance_cases.h"
 
@@ -35,7 +35,7 @@ Result<TetMesh> load_model(const std::filesystem::path& root, const std::string&
   if (model.empty()) {
     return TetMesh::build(kuhn_cube(5));
   }
-  Result<app::LoadedMesh> loaded = app::load_mesh(root / "models" / (model + ".mesh"));
+  Result<io::LoadedMesh> loaded = io::load_mesh(root / "models" / (model + ".mesh"));
   if (!loaded) {
     return loaded.error();
   }

@@ -7,8 +7,8 @@
 #include <initializer_list>
 #include <limits>
 
-#include "incise/app/mesh_export.h"
 #include "incise/geom/quality.h"
+#include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/components.h"
 #include "maintenance_measure.h"
@@ -78,7 +78,7 @@ void cap(StageTimes& times, std::initializer_list<Stage> stages, double processo
 }
 
 void write_mesh(const TetMesh& mesh, const std::filesystem::path& file) {
-  if (const Status status = io::write_mesh(file, app::to_mesh_data(mesh, find_components(mesh))); !status.ok()) {
+  if (const Status status = io::write_mesh(file, io::to_mesh_data(mesh, find_components(mesh))); !status.ok()) {
     std::fprintf(stderr, "%s\n", status.error().message.c_str());
   }
 }

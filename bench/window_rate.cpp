@@ -12,11 +12,11 @@
 #include <string>
 #include <thread>
 
-#include "incise/app/scene_view.h"
-#include "incise/app/session_thread.h"
-#include "incise/render/headless_context.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
+#include "app/session/session_thread.h"
+#include "app/view/scene_camera.h"
+#include "render/headless_context.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A copy of a mesh that is kept by the journal alone, with a velocity of its own: where authors of solvers may start.
-// docs/journal.md explains every record; `JournalMirror::apply` is the order in which they take effect.
+// docs/journal.md explains every record; `JournalVisitor` tells them in the order in which they take effect.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "incise/mesh/journal.h"
+#include "incise/mesh/journal_visitor.h"
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise::examples {
@@ -23,7 +23,7 @@ namespace incise::examples {
 ///
 /// Call `follow` whenever you need the mesh as it stands, between two calls of the engine. Memory: what the steps that
 /// the journal keeps touched, for undo. Not thread-safe.
-class JournalMirror {
+class JournalMirror : private JournalVisitor {
  public:
   struct Vertex {
     Vec3 rest = Vec3::Zero(), current = Vec3::Zero(), velocity = Vec3::Zero();
@@ -36,14 +36,8 @@ class JournalMirror {
     [[nodiscard]] bool is_live() const { return vertices[0].is_valid(); }
   };
 
-  /// What is read of steps that change a place several times.
-  enum class Reading : std::uint8_t {
-    kEdits,  ///< every change, as state that is carried along needs it
-    kLists,  ///< the net effect: enough for the mesh itself, velocities are approximate
-  };
-
   /// Copies a mesh as it stands; velocities are zero. Cost: O(slots).
-  explicit JournalMirror(const TetMesh& mesh, const Journal& journal = {}, Reading reading = Reading::kEdits)
+  explicit JournalMirror(const TetMesh& mesh, const Journal& journal = {}, StepReading reading = StepReading::kEdits)
       : reading_(reading),
         base_(journal.position()),
         base_serial_(journal.serial_before(journal.position())),
@@ -136,7 +130,7 @@ class JournalMirror {
     }
     past_.resize(applied_++);
     past_.push_back({step.serial, image_before(step), {}});
-    apply(step);
+    visit(step, *this, reading_);
   }
   void go_back() {
     Past& past = past_[--applied_];
@@ -144,64 +138,19 @@ class JournalMirror {
     restore(past.before);
   }
 
-  void apply(const Step& step) {
-    if (step.edits.empty() || reading_ == Reading::kLists) {
-      apply_lists(step);
-    } else {
-      apply_edits(step);
-    }
-    for (const OpenedFace& face : step.opened) {
-      for (const Side side : {face.a, face.b}) tets_[side.tet().value].opened[side.side()] = face.tag;
-    }
-    for (const OpenedFace& face : step.closed) tets_[face.a.tet().value].opened[face.a.side()] = 0;
-    for (const VertexId v : step.died) vertices_[v.value].is_live = false;
-  }
-  void apply_lists(const Step& step) {
-    for (const BornVertex& born : step.born) bear(born, step.copied);
-    for (const MovedVertex& moved : step.moved) move(moved);
-    for (const CopiedVertex& copied : step.copied) copy(copied);
-    replace(step.consumed, step.produced);
-    for (const RewiredTet& rewired : step.rewired) {
-      expect(tets_[rewired.id.value].vertices == rewired.old_vertices, "a rewired tet had other vertices");
-      tets_[rewired.id.value].vertices = rewired.vertices;
-    }
-  }
-  /// Maintenance changes one place many times: edit by edit, each from what the ones before it left.
-  void apply_edits(const Step& step) {
-    std::size_t consumed = 0, produced = 0;
-    for (const Edit& edit : step.edits) {
-      if (edit.kind == Edit::Kind::kMove) {
-        move(step.moved[edit.vertex]);
-      } else if (edit.vertex != kInvalidIndex) {
-        bear(step.born[edit.vertex], {});
-      }
-      replace(std::span(step.edit_consumed).subspan(consumed, edit.consumed_end - consumed),
-              std::span(step.edit_produced).subspan(produced, edit.produced_end - produced));
-      consumed = edit.consumed_end;
-      produced = edit.produced_end;
-    }
-  }
+  // --- what a step does, in its order
 
-  void bear(const BornVertex& born, std::span<const CopiedVertex> copied) {
+  void born(const BornVertex& born) override {
     Vec3 velocity = Vec3::Zero();
     for (unsigned i = 0; i < 4; ++i) {
-      if (born.parents[i].is_valid()) velocity += born.weights[i] * velocity_of(born.parents[i], copied);
+      if (!born.parents[i].is_valid()) continue;
+      expect(vertices_[born.parents[i].value].is_live, "a parent is not live");
+      velocity += born.weights[i] * vertices_[born.parents[i].value].velocity;
     }
     vertices_[born.id.value] = {born.rest, born.current, velocity, true};
     fresh_.push_back(born.id);
   }
-  /// A parent may be a copy that the same step makes only later: its source is at the same place.
-  [[nodiscard]] Vec3 velocity_of(VertexId parent, std::span<const CopiedVertex> copied) {
-    const auto is_parent = [&](const CopiedVertex& copy) { return copy.id == parent; };
-    while (!vertices_[parent.value].is_live) {
-      const auto copy = std::find_if(copied.begin(), copied.end(), is_parent);
-      expect(copy != copied.end(), "a parent is neither live nor copied");
-      if (copy == copied.end()) break;
-      parent = copy->source;
-    }
-    return vertices_[parent.value].velocity;
-  }
-  void move(const MovedVertex& moved) {
+  void moved(const MovedVertex& moved) override {
     Vertex& vertex = vertices_[moved.id.value];
     expect(same(vertex.rest, moved.old_rest), "a moved vertex was elsewhere");
     Vec3 velocity = Vec3::Zero();
@@ -209,13 +158,13 @@ class JournalMirror {
     vertex = {moved.rest, moved.current, velocity, true};
     fresh_.push_back(moved.id);
   }
-  void copy(const CopiedVertex& copied) {
+  void copied(const CopiedVertex& copied) override {
     expect(vertices_[copied.source.value].is_live, "the source of a copy is not live");
     vertices_[copied.id.value] = vertices_[copied.source.value];
     fresh_.push_back(copied.id);
   }
   /// A tet that lives on stands in both lists: all the old ones go before the new ones come.
-  void replace(std::span<const ConsumedTet> consumed, std::span<const ProducedTet> produced) {
+  void replaced(std::span<const ConsumedTet> consumed, std::span<const ProducedTet> produced) override {
     for (const ConsumedTet& old : consumed) {
       expect(tets_[old.id.value].vertices == old.vertices, "a consumed tet had other vertices");
       tets_[old.id.value].vertices = {};
@@ -228,6 +177,16 @@ class JournalMirror {
       tets_[tet.id.value] = {tet.vertices, tet.region, {}};
     }
   }
+  void rewired(const RewiredTet& rewired) override {
+    expect(tets_[rewired.id.value].vertices == rewired.old_vertices, "a rewired tet had other vertices");
+    tets_[rewired.id.value].vertices = rewired.vertices;
+  }
+  void opened(const OpenedFace& face) override {
+    for (const Side side : {face.a, face.b}) tets_[side.tet().value].opened[side.side()] = face.tag;
+  }
+  void closed(const OpenedFace& face) override { tets_[face.a.tet().value].opened[face.a.side()] = 0; }
+  void died(VertexId vertex) override { vertices_[vertex.value].is_live = false; }
+
   /// A parent that lives on is live again once it has been produced.
   static bool is_among(std::span<const ProducedTet> produced, TetId id) {
     return std::any_of(produced.begin(), produced.end(), [&](const ProducedTet& tet) { return tet.id == id; });
@@ -293,7 +252,7 @@ class JournalMirror {
     if (!holds && fault_.empty()) fault_ = what;
   }
 
-  Reading reading_;
+  StepReading reading_;
   std::size_t base_, applied_ = 0;
   std::uint64_t base_serial_;  // of the step before base_
   std::vector<Vertex> vertices_;

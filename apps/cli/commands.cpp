@@ -8,14 +8,14 @@
 #include <optional>
 #include <utility>
 
+#include "app/jobs/cut_job.h"
+#include "app/jobs/improve_job.h"
+#include "app/jobs/replay_job.h"
+#include "app/model/convert.h"
+#include "app/model/mesh_info.h"
+#include "app/scene/blade_file.h"
+#include "app/text/text_file.h"
 #include "command_support.h"
-#include "incise/app/blade_file.h"
-#include "incise/app/convert.h"
-#include "incise/app/cut_job.h"
-#include "incise/app/improve_job.h"
-#include "incise/app/mesh_info.h"
-#include "incise/app/replay_job.h"
-#include "incise/app/text_file.h"
 #include "incise/mesh/bounds.h"
 #include "picture.h"
 
@@ -207,7 +207,7 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
     if (const Status status = check_drawing(); !status.ok()) return fail(terminal, status.error(), kNoDisplay);
   }
   note_idle_flags(arguments, terminal);
-  Result<app::LoadedMesh> loaded = app::load_mesh(arguments.mesh);
+  Result<io::LoadedMesh> loaded = io::load_mesh(arguments.mesh);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
   print_notes(loaded->source.notes, arguments.mesh, terminal);
   Result<std::vector<Stroke>> strokes = strokes_of(arguments, loaded->mesh);
@@ -224,7 +224,7 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
 int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
   if (const auto code = refuse_outputs(arguments.output, {arguments.report}, terminal)) return *code;
   if (arguments.profile == "paper" && arguments.budget_us > 0) terminal.note(kNoBudgetAsPaper);
-  Result<app::LoadedMesh> loaded = app::load_mesh(arguments.mesh);
+  Result<io::LoadedMesh> loaded = io::load_mesh(arguments.mesh);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
   print_notes(loaded->source.notes, arguments.mesh, terminal);
   app::ImproveJob job;

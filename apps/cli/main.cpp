@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/jobs/cut_job.h"
+#include "app/scene/scene.h"
 #include "commands.h"
-#include "incise/app/cut_job.h"
-#include "incise/app/scene.h"
 #include "incise/version.h"
 #include "terminal.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture.h"
 
-#include "incise/app/cut_picture.h"
-#include "incise/render/headless_context.h"
-#include "incise/render/image.h"
-#include "incise/render/render_picture.h"
+#include "app/view/cut_picture.h"
+#include "render/headless_context.h"
+#include "render/image.h"
+#include "render/render_picture.h"
 
 namespace incise_cli {
 

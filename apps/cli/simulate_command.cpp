@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/jobs/simulate_job.h"
+#include "app/scene/scene_simulation.h"
+#include "app/text/text_file.h"
 #include "command_support.h"
 #include "commands.h"
-#include "incise/app/scene_simulation.h"
-#include "incise/app/simulate_job.h"
-#include "incise/app/text_file.h"
 
 namespace incise_cli {
 namespace {

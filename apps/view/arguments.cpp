@@ -5,10 +5,10 @@
 #include <array>
 #include <map>
 
+#include "app/scene/blade_file.h"
+#include "app/scene/scene_simulation.h"
+#include "app/viewer/key_bindings.h"
 #include "exit_code.h"
-#include "incise/app/blade_file.h"
-#include "incise/app/key_bindings.h"
-#include "incise/app/scene_simulation.h"
 #include "incise/mesh/bounds.h"
 #include "incise/version.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "incise/app/picture.h"
-#include "incise/app/session.h"
+#include "app/session/session.h"
+#include "app/view/picture.h"
 
 namespace incise_view {
 

@@ -6,14 +6,15 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/scene/blade_file.h"
+#include "app/view/cut_marks.h"
+#include "app/view/scene_camera.h"
+#include "app/view/spread_pieces.h"
 #include "exit_code.h"
-#include "incise/app/blade_file.h"
-#include "incise/app/cut_marks.h"
-#include "incise/app/spread_pieces.h"
-#include "incise/render/headless_context.h"
-#include "incise/render/image.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
+#include "render/headless_context.h"
+#include "render/image.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 
 namespace incise_view {
 namespace {

@@ -8,15 +8,15 @@
 #include <system_error>
 #include <utility>
 
+#include "app/session/session_thread.h"
+#include "app/viewer/viewer.h"
 #include "exit_code.h"
-#include "incise/app/session_thread.h"
-#include "incise/app/viewer.h"
-#include "incise/render/headless_context.h"
-#include "incise/render/image.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
 #include "interface.h"
 #include "panels.h"
+#include "render/headless_context.h"
+#include "render/image.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 #include "window.h"
 
 namespace incise_view {

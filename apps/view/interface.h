@@ -2,7 +2,7 @@
 // Dear ImGui on a window: its context, its fonts, its two themes.
 #pragma once
 
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 #include "window.h"
 
 namespace incise_view {

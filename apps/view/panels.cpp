@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "incise/app/color_map.h"
+#include "app/view/color_map.h"
 
 namespace incise_view {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "incise/app/viewer.h"
+#include "app/viewer/viewer.h"
 
 namespace incise_view {
 

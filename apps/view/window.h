@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "incise/app/camera.h"
-#include "incise/app/key_bindings.h"
-#include "incise/app/tools.h"
+#include "app/hands/tools.h"
+#include "app/view/camera.h"
+#include "app/viewer/key_bindings.h"
 #include "incise/core/result.h"
 
 struct GLFWwindow;

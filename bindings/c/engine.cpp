@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "handles.h"
-#include "incise/app/mesh_export.h"
-#include "incise/app/mesh_loader.h"
+#include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/io/surface_file.h"
 #include "incise/mesh/shapes.h"
 
@@ -29,7 +29,7 @@ incise_status make(Result<TetMesh> mesh, const incise_engine_options* options, i
   return make(std::move(mesh).value(), options, std::make_unique<incise_engine>(), out);
 }
 
-incise_status make(Result<app::LoadedMesh> loaded, const incise_engine_options* options, incise_engine** out) {
+incise_status make(Result<io::LoadedMesh> loaded, const incise_engine_options* options, incise_engine** out) {
   if (!loaded.ok()) return fail(loaded.error());
   auto handle = std::make_unique<incise_engine>();
   handle->notes = std::move(loaded->source.notes);
@@ -59,8 +59,8 @@ Result<TetMesh> box_of(const double* low, const double* high, const std::uint32_
 
 io::MeshData data_of(const incise_engine& handle, std::int32_t pose) {
   const TetMesh& mesh = handle.engine->mesh();
-  return app::to_mesh_data(mesh, find_components(mesh), handle.file_vertex,
-                           pose == INCISE_AT_REST ? app::MeshPose::kAtRest : app::MeshPose::kAsItStands);
+  return io::to_mesh_data(mesh, find_components(mesh), handle.file_vertex,
+                          pose == INCISE_AT_REST ? io::MeshPose::kAtRest : io::MeshPose::kAsItStands);
 }
 
 incise_status check_pose(std::int32_t pose) {
@@ -96,7 +96,7 @@ incise_status incise_engine_create_box(const double* low, const double* high, co
 
 incise_status incise_engine_read(const char* path, const incise_engine_options* options, incise_engine** engine) {
   if (const incise_status bad = c::check_path(path)) return bad;
-  return c::create(engine, [&] { return c::make(app::load_mesh(path), options, engine); });
+  return c::create(engine, [&] { return c::make(io::load_mesh(path), options, engine); });
 }
 
 incise_status incise_engine_read_bytes(const void* bytes, uint64_t n_bytes, const char* name,
@@ -106,7 +106,7 @@ incise_status incise_engine_read_bytes(const void* bytes, uint64_t n_bytes, cons
   return c::create(engine, [&]() -> incise_status {
     Result<io::MeshFile> read = io::read_mesh_bytes({static_cast<const char*>(bytes), n_bytes}, file);
     if (!read.ok()) return c::fail(read.error());
-    return c::make(app::build_mesh(std::move(read).value(), file), options, engine);
+    return c::make(io::build_mesh(std::move(read).value(), file), options, engine);
   });
 }
 
@@ -151,5 +151,5 @@ incise_status incise_engine_write_bytes(const incise_engine* engine, const char*
 incise_status incise_engine_write_surface(const incise_engine* engine, const char* path) {
   if (const incise_status bad = c::check_path(path)) return bad;
   return c::look(
-      engine, [&](const Engine& looked) { return c::finish(io::write_surface(path, app::to_surface(looked.mesh()))); });
+      engine, [&](const Engine& looked) { return c::finish(io::write_surface(path, io::to_surface(looked.mesh()))); });
 }

@@ -4,10 +4,10 @@
 
 #include <memory>
 
+#include "app/scene/scene.h"
+#include "app/scene/scene_simulation.h"
 #include "handles.h"
-#include "incise/app/mesh_loader.h"
-#include "incise/app/scene.h"
-#include "incise/app/scene_simulation.h"
+#include "incise/io/mesh_loader.h"
 #include "simulation_handle.h"
 
 namespace incise::c {
@@ -115,7 +115,7 @@ Result<Made> make(Result<TetMesh> mesh, const incise_simulation_options* given) 
   return Made{std::move(simulation).value(), {}, {}, {}};
 }
 
-Result<Made> make(Result<app::LoadedMesh> loaded, const incise_simulation_options* given) {
+Result<Made> make(Result<io::LoadedMesh> loaded, const incise_simulation_options* given) {
   if (!loaded.ok()) return loaded.error();
   Result<Made> made = make(Result<TetMesh>(std::move(loaded->mesh)), given);
   if (!made.ok()) return made;
@@ -126,7 +126,7 @@ Result<Made> make(Result<app::LoadedMesh> loaded, const incise_simulation_option
 
 Result<Made> make(Result<app::Scene> scene, std::uint32_t threads) {
   if (!scene.ok()) return scene.error();
-  Result<app::LoadedMesh> loaded = app::load_model(*scene);
+  Result<io::LoadedMesh> loaded = app::load_model(*scene);
   if (!loaded.ok()) return loaded.error();
   Result<Simulation> simulation = app::make_simulation(*scene, std::move(loaded->mesh), threads);
   if (!simulation.ok()) return simulation.error();
@@ -277,7 +277,7 @@ incise_status incise_simulation_create(const incise_mesh_arrays* mesh, const inc
 incise_status incise_simulation_read(const char* path, const incise_simulation_options* options,
                                      incise_simulation** simulation) {
   if (path == nullptr) return c::refuse("the name of the file is null");
-  return c::create(simulation, [&] { return c::make(app::load_mesh(path), options); });
+  return c::create(simulation, [&] { return c::make(io::load_mesh(path), options); });
 }
 
 incise_status incise_simulation_read_scene(const char* path, uint32_t threads, incise_simulation** simulation) {

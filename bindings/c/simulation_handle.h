@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "app/scene/scene.h"
 #include "handles.h"
-#include "incise/app/scene.h"
 #include "incise/engine/simulation.h"
 
 // NOLINTBEGIN(readability-identifier-naming): a C name

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What changes an engine: strokes whole and step by step, positions, undo, maintenance.
+#include "app/scene/blade_file.h"
 #include "handles.h"
-#include "incise/app/blade_file.h"
 #include "incise/mesh/bounds.h"
 
 namespace incise::c {

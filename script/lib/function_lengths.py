@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads lines `file<TAB>first line<TAB>last line<TAB>name`, prints lengths by module. usage: see script/function_lengths"""
+import os
+import re
 import sys
 
 MEDIAN_LIMIT, LONG, LONG_SHARE_LIMIT = 10, 100, 0.02
@@ -24,7 +26,45 @@ def row(name, lengths):
     return quantile(ordered, 0.5), share
 
 
-def main(show_longest):
+def sources(root):
+    for base in ("include", "src", "apps"):
+        for where, folders, names in os.walk(os.path.join(root, base)):
+            folders.sort()
+            for name in sorted(names):
+                if name.endswith((".h", ".cpp")):
+                    yield os.path.relpath(os.path.join(where, name), root)
+
+
+def function_ends(root, path):
+    """The lines with the closing brace of a function outside classes, which the layout puts first in its line.
+
+    Those of shaders in raw strings are left out, and those after #else: ctags reads one branch.
+    """
+    branches, in_string = [], False
+    with open(os.path.join(root, path), encoding="utf-8") as source:
+        for number, line in enumerate(source, 1):
+            directive = re.match(r"#\s*(if|elif|else|endif)", line)
+            if in_string or 'R"' in line:
+                in_string = not re.search(r'\)[a-z]*"', line)
+            elif directive and directive[1] == "endif":
+                branches.pop()
+            elif directive:
+                branches = branches if directive[1] == "if" else branches[:-1]
+                branches.append(directive[1])
+            elif line.rstrip() == "}" and all(branch == "if" for branch in branches):
+                yield number
+
+
+def report_unseen(root, functions):
+    """Prints the functions that ctags did not see; returns how many."""
+    seen = {(path, first + lines - 1) for lines, path, first, _ in functions}
+    unseen = [(path, n) for path in sources(root) for n in function_ends(root, path) if (path, n) not in seen]
+    for path, number in unseen:
+        print("%s:%d: ctags does not see the function that ends here" % (path, number))
+    return len(unseen)
+
+
+def main(root, show_longest):
     functions = []
     for line in sys.stdin:
         path, first, last, name = line.rstrip("\n").split("\t")
@@ -39,8 +79,9 @@ def main(show_longest):
     if show_longest:
         for n, path, first, name in sorted(functions, reverse=True)[:20]:
             print("%5d  %s:%d  %s" % (n, path, first, name))
-    return 1 if median > MEDIAN_LIMIT or share > LONG_SHARE_LIMIT else 0
+    is_wrong = report_unseen(root, functions) > 0 or median > MEDIAN_LIMIT or share > LONG_SHARE_LIMIT
+    return 1 if is_wrong else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main("--longest" in sys.argv[1:]))
+    sys.exit(main(sys.argv[1], "--longest" in sys.argv[2:]))

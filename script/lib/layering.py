@@ -11,13 +11,24 @@ MAY_INCLUDE = {
     "mesh": ("core", "geom"),
     "cut": LOWEST,
     "improve": LOWEST,
+    "paper": LOWEST + ("cut", "improve"),
     "sim": LOWEST,
     "io": LOWEST,
-    "engine": LOWEST + ("cut", "improve", "sim", "io"),
-    "app": LOWEST + ("cut", "improve", "sim", "io", "engine"),
+    "engine": LOWEST + ("cut", "improve", "paper", "sim", "io"),
+    "app": LOWEST + ("cut", "improve", "paper", "sim", "io", "engine"),
     "render": LOWEST + ("app",),
     "c": (),  # include/incise/c: C, and self-contained; bindings/c is a front end
 }
+# Modules that may use what is private to others: the paper's profile shares sweeps, templates and journal steps.
+MAY_LOOK_INTO = {"paper": ("cut", "improve")}
+# Folders of a module, lowest first: each may include those before it, unless they are named as parts side by side.
+ROOMS = {
+    "app": ("text", "model", "scene", "recording", "jobs", "view", "hands", "session", "viewer"),
+    "sim": ("body", "haptic", "reference"),
+}
+SIDE_BY_SIDE = {("sim", "haptic", "reference"), ("sim", "reference", "haptic")}
+# The modules of the programs. Their headers lie beside their sources: include/ is what is installed.
+OF_PROGRAMS = ("app", "render")
 FRONT_ENDS = ("apps", "bindings", "bench", "examples")
 # It names public headers for those who want all of them.
 UMBRELLA = os.path.join("include", "incise", "incise.h")
@@ -66,11 +77,43 @@ def module_of(header):
     return parts[0] if parts[0] in MAY_INCLUDE and len(parts) > 1 else None
 
 
-def check_module_file(module, path, header):
+def room_of(root, module, path):
+    """The room in which a file of `module` lies, or the source that goes with a public header; None where it has none."""
+    parts = path.split("/")
+    if parts[0] == "src":
+        return parts[2] if len(parts) > 3 else None
+    stem = os.path.splitext(parts[-1])[0]
+    for room in ROOMS[module]:
+        if os.path.exists(os.path.join(root, "src", module, room, stem + ".cpp")):
+            return room
+    return None  # headers alone: only what they include is looked at
+
+
+def check_rooms(root, module, path, header):
+    """Whether a file may include a header of its own module."""
+    rooms = ROOMS[module]
+    own = room_of(root, module, path)
+    header_path = "include/" + header if header.startswith("incise/") else "src/" + header
+    other = room_of(root, module, header_path)
+    if other is not None and other not in rooms:
+        return "there is no room '%s' in %s" % (other, module)
+    if own is None or other is None or own == other:
+        return None
+    if rooms.index(other) > rooms.index(own) or (module, own, other) in SIDE_BY_SIDE:
+        return "%s/%s must not include %s/%s" % (module, own, module, other)
+    return None
+
+
+def check_module_file(root, module, path, header):
     other = module_of(header)
+    if other == module and module in ROOMS:
+        complaint = check_rooms(root, module, path, header)
+        if complaint:
+            return complaint
     if other is not None and other != module and other not in MAY_INCLUDE[module]:
         return "module %s must not include %s" % (module, other)
-    if other is not None and other != module and not header.startswith("incise/"):
+    is_private = other is not None and other != module and not header.startswith("incise/")
+    if is_private and other not in MAY_LOOK_INTO.get(module, ()) + OF_PROGRAMS:
         return "%s is private to module %s" % (header, other)
     if path.startswith("include/") and other is not None and not header.startswith("incise/"):
         return "a public header includes a private one"
@@ -87,10 +130,13 @@ def check_front_end_file(root, path, header):
     if header.startswith("incise/"):
         known = header == "incise/version.h" or os.path.exists(os.path.join(root, "include", header))
         return None if known else "%s is no public header" % header
+    if module_of(header) in OF_PROGRAMS:
+        known = os.path.exists(os.path.join(root, "src", header))
+        return None if known else "there is no %s" % header
     beside = os.path.normpath(os.path.join(os.path.dirname(path), header))
     if beside.startswith("src" + os.sep) or module_of(header) is not None and \
             os.path.exists(os.path.join(root, "src", header)):
-        return "front ends use public headers only"
+        return "front ends use public headers only, and those of app and render"
     return None
 
 
@@ -101,12 +147,16 @@ def main(root):
             if path == UMBRELLA:
                 continue
             module = path.split(os.sep)[2 if base != "src" else 1]
+            if base != "src" and module in OF_PROGRAMS:
+                wrong.append("%s: include/ is what is installed; headers of %s lie beside their sources" % (path, module))
+            if base == "src" and module in ROOMS and room_of(root, module, path) not in ROOMS[module]:
+                wrong.append("%s: lies in no room of %s" % (path, module))
             if module not in MAY_INCLUDE:
                 wrong.append("%s: there is no module '%s'" % (path, module))
                 continue
             checked += 1
             for number, header in includes(root, path):
-                complaint = check_module_file(module, path, header)
+                complaint = check_module_file(root, module, path, header)
                 if complaint:
                     wrong.append("%s:%d: %s" % (path, number, complaint))
     for base in FRONT_ENDS + (UMBRELLA,):

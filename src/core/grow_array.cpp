@@ -6,7 +6,9 @@
 #include <sys/resource.h>
 #endif
 
-namespace incise::inline v0::detail {
+namespace incise {
+inline namespace v0 {
+namespace detail {
 
 #if defined(__linux__) && !defined(__EMSCRIPTEN__)
 
@@ -32,4 +34,6 @@ void release_address_space(void* /*start*/, std::size_t /*bytes*/) noexcept {}
 
 #endif
 
-}  // namespace incise::inline v0::detail
+}  // namespace detail
+}  // namespace v0
+}  // namespace incise

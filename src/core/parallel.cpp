@@ -10,7 +10,8 @@
 #include <tbb/task_arena.h>
 #endif
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 void parallel_blocks(std::size_t count, unsigned threads,
                      const std::function<void(std::size_t block, std::size_t begin, std::size_t end)>& work) {
@@ -64,4 +65,5 @@ void WorkPair::run(const std::function<void()>& first, const std::function<void(
   second();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

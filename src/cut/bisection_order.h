@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <span>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The edges of one tet that are to be bisected, first bisected first: longest first, ties by the ranks of their ends.
 /// A total order of the mesh's edges, so that neighbours divide their common face alike.
@@ -42,4 +43,5 @@ class BisectionOrder {
   unsigned count_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "cut/twist.h"
 #include "incise/geom/closest.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -46,6 +47,8 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   is_held_ = false;
   ways_.assign(row.size(), Vec3::Zero());
   reaches_on_ = {};
+  seams_ = {};
+  seam_segments_.clear();
 }
 
 /// A row's points: one that stands where the front does is the front's.
@@ -406,4 +409,5 @@ BladeMotion::Move BladeMotion::end(const OwnSheet& sheet, const Touches& touches
   return advance(last, sheet, touches, around, true);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "cut/border_reach.h"
 #include "cut/strip.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Turns the rows of a blade, one after the other, into the strips to cut along. All in the rest shape.
 ///
@@ -100,4 +101,5 @@ class BladeMotion {
   bool is_closed_ = false;  // the edge is a ring
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -85,4 +86,5 @@ SweptSurface BorderReach::from_row(const BorderPlace& from, const BorderPlace& t
   return surface;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "cut/sweep.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// What the borders of a sheet find around them in the rest shape.
 struct Surroundings {
@@ -61,4 +62,5 @@ class BorderReach {
 void add_reaching_triangle(SweptSurface& surface, const SosPoint& a, const SosPoint& b, const SosPoint& c,
                            std::uint32_t column);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <cassert>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 void ClosedComplex::clear() {
   for (std::uint32_t i = 0; i < size(); ++i) {
@@ -26,6 +27,82 @@ void ClosedComplex::clear() {
   scope_ = {};
   mark_ = 0;
   ++hold_;
+}
+
+ClosedComplex::Image ClosedComplex::image() const {
+  Image image;
+  image.masters_.assign(masters_.begin(), masters_.end());
+  image.free_masters_ = free_masters_;
+  image.children_.assign(children_.begin(), children_.end());
+  image.free_blocks_ = free_blocks_;
+  image.points_.assign(points_.begin(), points_.end());
+  image.free_points_ = free_points_;
+  image.edges_.assign(edges_.edges().begin(), edges_.edges().end());
+  image.copy_lists_ = copy_lists_;
+  image.copied_ = copied_;
+  image.free_lists_ = free_lists_;
+  for (const VertexId vertex : ranked_) image.ranks_.emplace_back(vertex, rank_[vertex.value]);
+  image.let_go_ = let_go_;
+  image.mark_ = mark_;
+  std::vector<VertexId> corners;
+  for (const Master& master : masters_) {
+    if (master.split != nullptr) corners.insert(corners.end(), master.vertices.begin(), master.vertices.end());
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (const VertexId v : corners) {
+    const auto settled = static_cast<std::uint8_t>(is_settled(v) ? is_settled_[v.value] : 0U);
+    image.corners_.push_back({v, flagged_at(v), master_at_[v.value], count_at_[v.value],
+                              static_cast<std::uint8_t>(is_on(v) ? 1U : 0U), settled});
+  }
+  return image;
+}
+
+void ClosedComplex::restore(const Image& image, const TetMesh& mesh) {
+  assert(masters_.empty());
+  const auto fill = [](auto& array, const auto& values) {
+    for (const auto& value : values) array.push_back(value);
+  };
+  const auto set = [](auto& table, VertexId vertex, auto value) {
+    table.ensure(std::size_t{vertex.value} + 1);
+    table[vertex.value] = value;
+  };
+  fill(masters_, image.masters_);
+  fill(children_, image.children_);
+  fill(points_, image.points_);
+  free_masters_ = image.free_masters_;
+  free_blocks_ = image.free_blocks_;
+  free_points_ = image.free_points_;
+  edges_.restore(image.edges_);
+  copy_lists_ = image.copy_lists_;
+  copied_ = image.copied_;
+  free_lists_ = image.free_lists_;
+  let_go_ = image.let_go_;
+  mark_ = image.mark_;
+  for (std::uint32_t i = 0; i < copied_.size(); ++i) {
+    if (!copied_[i].is_valid()) continue;
+    set(copies_, copied_[i], i + 1);
+    for (const VertexId copy : copy_lists_[i]) set(closed_, copy, copied_[i].value + 1);
+  }
+  for (const auto& [vertex, rank] : image.ranks_) {
+    set(rank_, vertex, rank);
+    ranked_.push_back(vertex);
+  }
+  for (const Image::Corner& corner : image.corners_) {
+    set(flagged_at_, corner.vertex, corner.flagged_at);
+    set(master_at_, corner.vertex, corner.master_at);
+    set(count_at_, corner.vertex, corner.count_at);
+    set(is_on_, corner.vertex, corner.is_on);
+    set(is_settled_, corner.vertex, corner.is_settled);
+  }
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (masters_[i].split == nullptr) continue;
+    for (const TetId child : children(masters_[i])) {
+      master_of_.ensure(std::size_t{child.value} + 1);
+      master_of_[child.value] = i + 1;
+    }
+  }
+  hold_vertices(mesh);
 }
 
 template <class Visit>
@@ -412,4 +489,5 @@ void ClosedComplex::flood_star(const TetMesh& mesh, VertexId vertex, std::size_t
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

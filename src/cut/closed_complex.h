@@ -5,13 +5,16 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cut/edge_table.h"
+#include "cut/sheet_crossing.h"
 #include "cut/split_template.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// An edge of the closed complex, with what the blade did to it. `a` has the lower slot.
 struct ClosedEdge {
@@ -89,6 +92,13 @@ class ClosedComplex {
   explicit ClosedComplex(SplitTemplates& templates) : whole_(templates.find({})) {}
 
   void clear();
+
+  /// All that a complex knows, apart from it. Memory: O(masters).
+  class Image;
+  [[nodiscard]] Image image() const;
+  /// Takes over an image; the complex must be clear, and `mesh` as it was then, by the ids that the image names.
+  /// Cost: O(masters).
+  void restore(const Image& image, const TetMesh& mesh);
 
   /// The master that a live tet belongs to, or `Master::kNone`.
   [[nodiscard]] std::uint32_t find(TetId tet) const {
@@ -306,6 +316,31 @@ class ClosedComplex {
   std::uint32_t mark_ = 0;
 };
 
+class ClosedComplex::Image {
+ private:
+  friend class ClosedComplex;
+  /// What the tables by vertex slot say of a corner.
+  struct Corner {
+    VertexId vertex;
+    std::uint32_t flagged_at, master_at, count_at;
+    std::uint8_t is_on, is_settled;
+  };
+  std::vector<Master> masters_;
+  std::vector<std::uint32_t> free_masters_;
+  std::vector<TetId> children_;
+  std::array<std::vector<std::uint32_t>, 32> free_blocks_;
+  std::vector<FrontPoint> points_;
+  std::vector<std::uint32_t> free_points_;
+  std::vector<ClosedEdge> edges_;
+  std::vector<std::vector<VertexId>> copy_lists_;
+  std::vector<VertexId> copied_;
+  std::vector<std::uint32_t> free_lists_;
+  std::vector<Corner> corners_;
+  std::vector<std::pair<VertexId, std::uint64_t>> ranks_;  // in the order of `ranked_`
+  std::vector<TetId> let_go_;
+  std::uint32_t mark_ = 0;
+};
+
 template <class Visit>
 void ClosedComplex::for_each_around(std::uint32_t edge, Visit&& visit) const {
   for (std::uint32_t use = edges_[edge].first_use; use != kInvalidIndex; use = masters_[use / 6].next_use[use % 6]) {
@@ -313,4 +348,5 @@ void ClosedComplex::for_each_around(std::uint32_t edge, Visit&& visit) const {
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -279,4 +280,5 @@ void ContactWalk::forget_released(const ClosedComplex& complex) {
   std::erase_if(last_, is_released);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

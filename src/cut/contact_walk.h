@@ -8,7 +8,8 @@
 #include "cut/strip.h"
 #include "cut/surface_index.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The live tet that holds a rest point, or none where the point lies outside the body. Exact: a point on a face
 /// belongs to one side of it. Looks for the surface along a ray, and walks back from there. Cost: O(cells and tets on
@@ -20,10 +21,16 @@ namespace incise::inline v0 {
 /// Paper §2.2 (collision detection). Differs: no search of the mesh; the cost depends on the tets met alone.
 class ContactWalk {
  public:
-  void clear() {
-    met_.clear();
-    last_.clear();
-    front_.clear();
+  /// The masters that a walk remembers.
+  struct Memory {
+    std::vector<std::uint32_t> met, last, front;
+  };
+  void clear() { restore({}); }
+  [[nodiscard]] Memory memory() const { return {met_, last_, front_}; }
+  void restore(const Memory& memory) {
+    met_ = memory.met;
+    last_ = memory.last;
+    front_ = memory.front;
   }
   /// The masters that the strip meets, each once, in the order of the walk; tets that were none yet become masters.
   /// Conservative: a few come close without touching. Cost: about 30 ns per tet visited, and the cells of the surface
@@ -73,4 +80,5 @@ class ContactWalk {
   std::uint32_t walk_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

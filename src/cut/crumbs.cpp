@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -194,4 +195,5 @@ std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbRules& rules, std::vec
   return CrumbFinder(mesh, rules, incision, dropped, scratch).run();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

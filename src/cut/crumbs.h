@@ -4,9 +4,11 @@
 #include <functional>
 #include <vector>
 
-#include "cut/subdivide.h"
+#include "cut/incision_face.h"
+#include "incise/core/grow_array.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A piece smaller than this share of the cubed edge length is a crumb: debris of a blade that grazes a vertex.
 inline constexpr double kCrumbShare = 0.02;
@@ -38,4 +40,5 @@ struct CrumbScratch {
 std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbRules& rules, std::vector<IncisionFace>& incision,
                           std::vector<IncisionFace>& dropped, CrumbScratch& scratch);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,22 +9,22 @@
 #include <utility>
 
 #include "cut/blade_motion.h"
+#include "cut/constants.h"
 #include "cut/far_blade.h"
 #include "cut/front_carry.h"
 #include "cut/material_blade.h"
-#include "cut/paper_cut.h"
+#include "cut/piece_finder.h"
+#include "cut/reversal.h"
+#include "cut/spacing.h"
 #include "cut/stroke_cut.h"
 #include "cut/sweep.h"
 #include "cut/twist.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
-/// A blade within this share of the mesh's spacing from what it swept before is in its own slit.
-constexpr double kSlitShare = 0.02;
-/// Consecutive parts of a sweep that meets itself overlap by so many spacings.
-constexpr double kOverlapShare = 3.0;
 /// Two crossings of one edge at rest, in different steps, that are further apart are two passes of the blade.
 constexpr double kApart = 0.05;
 /// A border of the sheet that lies at most so many spacings beyond the rim of an older cut reaches on into it.
@@ -63,28 +63,11 @@ constexpr double kAtFront = 0.2, kLag = 0.12;
 constexpr double kDrawBack = 0.8;
 /// Whether a blade starts at an older front is asked at places so many spacings apart, but at so many at most.
 constexpr double kStartShare = 0.2, kMostStarts = 1024.0;
+/// A stroke goes on from one whose blade stood within so many spacings from where it starts, at rest and in a body that
+/// has moved: there the tissue tells where that blade would be.
+constexpr double kStands = 0.05, kStandsInTissue = 0.08;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
-
-/// The mean edge length of a few tets, as a scale for overlaps.
-double typical_spacing(const TetMesh& mesh) {
-  double sum = 0;
-  std::size_t count = 0;
-  const std::uint32_t stride = std::max(1U, mesh.tet_slots() / 64U);
-  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); slot += stride) {
-    if (!mesh.is_live(TetId(slot))) continue;
-    const TetVertices& v = mesh.vertices(TetId(slot));
-    for (const auto& [a, b] : kEdgeCorners) {
-      sum += (mesh.rest(v[a]) - mesh.rest(v[b])).norm();
-      ++count;
-    }
-  }
-  return count == 0 ? 0.0 : sum / static_cast<double>(count);
-}
-
-}  // namespace
-
-namespace {
 
 /// All that `CutStatistics` counts.
 constexpr std::array kCounts = {&CutStatistics::steps,
@@ -114,9 +97,37 @@ CutStatistics& CutStatistics::operator-=(const CutStatistics& other) {
   return *this;
 }
 
-class Cutter::Pipeline {
+namespace {
+
+/// What a stroke that is cut step by step knows of its blade.
+struct OpenStroke {
+  enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
+
+  BladeMotion motion_;
+  SweptTriangles swept_;
+  MaterialBlade material_;
+  EdgeDivision edge_;
+  std::vector<Vec3> given_row_;  // the last one
+  std::vector<Vec3> last_row_;   // the same, divided
+  double spacing_ = 1.0;
+  Vec3 direction_ = Vec3::Zero();  // of the last step in the material
+  bool is_in_material_ = false, is_last_ = false;
+  bool has_ended_ = false;                   // a short stroke in the material
+  AtFront is_at_front_ = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
+  std::uint32_t tag_ = 1;
+};
+
+}  // namespace
+
+class Cutter::Pause {
  public:
-  Pipeline(CutOptions options, unsigned threads) : options_(options), paper_cut_(threads), stroke_cut_(options) {}
+  std::shared_ptr<const StrokeCut::Pause> cut;
+  OpenStroke stroke;
+};
+
+class Cutter::Pipeline : private OpenStroke {
+ public:
+  explicit Pipeline(CutOptions options) : options_(options), stroke_cut_(options) {}
 
   void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
              std::uint32_t tag) {
@@ -125,7 +136,8 @@ class Cutter::Pipeline {
     spacing_ = typical_spacing(mesh);
     stroke_cut_.begin(tag, spacing_);
     stroke_cut_.prepare(mesh, journal);
-    last_row_.assign(row.begin(), row.end());
+    given_row_.assign(row.begin(), row.end());
+    last_row_ = given_row_;
     edge_ = EdgeDivision(row.size());
     is_in_material_ = has_moved;
     is_last_ = false;
@@ -146,6 +158,7 @@ class Cutter::Pipeline {
       if (has_moved && !is_in_material_) {
         enter_material(mesh);
       }
+      given_row_.assign(row.begin(), row.end());
       if (!is_in_material_) divide_edge(row);
       const std::vector<Vec3> before = std::exchange(last_row_, edge_.divided(row));
       if (is_in_material_) {
@@ -175,6 +188,46 @@ class Cutter::Pipeline {
       return status;
     });
   }
+  [[nodiscard]] std::shared_ptr<const Pause> pause(const TetMesh& mesh) const {
+    if (!stroke_cut_.has_front() && !motion_.is_at_start()) return nullptr;
+    auto pause = std::make_shared<Pause>(Pause{stroke_cut_.pause(), static_cast<const OpenStroke&>(*this)});
+    if (is_in_material_) pause->stroke.material_.find_tips(mesh, stroke_cut_.complex());
+    return pause;
+  }
+  bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
+                 std::span<const Vec3> row, bool has_moved) {
+    const OpenStroke& paused = pause.stroke;
+    if (row.size() != paused.given_row_.size()) return false;
+    if (!has_moved && !paused.is_in_material_) {
+      bool stands = true;
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        stands = stands && (row[c] - paused.given_row_[c]).norm() <= kStands * paused.spacing_;
+      }
+      return stands;
+    }
+    const std::size_t end = journal.position();
+    if (!go_on(mesh, journal, pause, first_step, has_moved, paused.tag_)) return false;
+    const bool stands = material_.stands_at(mesh, stroke_cut_.complex(), edge_.divided(row), kStandsInTissue * spacing_);
+    stroke_cut_.forget();
+    journal.take_back(mesh, end);
+    return stands;
+  }
+  bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
+             std::uint32_t tag) {
+    const std::size_t end = journal.position();
+    const std::uint32_t pieces = pieces_at(mesh, journal, first_step, end);
+    for (std::size_t i = end; i-- > first_step;) journal.append(reversal_of(mesh, journal.step(i)));
+    if (pieces_at(mesh, journal, first_step, end) != pieces) {
+      journal.take_back(mesh, end);
+      return false;
+    }
+    static_cast<OpenStroke&>(*this) = pause.stroke;
+    tag_ = tag;
+    stroke_cut_.go_on(*pause.cut, mesh, tag);
+    stroke_cut_.prepare(mesh, journal);
+    if (has_moved && !is_in_material_) enter_material(mesh);
+    return true;
+  }
   void forget() { stroke_cut_.forget(); }
   void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
   [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const { return stroke_cut_.is_busy(mesh, tet); }
@@ -192,6 +245,19 @@ class Cutter::Pipeline {
   }
 
  private:
+  /// How many pieces there are where some steps of the journal changed something.
+  [[nodiscard]] std::uint32_t pieces_at(const TetMesh& mesh, const Journal& journal, std::size_t first,
+                                        std::size_t last) {
+    std::vector<TetId> seeds;
+    const auto add = [&](TetId tet) {
+      if (mesh.is_live(tet)) seeds.push_back(tet);
+    };
+    for (std::size_t i = first; i < last; ++i) {
+      for (const TetImage& image : journal.step(i).before.tets) add(image.id);
+      for (const TetId tet : journal.step(i).new_tets) add(tet);
+    }
+    return finder_.find(mesh, seeds);
+  }
   /// Runs some work; where it fails, what it did is taken back.
   template <class Work>
   Result<CutStatistics> guarded(TetMesh& mesh, Journal& journal, Work&& work) {
@@ -474,20 +540,14 @@ class Cutter::Pipeline {
       swept_.triangles.push_back({first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
     }
   }
-  bool is_paper() const { return options_.profile == Profile::kPaper; }
-
   /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
   Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
     is_in_material_ = false;
     const double spacing = spacing_ = typical_spacing(mesh);
-    const Stroke divided = is_paper() ? stroke : with_divided_edge(stroke, kTwist * spacing);
-    const SweptSurface surface = sweep(divided, kSlitShare * spacing);
-    for (const auto& part : split_at_self_crossings(surface, kOverlapShare * spacing, kCoincident * spacing)) {
-      Status status = is_paper() ? paper_cut_.cut(mesh, journal, Sheet(surface, part), tag, statistics_, times)
-                                 : cut_strip(mesh, journal, part_of(surface, part), tag, times);
-      if (!status) {
-        return status;
-      }
+    const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
+    const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
+    for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
+      if (Status status = cut_strip(mesh, journal, part_of(surface, part), tag, times); !status) return status;
       ++statistics_.sheets;
     }
     return {};
@@ -507,25 +567,13 @@ class Cutter::Pipeline {
     return part;
   }
   CutOptions options_;
-  PaperCut paper_cut_;
   StrokeCut stroke_cut_;
-  BladeMotion motion_;
-  SweptTriangles swept_;
-  MaterialBlade material_;
-  EdgeDivision edge_;
-  std::vector<Vec3> last_row_;  // divided
-  double spacing_ = 1.0;
-  Vec3 direction_ = Vec3::Zero();  // of the last step in the material
-  bool is_in_material_ = false, is_last_ = false;
-  enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
-  bool has_ended_ = false;                   // a short stroke in the material
-  AtFront is_at_front_ = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
+  PieceFinder finder_;
   std::function<void()> between_sheets_;
-  std::uint32_t tag_ = 1;
   CutStatistics statistics_;  // of the stroke being cut
 };
 
-Cutter::Cutter(CutOptions options, unsigned threads) : pipeline_(std::make_unique<Pipeline>(options, threads)) {}
+Cutter::Cutter(CutOptions options) : pipeline_(std::make_unique<Pipeline>(options)) {}
 Cutter::Cutter(Cutter&&) noexcept = default;
 Cutter& Cutter::operator=(Cutter&&) noexcept = default;
 Cutter::~Cutter() = default;
@@ -549,6 +597,17 @@ Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& t
 void Cutter::forget() {
   pipeline_->forget();
 }
+std::shared_ptr<const Cutter::Pause> Cutter::pause(const TetMesh& mesh) const {
+  return pipeline_->pause(mesh);
+}
+bool Cutter::may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
+                       std::span<const Vec3> row, bool has_moved) {
+  return pipeline_->may_go_on(mesh, journal, pause, first_step, row, has_moved);
+}
+bool Cutter::go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
+                   std::uint32_t tag) {
+  return pipeline_->go_on(mesh, journal, pause, first_step, has_moved, tag);
+}
 void Cutter::call_between_sheets(std::function<void()> between_sheets) {
   pipeline_->call_between_sheets(std::move(between_sheets));
 }
@@ -559,4 +618,5 @@ const SweptTriangles& Cutter::swept() const {
   return pipeline_->swept();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

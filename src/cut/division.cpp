@@ -7,7 +7,8 @@
 #include "incise/geom/predicates.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -129,4 +130,5 @@ std::vector<std::uint32_t> block_unsound(const TetMesh& mesh, std::span<const st
   return blocked;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,9 +8,10 @@
 
 #include "cut/bisection_order.h"
 #include "cut/closed_complex.h"
-#include "cut/neighbourhood.h"
+#include "cut/parity.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace detail {
 
@@ -92,4 +93,5 @@ class Divider {
 std::vector<std::uint32_t> block_unsound(const TetMesh& mesh, std::span<const std::uint32_t> masters,
                                          bool keeps_shape_floor, SplitTemplates& templates, ClosedComplex& complex);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -2,28 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "cut/sheet_crossing.h"
 #include "incise/core/grow_array.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
-
-/// A mesh edge near the blade, with what the blade did to it. `a` has the lower slot.
-struct CutEdge {
-  VertexId a, b;
-  SheetCrossings crossings;      ///< by the sheet
-  double t = 0.5;                ///< where it is split, from a to b
-  VertexId split;                ///< the vertex that splits it, once made
-  Vec3 position = Vec3::Zero();  ///< of that vertex at rest
-  bool is_planned = false;       ///< to be split
-  bool is_blocked = false;       ///< splitting it would make a tet that is not sound
-
-  [[nodiscard]] bool is_flagged() const { return crossings.is_odd(); }
-};
+namespace incise {
+inline namespace v0 {
 
 /// Edges with what is known about them, each once, found by their ends. `Edge` has members `a` and `b`.
 /// Reusable: `clear` keeps the memory. Cost: O(1) for a search.
@@ -66,6 +55,14 @@ class BasicEdgeTable {
       slot = add(edge) + 1;
     }
     return slot - 1;
+  }
+  /// Takes over edges with their indices; those without valid ends are free. The table must be clear.
+  void restore(std::span<const Edge> edges) {
+    for (const Edge& edge : edges) {
+      if (!edge.a.is_valid()) free_.push_back(size());
+      edges_.push_back(edge);
+    }
+    rehash(std::max<std::size_t>(slots_.size(), std::bit_ceil(std::max<std::size_t>(1024, 2 * (edges.size() + 8)))));
   }
   Edge& operator[](std::uint32_t index) { return edges_[index]; }
   const Edge& operator[](std::uint32_t index) const { return edges_[index]; }
@@ -130,6 +127,5 @@ class BasicEdgeTable {
   std::vector<std::uint32_t> free_;   // indices of edges that were taken out
 };
 
-using EdgeTable = BasicEdgeTable<CutEdge>;
-
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <array>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -131,4 +132,5 @@ std::vector<StepPart> divide_step(std::span<const Vec3> from, std::span<const Ve
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "incise/geom/box.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The smallest box around a body as it stands; empty for one without tets. Cost: O(vertices).
 [[nodiscard]] Box current_bounds(const TetMesh& mesh);
@@ -33,4 +34,5 @@ struct StepPart {
 [[nodiscard]] std::vector<StepPart> divide_step(std::span<const Vec3> from, std::span<const Vec3> to, double travel,
                                                 const Box& near);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

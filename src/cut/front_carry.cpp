@@ -12,7 +12,8 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -222,4 +223,5 @@ double carry_front(Transaction& transaction, const SurfaceIndex& surface, std::s
   return FrontCarrier(transaction, surface, from, to, spacing).run();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

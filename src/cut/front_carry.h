@@ -6,7 +6,8 @@
 #include "cut/surface_index.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Moves the front of older cuts to where a blade stands that goes on from it.
 ///
@@ -20,4 +21,5 @@ namespace incise::inline v0 {
 [[nodiscard]] double carry_front(Transaction& transaction, const SurfaceIndex& surface, std::span<const Vec3> from,
                                  std::span<const Vec3> to, double spacing);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "incise/geom/box.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -377,4 +378,5 @@ void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, const Wake& 
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

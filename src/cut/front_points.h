@@ -9,7 +9,8 @@
 #include "cut/strip.h"
 #include "cut/wake.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How front points follow the blade.
 struct FrontRules {
@@ -47,4 +48,5 @@ inline constexpr double kBesideWall = 0.2, kBesideExactly = 0.02, kBeyondRim = 0
 /// However short the edges around a place have become by cuts, it is judged by this share of a typical edge at least.
 inline constexpr double kLeastScale = 0.5;
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/geom/closest.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -238,9 +239,10 @@ void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point
   point.candidate = rest;
 }
 
-void MaterialBlade::find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor) {
+void MaterialBlade::find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point,
+                             const Vec3& anchor) const {
   point.tip = point.world;
-  if (point.master >= complex.size() || complex[point.master].split == nullptr) return;
+  if (!is_in_master(complex, point)) return;
   double inside = -1e300, beyond = 0;
   for (const TetId child : complex.children(complex[point.master])) {
     std::array<double, 4> weights{};
@@ -455,6 +457,26 @@ void MaterialBlade::set_course() {
   course_ = (0.5 * course_ + way / length).normalized();
 }
 
+void MaterialBlade::find_tips(const TetMesh& mesh, const ClosedComplex& complex) {
+  for (std::size_t i = 0; i < points_.size(); ++i) find_tip(mesh, complex, points_[i], anchors_[i]);
+}
+
+bool MaterialBlade::stands_at(const TetMesh& mesh, const ClosedComplex& complex, std::span<const Vec3> row,
+                              double distance) const {
+  const std::vector<Vec3> places = divided(row, shares_);
+  bool is_in_tissue = false;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point point = points_[i];
+    const Vec3 ahead = point.world - point.tip;
+    if (!is_in_master(complex, point)) continue;
+    find_tip(mesh, complex, point, anchors_[i]);
+    if (point.master == Master::kNone) continue;  // it has left by now
+    if (!((places[i] - point.tip - ahead).norm() <= distance)) return false;
+    is_in_tissue = true;
+  }
+  return is_in_tissue;
+}
+
 std::vector<Vec3> MaterialBlade::wanted() const {
   std::vector<Vec3> row = anchors_;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -472,7 +494,7 @@ void MaterialBlade::take_over(const TetMesh& mesh, const SurfaceIndex& surface, 
   const std::vector<Vec3> places = divided(row, shares_);
   points_.assign(places.size(), {});
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    points_[i].world = points_[i].reached = places[i];
+    points_[i].world = points_[i].reached = points_[i].tip = places[i];
     points_[i].candidate = anchors_[i];
   }
   find_masters(mesh, surface, complex);
@@ -519,4 +541,5 @@ void MaterialBlade::find_masters(const TetMesh& mesh, const SurfaceIndex& surfac
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "cut/closed_complex.h"
 #include "cut/surface_index.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Where the edge of a blade stands in the material of a body that moves: its points, dense enough to follow the
 /// tissue, each with the rest point that the front has reached there.
@@ -41,6 +42,12 @@ class MaterialBlade {
               const Vec3& direction, bool is_last = false);
   /// The row to cut to, as far as it is not held.
   [[nodiscard]] std::vector<Vec3> wanted() const;
+  /// Notes where the front stands, for `stands_at`.
+  void find_tips(const TetMesh& mesh, const ClosedComplex& complex);
+  /// Whether a blade stands where this one would now, had the tissue taken it along since `find_tips`: each of its
+  /// points in tissue within `distance`, and there are some.
+  [[nodiscard]] bool stands_at(const TetMesh& mesh, const ClosedComplex& complex, std::span<const Vec3> row,
+                               double distance) const;
   /// Holds a point of the blade in this step.
   void hold(std::size_t point) { points_[point].is_accepted = false; }
   [[nodiscard]] bool is_accepted(std::size_t point) const { return points_[point].is_accepted; }
@@ -72,8 +79,11 @@ class MaterialBlade {
 
   void set_shares(const TetMesh& mesh, std::span<const Vec3> row);
   void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
+  [[nodiscard]] static bool is_in_master(const ClosedComplex& complex, const Point& point) {
+    return point.master < complex.size() && complex[point.master].split != nullptr;
+  }
   /// Where the front's rest point stands now. A point that is away from the tet that it left by follows others.
-  void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor);
+  void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor) const;
   [[nodiscard]] bool is_due(double step) const;
   void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   [[nodiscard]] bool lies_in_cut(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest) const;
@@ -95,4 +105,5 @@ class MaterialBlade {
   std::uint64_t next_key_ = std::uint64_t{1} << 48U;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

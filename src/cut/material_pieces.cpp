@@ -3,7 +3,8 @@
 
 #include <array>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 void MaterialPieces::find(const TetMesh& mesh, std::span<const TetId> tets) {
   has_several_ = finder_.find(mesh, tets) > 1;
@@ -31,4 +32,5 @@ bool MaterialPieces::hang_together(const TetMesh& mesh, TetId a, TetId b) {
   return finder_.find(mesh, both) == 1;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "cut/piece_finder.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Of which piece of a body the material of tets and vertices is while a rebuild changes them: what has come apart
 /// stays apart, and goes by its own names. **Source:** docs/decisions/0023.
@@ -62,4 +63,5 @@ class MaterialPieces {
   bool has_several_ = false, has_labels_ = false;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

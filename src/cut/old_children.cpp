@@ -5,7 +5,8 @@
 
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -84,4 +85,5 @@ VertexId add_vertex_at(Transaction& transaction, const Vec3& rest, const Materia
   return transaction.add_vertex(place.basis, place.weights, rest, place.current);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

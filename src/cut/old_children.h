@@ -7,7 +7,8 @@
 
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A place in the body as it was before a rebuild: what stood there gives a new vertex its values.
 struct MaterialPlace {
@@ -50,4 +51,5 @@ class OldChildren {
 /// Adds a vertex at a rest position with the values of a place; exact where the place is a corner.
 VertexId add_vertex_at(Transaction& transaction, const Vec3& rest, const MaterialPlace& place);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

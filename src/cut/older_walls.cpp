@@ -7,7 +7,8 @@
 
 #include "incise/geom/closest.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -77,4 +78,5 @@ double OlderWalls::first_met(const Vec3& from, const Vec3& to, double least_sine
   return first;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include "cut/closed_complex.h"
 #include "cut/surface_index.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Whether a side is a wall that was there before the sheet of `complex`: one inside a master is that sheet's own.
 [[nodiscard]] bool is_older_wall(const TetMesh& mesh, const ClosedComplex& complex, Side side);
@@ -42,4 +43,5 @@ class OlderWalls {
   const ClosedComplex& complex_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 std::uint32_t PieceFinder::root(std::uint32_t flood) {
   while (floods_[flood].parent != flood) {
@@ -86,4 +87,5 @@ void PieceFinder::forget() {
   flood_count_ = 0;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

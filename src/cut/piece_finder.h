@@ -6,7 +6,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Tells which tets hang together through faces.
 ///
@@ -44,4 +45,5 @@ class PieceFinder {
   ZeroedArray<std::uint32_t> flood_of_;  // by tet slot: 1 + flood; all zero between calls
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

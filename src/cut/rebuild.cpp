@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <array>
 
-#include "cut/neighbourhood.h"
 #include "cut/older_walls.h"
+#include "cut/parity.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -27,7 +28,7 @@ unsigned colour_of_child(const SplitTemplate::Child& child, const Master& master
 /// The lines in which the cut meets the sides of a master that the blade is still in: pairs of template codes.
 class IncisionLines {
  public:
-  explicit IncisionLines(const Master& master) : master_(master) {
+  IncisionLines(const Master& master, const ClosedComplex& complex) : master_(master), complex_(complex) {
     for (unsigned s = 0; s < 4; ++s) add_side(s);
   }
   [[nodiscard]] bool contains(std::uint8_t a, std::uint8_t b) const {
@@ -36,13 +37,17 @@ class IncisionLines {
   }
 
  private:
-  /// What stands for the crossing of a flagged edge: its split point, or the end that takes part in the cut.
+  /// What stands for the crossing of a flagged edge: its split point, or the end that takes part in the cut; of two
+  /// such ends the one of lower rank, so that all masters of the edge agree.
   [[nodiscard]] std::uint8_t crossing_of(unsigned edge) const {
-    for (const std::uint8_t c : kEdgeCorners[edge]) {
-      if (((unsigned{master_.on} >> c) & 1U) != 0) return c;
-    }
+    const auto [a, b] = kEdgeCorners[edge];
+    const bool is_a_on = is_on(a), is_b_on = is_on(b);
+    if (is_a_on && is_b_on) return rank(a) < rank(b) ? a : b;
+    if (is_a_on || is_b_on) return is_a_on ? a : b;
     return static_cast<std::uint8_t>(SplitTemplate::kFirstSplit + edge);
   }
+  [[nodiscard]] bool is_on(std::uint8_t corner) const { return ((unsigned{master_.on} >> corner) & 1U) != 0; }
+  [[nodiscard]] std::uint64_t rank(std::uint8_t corner) const { return complex_.rank(master_.vertices[corner]); }
   void add_side(unsigned side) {
     std::array<std::uint8_t, 3> crossings{};
     unsigned count = 0;
@@ -69,6 +74,7 @@ class IncisionLines {
   }
 
   const Master& master_;
+  const ClosedComplex& complex_;
   std::array<std::array<std::uint8_t, 2>, 16> lines_{};
   std::uint8_t count_ = 0;
 };
@@ -168,8 +174,8 @@ class Rebuild::Run {
   [[nodiscard]] bool stand_apart(Side a, Side b) {
     if (!settings_.keeps_pieces) return false;
     if (pieces_.knows(a.tet()) && pieces_.knows(b.tet())) return pieces_.are_apart(a.tet(), b.tet());
-    const Link wall = Link::boundary(settings_.tag);
-    return mesh_.link(a) == wall && mesh_.link(b) == wall && !pieces_.hang_together(mesh_, a.tet(), b.tet());
+    const StrokeTags& tags = settings_.tags;
+    return tags.own(mesh_.link(a)) && tags.own(mesh_.link(b)) && !pieces_.hang_together(mesh_, a.tet(), b.tet());
   }
   /// The same for a face of the cut, where nothing is linked yet.
   [[nodiscard]] bool would_join_pieces(const IncisionFace& face) {
@@ -182,7 +188,7 @@ class Rebuild::Run {
     for (const TetId child : complex_.children(master)) {
       old_.add(mesh_, child);
       for (const Link link : mesh_.links(child)) {
-        result_.closed_sides += link.is_boundary() && link.tag() == settings_.tag ? 1U : 0U;
+        result_.closed_sides += settings_.tags.own(link) ? 1U : 0U;
       }
     }
     range.last = old_.size();
@@ -337,7 +343,7 @@ class Rebuild::Run {
     const SplitTemplate& split = *master.split;
     if (split.inner.empty()) return;
     const bool is_cone = divider_.is_cone(master);
-    const IncisionLines lines(master);
+    const IncisionLines lines(master, complex_);
     for (const auto& [a, b] : split.inner) {
       const auto &first = split.children[a / 4U], &second = split.children[b / 4U];
       const bool is_incision = is_cone ? lies_on_line(lines, first, a & 3U)
@@ -355,12 +361,12 @@ class Rebuild::Run {
     return lines.contains(foot[0], foot[1]);
   }
   void meet(Side a, Side b, bool is_crossed) {
-    const Link wall = Link::boundary(settings_.tag);
+    const StrokeTags& tags = settings_.tags;
     const bool is_incision = is_crossed || stand_apart(a, b);
     if (is_incision && !is_crossed) note_apart(a);
-    if (is_incision && mesh_.link(a) == wall && mesh_.link(b) == wall) standing_.push_back(a);
-    set_link(a, is_incision ? Link::boundary(settings_.tag) : Link(b));
-    set_link(b, is_incision ? Link::boundary(settings_.tag) : Link(a));
+    if (is_incision && tags.own(mesh_.link(a)) && tags.own(mesh_.link(b))) standing_.push_back(a);
+    set_link(a, is_incision ? tags.wall() : Link(b));
+    set_link(b, is_incision ? tags.wall() : Link(a));
     if (is_incision) incision_.push_back({a, b});
   }
   /// A face that the sheet does not pass, between two pieces: its vertices need copies, wherever they are.
@@ -570,7 +576,7 @@ class Rebuild::Run {
   /// Returns what the closed vertex is called now.
   VertexId divide(VertexId vertex, const StarParts::Home& home, bool makes_twins, bool may_be_named) {
     const bool keeps = settings_.keeps_pieces;
-    const StarParts::Settings settings{settings_.tag, makes_twins, keeps, keeps && may_be_named, &pieces_};
+    const StarParts::Settings settings{settings_.tags, makes_twins, keeps, keeps && may_be_named, &pieces_};
     const StarParts::Division done = owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, settings);
     result_.copied_vertices += done.made;
     if (done.closed != vertex) note_visited(done.closed);
@@ -594,7 +600,7 @@ class Rebuild::Run {
     bool is_plain = true;
     for (unsigned s = 0; s < 4; ++s) {
       const Link link = mesh_.links(tet.tet)[s];
-      if (s != tet.corner && link.is_boundary()) is_plain &= link.tag() == settings_.tag && tet.is_new;
+      if (s != tet.corner && link.is_boundary()) is_plain &= settings_.tags.own(link) && tet.is_new;
     }
     return is_plain;
   }
@@ -707,7 +713,7 @@ class Rebuild::Run {
   /// Makes the incision of the master that a wall belongs to part of the rebuild, where it was not: its children stay.
   bool take_in(Side side) {
     const std::uint32_t index = complex_.find(side.tet());
-    if (mesh_.link(side) != Link::boundary(settings_.tag) || index == Master::kNone || complex_[index].is_dirty ||
+    if (!settings_.tags.own(mesh_.link(side)) || index == Master::kNone || complex_[index].is_dirty ||
         complex_.is_half_baked(index)) {
       return false;
     }
@@ -744,7 +750,7 @@ class Rebuild::Run {
       const auto v = mesh_.vertices(side);
       return counts[((v[0].value + v[1].value + v[2].value) * 0x9E3779B9U) >> 22U];
     };
-    const auto is_wall = [&](Side side) { return mesh_.link(side) == Link::boundary(settings_.tag); };
+    const auto is_wall = [&](Side side) { return settings_.tags.own(mesh_.link(side)); };
     for (const Side side : surface_) {
       if (!is_wall(side)) continue;
       std::uint8_t& count = count_of(side);
@@ -792,7 +798,7 @@ class Rebuild::Run {
       if (is_latent(face)) {
         close_latent(face);
       } else {
-        transaction_.open(face.a, face.b, settings_.tag);
+        transaction_.open(face.a, face.b, settings_.tags.last);
         for (const Side side : {face.a, face.b}) result_.opened_sides += is_dirty(side.tet()) ? 1U : 0U;
         incision_[kept++] = face;
       }
@@ -848,4 +854,5 @@ RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex,
   return Run(*this, transaction, complex, sheet, settings).run();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,10 +11,12 @@
 #include "cut/old_children.h"
 #include "cut/snapping.h"
 #include "cut/star_parts.h"
+#include "cut/stroke_tags.h"
 #include "cut/surface_edges.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A master falls apart into so many children at most.
 inline constexpr std::size_t kMostChildren = 24;
@@ -38,7 +40,7 @@ struct RebuildStatistics {
 class Rebuild {
  public:
   struct Settings {
-    std::uint32_t tag = 1;
+    StrokeTags tags;             ///< of the incision
     bool keeps_crumbs = true;
     double spacing = 0.0;        ///< the length of a typical edge: crumbs are judged by half of it at least
     double thin = 0.0;           ///< pieces beside an older wall that are thinner than this are crumbs
@@ -91,4 +93,5 @@ class Rebuild {
   std::uint32_t round_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -95,4 +96,5 @@ bool is_graze(const Sheet& sheet, const Vec3& from, std::uint32_t first, const V
 
 }  // namespace detail
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "cut/sweep.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How a sheet crosses an edge (a, b) of the mesh at rest.
 struct SheetCrossings {
@@ -93,4 +94,5 @@ std::optional<double> find_between(const TetMesh& mesh, const Sheet& sheet, Vert
   return found;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

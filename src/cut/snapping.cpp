@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cut/neighbourhood.h"
+#include "cut/constants.h"
 #include "cut/old_children.h"
+#include "cut/parity.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -536,4 +538,5 @@ std::uint64_t move_on_vertices(Transaction& transaction, const OwnSheet& sheet, 
   return bent;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "cut/strip.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A vertex that takes part in a cut, with its place on the sheet.
 struct OnVertex {
@@ -57,4 +58,5 @@ std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sh
 std::uint64_t move_on_vertices(Transaction& transaction, const OwnSheet& sheet, double snap,
                                const std::vector<OnVertex>& chosen, ClosedComplex& complex);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

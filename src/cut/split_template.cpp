@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -174,4 +175,5 @@ const SplitTemplate& SplitTemplates::find_cone(std::span<const std::uint8_t> ord
   return found != templates_.end() ? found->second : templates_.emplace(key, make_cone(order, pierced)).first->second;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 
 #include "incise/mesh/tet_tables.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How one tet falls apart when some of its edges are bisected one after the other.
 ///
@@ -46,4 +47,5 @@ class SplitTemplates {
   std::unordered_map<std::uint32_t, SplitTemplate> templates_;  // node-based: references stay valid; never iterated
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -125,7 +126,7 @@ void StarParts::write_corners(Transaction& transaction, std::span<const StarTet>
 }
 
 void StarParts::set_shapes(Transaction& transaction, VertexId vertex, std::span<const StarTet> star,
-                           std::uint32_t tag) {
+                           const StrokeTags& tags) {
   const TetMesh& mesh = transaction.mesh();
   const unsigned kept = mesh.shape_of(vertex) & (shape::kPinched | (parts_.size() == 1 ? shape::kFront : 0U));
   for (const Part& part : parts_) {
@@ -135,7 +136,7 @@ void StarParts::set_shapes(Transaction& transaction, VertexId vertex, std::span<
         const Link link = mesh.links(star[i].tet)[s];
         if (s == star[i].corner || !link.is_boundary()) continue;
         bits |= link.tag() == 0 ? shape::kSkin : shape::kWall;
-        bits |= link.tag() == tag && parts_.size() == 1 ? shape::kFront : 0U;
+        bits |= tags.own(link) && parts_.size() == 1 ? shape::kFront : 0U;
       }
     }
     if (bits != mesh.shape_of(part.copy)) transaction.set_shape(part.copy, static_cast<std::uint8_t>(bits));
@@ -254,9 +255,10 @@ StarParts::Division StarParts::divide(Transaction& transaction, ClosedComplex& c
   done.made = make_copies(transaction, star);
   done.closed = name(transaction, vertex, settings.may_be_named);
   write_corners(transaction, tets);
-  set_shapes(transaction, done.closed, tets, settings.tag);
+  set_shapes(transaction, done.closed, tets, settings.tags);
   bury(transaction, complex, vertex, done.closed);
   return done;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,8 +8,10 @@
 #include "cut/closed_complex.h"
 #include "cut/material_pieces.h"
 #include "cut/old_children.h"
+#include "cut/stroke_tags.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// One live tet around a closed vertex.
 struct StarTet {
@@ -37,10 +39,10 @@ class StarParts {
   /// with `keeps_places` no vertex goes over to material that stands elsewhere: with `may_be_named`, too, the closed
   /// vertex goes by the name of that copy from then on. Cost: O(star).
   /// With `makes_twins` copies start as `vertex` stands instead. The shape bits of each part are set from its surfaces;
-  /// a star that stays whole beside walls of `tag` is at the front.
+  /// a star that stays whole beside walls of `tags` is at the front.
   using Home = std::function<VertexId(std::span<const StarTet>)>;  // of what is captured, two pointers cost no memory
   struct Settings {
-    std::uint32_t tag = 0;
+    StrokeTags tags;
     bool makes_twins = false;
     bool keeps_places = false, may_be_named = false;
     const MaterialPieces* pieces = nullptr;  ///< where not null, no copy goes over from one to another
@@ -89,7 +91,7 @@ class StarParts {
   std::uint64_t make_copies(Transaction& transaction, const Star& star);
   VertexId name(Transaction& transaction, VertexId vertex, bool may_be_named);
   void write_corners(Transaction& transaction, std::span<const StarTet> star);
-  void set_shapes(Transaction& transaction, VertexId vertex, std::span<const StarTet> star, std::uint32_t tag);
+  void set_shapes(Transaction& transaction, VertexId vertex, std::span<const StarTet> star, const StrokeTags& tags);
   void bury(Transaction& transaction, ClosedComplex& complex, VertexId vertex, VertexId closed);
 
   std::vector<Part> parts_;
@@ -98,4 +100,5 @@ class StarParts {
   ZeroedArray<std::uint32_t> index_of_tet_;  // 1 + index into the star; all zero between calls
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -91,4 +92,5 @@ SheetPlace OwnSheet::closest(const Vec3& point, double max_distance) const {
   return best;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

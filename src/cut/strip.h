@@ -7,7 +7,8 @@
 
 #include "cut/sweep.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// What a blade swept in one step, in the rest shape: a small sheet with its free border.
 struct Strip {
@@ -43,7 +44,7 @@ class OwnSheet {
   const Strip& add(std::unique_ptr<Strip> strip);
   /// The border of all strips together: where the cut ends.
   [[nodiscard]] const std::vector<Strip::Segment>& border() const { return border_; }
-  [[nodiscard]] const std::deque<std::unique_ptr<Strip>>& strips() const { return strips_; }
+  [[nodiscard]] const std::deque<std::shared_ptr<const Strip>>& strips() const { return strips_; }
   /// The nearest place within `max_distance`; the latest strip wins ties. Cost: one box for 16 strips, then those near.
   [[nodiscard]] SheetPlace closest(const Vec3& point, double max_distance) const;
   /// How far the blade has travelled.
@@ -64,9 +65,10 @@ class OwnSheet {
  private:
   static constexpr std::size_t kGroup = 16;
 
-  std::deque<std::unique_ptr<Strip>> strips_;
+  std::deque<std::shared_ptr<const Strip>> strips_;  // shared with copies
   std::vector<Box> groups_;  // of as many strips each
   std::vector<Strip::Segment> border_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

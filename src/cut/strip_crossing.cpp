@@ -3,9 +3,10 @@
 
 #include <optional>
 
-#include "cut/neighbourhood.h"
+#include "cut/constants.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 const std::vector<StripCrossing>& StripCrossings::find(const TetMesh& mesh, const Strip& strip,
                                                        std::span<const std::uint32_t> masters, ClosedComplex& complex,
@@ -43,4 +44,5 @@ std::vector<BetweenCrossings> find_doubly_crossed(const TetMesh& mesh, const Str
   return found;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

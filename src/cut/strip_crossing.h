@@ -8,7 +8,8 @@
 #include "cut/sheet_crossing.h"
 #include "cut/strip.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How a strip crosses an edge of the closed complex.
 struct StripCrossing : SheetCrossings {
@@ -45,4 +46,5 @@ std::vector<BetweenCrossings> find_doubly_crossed(const TetMesh& mesh, const Str
                                                   std::span<const StripCrossing> crossings,
                                                   const ClosedComplex& complex, double gap);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include <cstdio>
 #include <string>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -164,4 +165,5 @@ SweptTriangles swept_triangles(const Stroke& stroke) {
   return out;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,13 +6,14 @@
 #include <tuple>
 #include <utility>
 
-#include "cut/dividable.h"
-#include "cut/neighbourhood.h"
+#include "cut/parity.h"
+#include "cut/pinched_edges.h"
 #include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -33,7 +34,7 @@ constexpr unsigned kMaxBisectionRounds = 8;
 
 void StrokeCut::begin(std::uint32_t tag, double spacing) {
   forget();
-  tag_ = tag;
+  tags_ = {tag, tag};
   spacing_ = spacing;
   keeps_pieces_ = false;
 }
@@ -46,6 +47,41 @@ void StrokeCut::forget() {
   on_.clear();
   waiting_.clear();
   must_finish_ = false;
+}
+
+std::shared_ptr<const StrokeCut::Pause> StrokeCut::pause() const {
+  auto pause = std::make_shared<Pause>();
+  pause->complex_ = complex_.image();
+  pause->sheet_ = sheet_;
+  pause->walk_ = walk_.memory();
+  pause->coincident_ = snapping_.coincident;
+  pause->on_ = on_;
+  pause->waiting_ = waiting_;
+  pause->spacing_ = spacing_;
+  pause->must_finish_ = must_finish_;
+  pause->keeps_pieces_ = keeps_pieces_;
+  pause->first_tag_ = tags_.first;
+  return pause;
+}
+
+void StrokeCut::go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag) {
+  begin(tag, pause.spacing_);
+  complex_.restore(pause.complex_, mesh);
+  sheet_ = pause.sheet_;
+  walk_.restore(pause.walk_);
+  snapping_.coincident = pause.coincident_;
+  on_ = pause.on_;
+  waiting_ = pause.waiting_;
+  must_finish_ = pause.must_finish_;
+  keeps_pieces_ = pause.keeps_pieces_;
+  tags_.first = pause.first_tag_;
+}
+
+bool StrokeCut::has_front() const {
+  for (std::uint32_t i = 0; i < complex_.size(); ++i) {
+    if (complex_[i].split != nullptr && has_odd_face(complex_[i].flagged)) return true;
+  }
+  return false;
 }
 
 Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> next, const FrontRules& rules,
@@ -275,7 +311,7 @@ void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, Cu
   const std::size_t tets = mesh.tet_count(), vertices = mesh.vertex_count();
   Transaction transaction(mesh);
   const RebuildStatistics done = rebuild_.run(
-      transaction, complex_, sheet_, {tag_, snap() > 0, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
+      transaction, complex_, sheet_, {tags_, snap() > 0, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
   Step step = transaction.commit();
   statistics.created_tets += mesh.tet_count() - tets;
   statistics.new_vertices += mesh.vertex_count() - vertices;
@@ -580,4 +616,5 @@ void StrokeCut::part_edges(TetMesh& mesh, Journal& journal, CutStatistics& stati
   if (!step.is_empty()) journal.append(std::move(step));
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -19,7 +19,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The cut of one stroke, strip by strip: collision → subdivision → separation (paper, Figure 1, first four boxes).
 ///
@@ -67,6 +68,14 @@ class StrokeCut {
   /// Whether two fans of tets touch along an edge beside which two pieces meet, so that no face may be left joined
   /// there: the sheet must be finished, which parts such edges.
   [[nodiscard]] bool must_finish() const { return must_finish_; }
+  /// The sheet and its band as they stand, so that a stroke may go on once they were finished.
+  class Pause;
+  [[nodiscard]] std::shared_ptr<const Pause> pause() const;
+  /// Goes on from there; `mesh` must be as it was then, but for current positions. Walls get `tag` from now on.
+  /// Cost: O(band + strips).
+  void go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag);
+  /// Whether the sheet ends within tissue: there is a front to go on from.
+  [[nodiscard]] bool has_front() const;
   /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
   void finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics, StageTimes& times);
   /// Forgets a sheet whose cut was taken back.
@@ -146,8 +155,24 @@ class StrokeCut {
   std::vector<Crossed> waiting_;  // crossings of what reaches on that nothing has reached yet
   double spacing_ = 0.0;
   bool must_finish_ = false, keeps_pieces_ = false;
-  std::uint32_t tag_ = 1, step_ = 0;
+  StrokeTags tags_;
+  std::uint32_t step_ = 0;
   std::uint32_t first_look_ = 0;  // the first of the steps that look at the current strip
 };
 
-}  // namespace incise::inline v0
+class StrokeCut::Pause {
+ private:
+  friend class StrokeCut;
+  ClosedComplex::Image complex_;
+  OwnSheet sheet_;
+  ContactWalk::Memory walk_;
+  std::vector<VertexId> coincident_;
+  std::vector<OnVertex> on_;
+  std::vector<Crossed> waiting_;
+  double spacing_ = 0.0;
+  bool must_finish_ = false, keeps_pieces_ = false;
+  std::uint32_t first_tag_ = 1;
+};
+
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The edges of some boundary sides, each with the sides that have it. Reusable: `clear` keeps the memory.
 class SurfaceEdges {
@@ -70,4 +71,5 @@ class SurfaceEdges {
   std::vector<std::uint32_t> slots_, taken_;  // 0 empty, 1 + edge; the slots that are not
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "incise/geom/closest.h"
 #include "incise/mesh/bounds.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -146,4 +147,5 @@ void SurfaceIndex::insert(std::uint32_t& head, Side side) {
   head = entry;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

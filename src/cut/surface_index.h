@@ -8,7 +8,8 @@
 #include "incise/mesh/journal_cursor.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Finds boundary sides near a place in the rest shape: a grid of cells, about as large as a few elements.
 ///
@@ -129,4 +130,5 @@ void for_each_side_near(const TetMesh& mesh, const SurfaceIndex& index, const st
   for_each_side_near(mesh, index, {middle, b, c}, visit, depth + 1);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -372,4 +373,5 @@ void Sheet::find_normals() {
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

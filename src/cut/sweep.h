@@ -7,7 +7,8 @@
 #include "incise/geom/predicates.h"
 #include "incise/geom/triangle_tree.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// One triangle of a swept surface.
 struct SweptTriangle {
@@ -88,4 +89,5 @@ class Sheet {
   Vec3 mean_normal_ = Vec3::Zero();
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

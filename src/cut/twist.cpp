@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -67,4 +68,5 @@ Stroke with_divided_edge(const Stroke& stroke, double tolerance) {
   return divided;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

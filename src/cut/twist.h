@@ -6,7 +6,8 @@
 
 #include "incise/cut/stroke.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A row whose segments are divided at shares of their lengths, the last one of each 1.
 [[nodiscard]] std::vector<Vec3> divided(std::span<const Vec3> row, const std::vector<std::vector<double>>& shares);
@@ -39,4 +40,5 @@ class EdgeDivision {
 /// A stroke with points added to its edge, so that what it sweeps is smooth all along. `stroke` must pass `check`.
 [[nodiscard]] Stroke with_divided_edge(const Stroke& stroke, double tolerance);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

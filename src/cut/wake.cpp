@@ -5,7 +5,8 @@
 
 #include "incise/geom/box.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -93,4 +94,5 @@ std::size_t Wake::let_go(ClosedComplex& complex) {
   return count;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

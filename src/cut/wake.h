@@ -7,7 +7,8 @@
 #include "cut/closed_complex.h"
 #include "incise/geom/intersect.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// What the front of a blade leaves behind it: which masters of its sheet are to be settled, and which let go.
 ///
@@ -45,4 +46,5 @@ class Wake {
   std::uint32_t round_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

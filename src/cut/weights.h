@@ -4,7 +4,8 @@
 #include <array>
 #include <cstddef>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Barycentric weights of at least `margin` each, which is less than 1 / N; what the others give for it, they give in
 /// proportion to what they have beyond it.
@@ -18,4 +19,5 @@ std::array<double, N> kept_off(std::array<double, N> weights, double margin) {
   return weights;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

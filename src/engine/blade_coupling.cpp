@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 namespace {
@@ -269,4 +270,5 @@ HapticSnapshot BladeCoupling::snapshot(const DeformableBody& body, const TetMesh
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

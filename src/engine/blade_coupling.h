@@ -11,7 +11,8 @@
 #include "incise/sim/body.h"
 #include "incise/sim/tissue_point.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// The cutting edge in tissue that bears a force before it is cut.
@@ -81,4 +82,5 @@ class BladeCoupling {
 };
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

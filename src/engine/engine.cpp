@@ -7,10 +7,12 @@
 #include <string>
 #include <utility>
 
-#include "incise/improve/paper_maintenance.h"
 #include "incise/mesh/bounds.h"
+#include "incise/paper/paper_cut.h"
+#include "incise/paper/paper_maintenance.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -24,6 +26,9 @@ void tell(const LogSink& log, const CutStatistics& cut) {
                                 " edges were left whole beside flat tets: the parts may hang together there");
   }
 }
+
+/// So many strokes can be gone on from after undo: each keeps its band and what it swept.
+constexpr std::size_t kKeptContinuations = 16;
 
 std::uint32_t highest_tag(const TetMesh& mesh) {
   std::uint32_t highest = 0;
@@ -56,7 +61,7 @@ Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
 Engine::Engine(TetMesh mesh, EngineOptions options)
     : mesh_(std::move(mesh)),
       options_(std::move(options)),
-      cutter_(options_.cut, options_.threads),
+      cutter_(options_.cut),
       maintainer_(options_.maintain),
       earlier_strokes_(highest_tag(mesh_)),
       rest_box_(rest_bounds(mesh_)),
@@ -76,7 +81,9 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
   report.stroke = next_stroke();
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first_step = journal_.position();
-  Result<CutStatistics> cut = cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
+  Result<CutStatistics> cut = is_paper()
+                                  ? cut_as_paper(mesh_, journal_, stroke, report.stroke, options_.threads, report.times)
+                                  : cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
   if (!cut) {
     forget_lost_redo();
     return cut.error();
@@ -180,7 +187,13 @@ Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
   open_.first_step = journal_.position();
   open_.poses = {pose};
   maintainer_.begin_reference(open_.report.stroke);
-  if (!is_paper()) {
+  if (!operations_.empty()) {
+    const Continuation& last = operations_.back().continuation;
+    const bool goes_on =
+        last.pause && cutter_.may_go_on(mesh_, journal_, *last.pause, last.first_step, pose.edge, has_moved_);
+    if (goes_on) open_.from = last;
+  }
+  if (!is_paper() && !open_.from.pause) {
     cutter_.begin(mesh_, journal_, pose.edge, has_moved_, open_.report.stroke);
   }
   is_in_stroke_ = true;
@@ -207,6 +220,7 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first_step = journal_.position();
   StepReport report;
+  go_on_from_last_stroke();
   maintain_between_sheets(report.maintain, report.times);
   Result<CutStatistics> cut = cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
   if (!cut) {
@@ -226,6 +240,15 @@ Result<StepReport> Engine::step(const BladePose& pose) {
   open_.report.times += report.times;
   open_.report.step_ms.push_back(milliseconds_since(start));
   return report;
+}
+
+/// Before its first step a stroke that starts where the last one ended takes over the cut.
+void Engine::go_on_from_last_stroke() {
+  if (!open_.from.pause) return;
+  const Continuation from = std::exchange(open_.from, {});
+  if (!cutter_.go_on(mesh_, journal_, *from.pause, from.first_step, has_moved_, open_.report.stroke)) {
+    cutter_.begin(mesh_, journal_, open_.poses.front().edge, has_moved_, open_.report.stroke);
+  }
 }
 
 /// Where the blade comes back to what it cut, it must find the mesh in shape: what it crosses twice would be slivers.
@@ -266,14 +289,19 @@ Result<StrokeReport> Engine::end_stroke() {
     return abort_stroke(first_step, status.error());
   }
   is_in_stroke_ = false;
-  push_operation(true);
+  push_operation(true, std::move(open_.to));
   tell(options_.log, open_.report.cut);
   return std::move(open_.report);
 }
 
 /// Cuts to where the blade was last, and maintains what is left.
 Status Engine::close_stroke() {
+  if (open_.from.pause) {  // it took no step
+    open_.to = open_.from;
+    return {};
+  }
   const std::size_t first_step = journal_.position();
+  open_.to = {cutter_.pause(mesh_), first_step};
   maintain_between_sheets(open_.report.maintain, open_.report.times);
   Result<CutStatistics> cut = cutter_.end(mesh_, journal_, open_.report.times);
   if (!cut) {
@@ -397,8 +425,11 @@ Result<MaintainReport> Engine::improve(const ShouldStop& should_stop) {
   return report;
 }
 
-void Engine::push_operation(bool is_stroke) {
-  operations_.push_back({journal_.position(), is_stroke});
+void Engine::push_operation(bool is_stroke, Continuation continuation) {
+  operations_.push_back({journal_.position(), is_stroke, std::move(continuation)});
+  if (operations_.size() > kKeptContinuations) {
+    operations_[operations_.size() - kKeptContinuations - 1].continuation = {};
+  }
   undone_.clear();
   stroke_count_ += is_stroke ? 1U : 0U;
   trim_history();
@@ -463,4 +494,5 @@ bool Engine::redo() {
   return true;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 #include "engine/wall_area.h"
 #include "incise/core/hash.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -274,7 +275,7 @@ Status Simulation::State::cut(const FrameInput& input, FrameReport& report) {
   told.times += step->times;
   if (!coupling.resists()) return {};
   const StageZone zone(report.times, Stage::kCollision);
-  coupling.pay_for(detail::wall_growth(engine.journal(), first_step, engine.mesh(), engine.next_stroke()));
+  coupling.pay_for(detail::wall_growth(engine.journal(), first_step, engine.mesh()));
   coupling.take_hold(engine.mesh(), fresh_tets(engine.journal(), first_step));
   report.blade = coupling.state();
   return {};
@@ -399,4 +400,5 @@ std::uint64_t Simulation::hash() const {
   return hash.value();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

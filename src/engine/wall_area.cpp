@@ -6,16 +6,17 @@
 
 #include "incise/mesh/tet_tables.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 namespace {
 
-/// Half the area of a tet's sides that are walls of the stroke: the other half is across the wound.
-double wall_share(const TetMesh& mesh, const TetVertices& vertices, const TetLinks& links, std::uint32_t stroke) {
+/// Half the area of a tet's sides that are walls of cuts: the other half is across the wound.
+double wall_share(const TetMesh& mesh, const TetVertices& vertices, const TetLinks& links) {
   double area = 0;
   for (unsigned side = 0; side < 4; ++side) {
-    if (!links[side].is_boundary() || links[side].tag() != stroke) continue;
+    if (!links[side].is_boundary() || links[side].tag() == 0) continue;
     const auto& [a, b, c] = kSideCorners[side];
     const Vec3& p = mesh.rest(vertices[a]);
     area += 0.25 * (mesh.rest(vertices[b]) - p).cross(mesh.rest(vertices[c]) - p).norm();
@@ -25,7 +26,7 @@ double wall_share(const TetMesh& mesh, const TetVertices& vertices, const TetLin
 
 }  // namespace
 
-double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh& mesh, std::uint32_t stroke) {
+double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh& mesh) {
   std::vector<const TetImage*> before;  // as they were before the first step that touched them
   std::vector<TetId> touched, made;     // by the steps themselves: these had no wall before them
   for (std::size_t i = first_step; i < journal.position(); ++i) {
@@ -47,17 +48,18 @@ double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh
 
   double growth = 0;
   for (const TetId id : touched) {
-    if (mesh.is_live(id)) growth += wall_share(mesh, mesh.vertices(id), mesh.links(id), stroke);
+    if (mesh.is_live(id)) growth += wall_share(mesh, mesh.vertices(id), mesh.links(id));
   }
   std::sort(made.begin(), made.end(), is_lower);
   const auto was_new = [&](TetId id) { return std::binary_search(made.begin(), made.end(), id, is_lower); };
   for (const TetImage* image : before) {
     if (image->vertices[0].is_valid() && !was_new(image->id)) {
-      growth -= wall_share(mesh, image->vertices, image->links, stroke);
+      growth -= wall_share(mesh, image->vertices, image->links);
     }
   }
   return growth;
 }
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

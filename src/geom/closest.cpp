@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -64,4 +65,5 @@ ClosestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, co
   return border.distance2 <= face.distance2 ? border : face;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

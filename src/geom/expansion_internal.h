@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstddef>
 
-namespace incise::inline v0::detail {
+namespace incise {
+inline namespace v0 {
+namespace detail {
 
 /// A rounded result and what rounding lost.
 struct TwoTerm {
@@ -142,4 +144,6 @@ Expansion<4 * N> multiply(const Expansion<N>& e, const Expansion<2>& f) {
   return f.size() == 1 ? add(low, Expansion<2 * N>()) : add(low, scale(e, f[1]));
 }
 
-}  // namespace incise::inline v0::detail
+}  // namespace detail
+}  // namespace v0
+}  // namespace incise

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/geom/intersect.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -50,4 +51,5 @@ bool triangles_cross(const Triangle& first, const Triangle& second) {
   return has_crossing_edge(first, sides_of_first, second) || has_crossing_edge(second, sides_of_second, first);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 
 #include "geom/expansion_internal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace detail {
 
@@ -187,4 +188,5 @@ int orient3d_sos_tie(const SosPoint& a, const SosPoint& b, const SosPoint& c, co
   return parity;  // not reached: the last minor is constant
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

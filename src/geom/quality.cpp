@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -90,4 +91,5 @@ double mean_ratio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return std::cbrt(mean_ratio_cubed(a, b, c, d));
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "incise/geom/closest.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -149,4 +150,5 @@ TriangleTree::Hit TriangleTree::closest(const Vec3& point, double max_distance) 
   return best.is_valid() ? best : Hit();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

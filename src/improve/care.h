@@ -13,7 +13,8 @@
 #include "incise/mesh/star.h"
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// What the operations of maintenance work with: one mesh under one open transaction.
 struct Care {
@@ -82,4 +83,5 @@ inline double worst_of(Care& care, const std::vector<TetId>& tets) {
 /// Whether a tet stands deformed without being inverted; true at rest.
 bool is_sound_now(const TetMesh& mesh, const TetVertices& vertices);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "improve/smooth.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -202,4 +203,5 @@ bool CloseMerger::carry_out(Care& care, const Vec3& place) {
   return true;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

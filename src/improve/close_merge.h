@@ -8,7 +8,8 @@
 #include "improve/care.h"
 #include "incise/mesh/collapse.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Merges two vertices that lie so close to each other that what tells them apart does not matter: corners, ends of
 /// fronts, a vertex of a crease and one of a cut beside it. Keeps scratch memory.
@@ -54,4 +55,5 @@ class CloseMerger {
   Piece before_, after_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

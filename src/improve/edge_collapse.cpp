@@ -7,7 +7,8 @@
 #include "improve/smooth.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -338,4 +339,5 @@ bool EdgeCollapser::carry_out(Care& care) {
   return true;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "improve/care.h"
 #include "incise/mesh/collapse.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Merges a vertex into a neighbour where that makes the worst tet around better. Keeps scratch memory.
 class EdgeCollapser {
@@ -68,4 +69,5 @@ class EdgeCollapser {
   std::vector<VertexId> neighbours_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "improve/surfaces.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -190,4 +191,5 @@ bool FaceRemover::try_face(Care& care, Side face) {
   return true;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

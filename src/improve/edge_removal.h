@@ -7,7 +7,8 @@
 #include "improve/care.h"
 #include "incise/mesh/remesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Swaps edges and faces away where that makes the worst tet around better. Keeps scratch memory.
 class EdgeRemover {
@@ -56,4 +57,5 @@ class FaceRemover {
 /// Whether tets that stand upright now give way to such: true at rest.
 bool keeps_current(const TetMesh& mesh, const RemeshPlan& plan);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

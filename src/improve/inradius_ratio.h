@@ -8,7 +8,8 @@
 #include "incise/mesh/defects.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// 2√6, the L/r of the regular tet.
 inline constexpr double kRegularLr = 4.898979485566356;
@@ -39,4 +40,5 @@ inline double inradius_ratio_with(const TetMesh& mesh, TetId tet, VertexId verte
   return inradius_ratio(at(0), at(1), at(2), at(3));
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -290,4 +291,5 @@ bool VertexInserter::carry_out(Care& care) {
   return true;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

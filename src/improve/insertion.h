@@ -7,7 +7,8 @@
 #include "improve/smooth.h"
 #include "incise/mesh/remesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Puts a vertex in where nothing else makes a bad tet better. Keeps scratch memory.
 class VertexInserter {
@@ -68,4 +69,5 @@ class VertexInserter {
   RemeshPlan plan_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

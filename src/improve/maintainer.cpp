@@ -16,7 +16,8 @@
 #include "improve/smooth.h"
 #include "improve/split_trial.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -597,4 +598,5 @@ void Maintainer::forget(std::size_t position) {
   queue_->forget(position);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

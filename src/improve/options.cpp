@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/improve/options.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 MaintainStatistics& MaintainStatistics::operator+=(const MaintainStatistics& other) {
   work_units += other.work_units;
@@ -28,4 +29,5 @@ MaintainStatistics& MaintainStatistics::operator-=(const MaintainStatistics& par
   return *this;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

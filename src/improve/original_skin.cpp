@@ -7,7 +7,8 @@
 
 #include "incise/mesh/tet_tables.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -240,4 +241,5 @@ bool OriginalSkin::keeps(const Piece& before, const Piece& after, double share) 
   return are_covered;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -13,7 +13,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// However often it is maintained, skin leaves its place by at most this share of the local edge; by more where seams
 /// are thinned out, and to mend bad tets. Later cuts make edges shorter: of those it may be a few times as much.
@@ -101,4 +102,5 @@ class OriginalSkin {
   StarWalker walker_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "improve/edge_removal.h"
 #include "improve/smooth.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -190,4 +191,5 @@ void Peeler::take_away(Care& care) {
   ++care.statistics.peeled_tets;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

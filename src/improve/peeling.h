@@ -6,7 +6,8 @@
 #include "improve/care.h"
 #include "incise/mesh/remesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Takes bad tets away that lie flat on a surface. Keeps scratch memory.
 class Peeler {
@@ -38,4 +39,5 @@ class Peeler {
   RemeshPlan plan_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/geom/closest.h"
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A triangle of a surface, by its corners.
 using Facet = std::array<Vec3, 3>;
@@ -50,4 +51,5 @@ inline Box box_of(const Facet& f) {
   return {f[0].cwiseMin(f[1]).cwiseMin(f[2]), f[0].cwiseMax(f[1]).cwiseMax(f[2])};
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -138,4 +139,5 @@ bool References::allows(std::uint32_t tag, const Piece& before, const Piece& aft
   });
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

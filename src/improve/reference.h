@@ -13,7 +13,8 @@
 #include "incise/geom/triangle_tree.h"
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Cut walls leave their place by at most this share of the local edge.
 inline constexpr double kWallTolerance = 0.012;
@@ -78,4 +79,5 @@ class References {
   OriginalSkin skin_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "incise/geom/predicates.h"
 #include "incise/geom/quality.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -317,4 +318,5 @@ void Smoother::collect_pieces(const Care& care, VertexId vertex, const Vec3& pla
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "improve/care.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The shape of a star as a function of the place of its centre: Σ 1/q⁶ over its tets, q their mean ratio; infinite
 /// where a tet has no positive volume. With the other vertices fixed the volume is linear and Σ l² quadratic, so that a
@@ -86,4 +87,5 @@ bool may_move(const TetMesh& mesh, VertexId vertex, const Vec3& place, const std
 /// nothing, where a tet would stand inverted that does not now.
 bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vector<TetId>& star);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

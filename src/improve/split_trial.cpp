@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -123,4 +124,5 @@ SplitTrial::Waiting SplitTrial::find_worst(const TetMesh& mesh) {
   return worst;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "improve/smooth.h"
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Mends bad tets that no single operation makes better: what a split makes is worse at first, and better in the end.
 /// Keeps scratch memory.
@@ -52,4 +53,5 @@ class SplitTrial {
   std::uint64_t last_unit_ = 0;  // of work, in this trial
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

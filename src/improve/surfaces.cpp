@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -181,4 +182,5 @@ bool keeps_front(const TetMesh& mesh, const Vec3& place, const VertexSurfaces& s
   return chord.cross(arm).squaredNorm() <= tolerance * tolerance * chord.squaredNorm();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A smooth part of a boundary, or of a border between regions, as one of its vertices sees it.
 struct SurfaceAt {
@@ -86,4 +87,5 @@ bool find_volume_step(const VertexSurfaces& surfaces, const std::array<double, 2
 /// between its neighbours there.
 bool keeps_front(const TetMesh& mesh, const Vec3& place, const VertexSurfaces& surfaces, double tolerance);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "incise/core/id.h"
 #include "io/reader.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -233,4 +234,5 @@ bool read_abaqus(Job& job) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

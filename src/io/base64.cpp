@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -90,4 +91,5 @@ void append_base64(std::string& out, std::string_view bytes) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

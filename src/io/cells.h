@@ -9,7 +9,8 @@
 
 #include "io/reader.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// Numbers of cells as files hold them; those that do not fit become -1, which no cell may hold.
@@ -63,4 +64,5 @@ class CellSorter {
 };
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

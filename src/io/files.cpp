@@ -10,7 +10,8 @@
 #include "io/gzip.h"
 #include "io/text.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -135,4 +136,5 @@ Extension extension_of(const fs::path& path) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -13,7 +13,8 @@
 #include "incise/core/result.h"
 #include "incise/io/mesh_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// All bytes of a file, as they are.
@@ -54,4 +55,5 @@ Result<T> guarded(const std::string& name, const Body& body) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

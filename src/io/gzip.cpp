@@ -8,7 +8,8 @@
 #include <limits>
 #endif
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 bool is_gzip(std::string_view bytes) {
@@ -165,4 +166,5 @@ bool gzip(std::string_view, std::string&) {
 #endif
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

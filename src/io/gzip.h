@@ -6,7 +6,8 @@
 #include <string>
 #include <string_view>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// No deflate stream grows by more than this factor; a header that promises more lies.
@@ -31,4 +32,5 @@ inline constexpr std::uint64_t kMaxInflation = 1040;
 [[nodiscard]] bool has_gzip();
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

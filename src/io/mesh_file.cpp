@@ -11,7 +11,8 @@
 #include "io/gzip.h"
 #include "io/reader.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -218,4 +219,5 @@ Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& 
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

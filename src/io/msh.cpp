@@ -9,7 +9,8 @@
 #include "incise/core/id.h"
 #include "io/reader.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -579,4 +580,5 @@ bool read_msh(Job& job) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "io/reader.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -263,4 +264,5 @@ bool read_ply_tets(Job& job) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

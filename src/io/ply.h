@@ -10,7 +10,8 @@
 #include "incise/geom/vec.h"
 #include "io/text.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// What is of use in a PLY file.
@@ -26,4 +27,5 @@ struct PlyContent {
 bool read_ply(std::string_view bytes, const std::string& name, Error& error, PlyContent& out);
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

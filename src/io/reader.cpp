@@ -6,7 +6,8 @@
 
 #include "incise/core/id.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -141,4 +142,5 @@ bool parse_suffix(std::string_view text, std::string_view prefix, std::int32_t& 
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

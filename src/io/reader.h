@@ -13,7 +13,8 @@
 #include "incise/io/mesh_file.h"
 #include "io/text.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// One file being read: its bytes, and the mesh or the error that comes out.
@@ -94,4 +95,5 @@ class IdMap {
 [[nodiscard]] bool parse_suffix(std::string_view text, std::string_view prefix, std::int32_t& out);
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -12,7 +12,8 @@
 #include "io/reader.h"
 #include "io/text.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -327,4 +328,5 @@ std::size_t weld(SurfaceSoup& surface) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include "incise/core/id.h"
 #include "io/reader.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -222,4 +223,5 @@ bool read_tetgen(Job& job) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -258,4 +259,5 @@ bool Cursor::fail_at(std::size_t pos, const std::string& what) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

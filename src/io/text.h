@@ -8,7 +8,8 @@
 
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// Parse all of `token` as a decimal number, correctly rounded, in any locale.
@@ -95,4 +96,5 @@ class Cursor {
 };
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

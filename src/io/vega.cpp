@@ -6,7 +6,8 @@
 #include "incise/core/id.h"
 #include "io/reader.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -220,4 +221,5 @@ bool read_vega(Job& job) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

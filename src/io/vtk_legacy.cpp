@@ -6,7 +6,8 @@
 
 #include "io/cells.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -382,4 +383,5 @@ bool read_vtk(Job& job) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -15,7 +15,8 @@
 #include "io/cells.h"
 #include "io/gzip.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -342,11 +343,13 @@ bool read_vtu(Job& job) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise
 
 #else
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 bool read_vtu(Job& job) {
@@ -354,6 +357,7 @@ bool read_vtu(Job& job) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise
 
 #endif

@@ -13,7 +13,8 @@
 #include "io/gzip.h"
 #include "io/text.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 namespace {
 
@@ -576,4 +577,5 @@ Status write_mesh(const std::filesystem::path& path, const MeshData& data) {
 }
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

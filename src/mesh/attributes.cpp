@@ -10,7 +10,8 @@
 #include <string>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -928,4 +929,5 @@ void Attributes::recompute(const TetMesh& mesh, Domain domain, std::uint32_t slo
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/mesh/bounds.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 Box rest_bounds(const TetMesh& mesh) {
   Box box;
@@ -11,4 +12,5 @@ Box rest_bounds(const TetMesh& mesh) {
   return box;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "incise/geom/predicates.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -235,4 +236,5 @@ void apply(Transaction& transaction, const CollapsePlan& plan) {
   Collapser(transaction, plan).run();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

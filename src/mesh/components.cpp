@@ -3,7 +3,8 @@
 
 #include "mesh/sum_internal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace {
 
 // Labels everything that `seed` reaches through faces. `pending` is scratch.
@@ -45,4 +46,5 @@ Components find_components(const TetMesh& mesh) {
   return found;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,7 +11,8 @@
 
 #include "incise/geom/predicates.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace {
 
 using Tet = std::array<std::uint32_t, 4>;
@@ -330,4 +331,5 @@ Normalised normalise(TetSoup& soup) {
   return done;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

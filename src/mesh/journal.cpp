@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 void Journal::append(Step step) {
   steps_.resize(position_ - first_);
@@ -160,4 +161,5 @@ void Journal::count_change(bool was_live, bool is_live, std::size_t& live, std::
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "incise/mesh/defects.h"
 #include "mesh/sum_internal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace {
 
 constexpr double kBadRatio = 200;  // the paper's limit for a tet fit to simulate
@@ -92,4 +93,5 @@ bool touches_cut(const TetMesh& mesh, TetId tet) {
   return false;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

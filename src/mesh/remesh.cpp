@@ -8,7 +8,8 @@
 #include "incise/geom/predicates.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -235,4 +236,5 @@ void apply(Transaction& transaction, const RemeshPlan& plan, std::vector<TetId>&
   Remesher(transaction, plan, produced).run();
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

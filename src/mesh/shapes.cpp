@@ -7,7 +7,8 @@
 
 #include "incise/mesh/tet_tables.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace {
 
 using Cell = std::array<std::uint32_t, 3>;
@@ -129,4 +130,5 @@ void jitter(TetSoup& soup, double fraction, std::uint64_t seed) {
   }
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "incise/geom/predicates.h"
 #include "incise/mesh/validate.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -204,4 +205,5 @@ StepCheck default_step_check() {
 #endif
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace detail {
 
 /// A sum whose rounding error does not grow with the number of terms (Neumaier's compensation).
@@ -22,4 +23,5 @@ class Sum {
 };
 
 }  // namespace detail
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -16,7 +16,8 @@
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -499,4 +500,5 @@ std::size_t TetMesh::memory_bytes() const {
          (free_tets_.size() + free_vertices_.size()) * sizeof(std::uint32_t);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -63,10 +64,14 @@ std::uint32_t Transaction::take_tet_slot() {
       step_.before.free_tets.push_back(slot);
     }
   }
-  tet_mark_.ensure(std::size_t{slot} + 1);
-  tet_mark_[slot] = kFirstNew + static_cast<std::uint32_t>(step_.new_tets.size());
-  step_.new_tets.push_back(TetId(slot));
+  note_taken(TetId(slot));
   return slot;
+}
+
+void Transaction::note_taken(TetId tet) {
+  tet_mark_.ensure(std::size_t{tet.value} + 1);
+  tet_mark_[tet.value] = kFirstNew + static_cast<std::uint32_t>(step_.new_tets.size());
+  step_.new_tets.push_back(tet);
 }
 
 std::uint32_t Transaction::take_vertex_slot() {
@@ -89,26 +94,67 @@ std::uint32_t Transaction::take_vertex_slot() {
       step_.before.free_vertices.push_back(slot);
     }
   }
-  vertex_mark_.ensure(std::size_t{slot} + 1);
-  vertex_mark_[slot] = kFirstNew + static_cast<std::uint32_t>(step_.new_vertices.size());
-  step_.new_vertices.push_back(VertexId(slot));
+  note_taken(VertexId(slot));
   ++mesh_.live_vertices_;
   return slot;
 }
 
+void Transaction::note_taken(VertexId vertex) {
+  vertex_mark_.ensure(std::size_t{vertex.value} + 1);
+  vertex_mark_[vertex.value] = kFirstNew + static_cast<std::uint32_t>(step_.new_vertices.size());
+  step_.new_vertices.push_back(vertex);
+}
+
+/// Takes a slot out of the middle of a free list; what stood above it, as it was, goes to `before`, the highest first.
+void Transaction::take_free_slot(std::uint32_t slot, GrowArray<std::uint32_t>& free, std::size_t& common,
+                                 std::vector<std::uint32_t>& before) {
+  std::size_t at = free.size();
+  while (free[--at] != slot) assert(at > 0);
+  while (common > at) before.push_back(free[--common]);
+  std::copy(free.begin() + at + 1, free.end(), free.begin() + at);
+  free.pop_back();
+}
+
+void Transaction::revive_tet(const TetImage& image, TetId parent) {
+  take_free_slot(image.id.value, mesh_.free_tets_, step_.free_tets_common, step_.before.free_tets);
+  note_taken(image.id);
+  mesh_.tet_vertices_[image.id] = image.vertices;
+  mesh_.tet_links_[image.id] = {};
+  mesh_.tet_region_[image.id] = image.region;
+  parents_.push_back(parent);
+  ++mesh_.live_tets_;
+}
+
+void Transaction::revive_vertex(const VertexImage& image, std::span<const VertexId> parents,
+                                std::span<const double> weights, const Vec3& current) {
+  take_free_slot(image.id.value, mesh_.free_vertices_, step_.free_vertices_common, step_.before.free_vertices);
+  note_taken(image.id);
+  ++mesh_.live_vertices_;
+  mesh_.rest_[image.id] = image.rest;
+  mesh_.current_[image.id] = current;
+  mesh_.vertex_tet_[image.id] = image.tet;
+  mesh_.vertex_origin_[image.id] = image.origin;
+  mesh_.vertex_shape_[image.id] = image.shape;
+  record_born(image.id, parents, weights);
+}
+
+void Transaction::record_born(VertexId id, std::span<const VertexId> parents, std::span<const double> weights) {
+  assert(parents.size() == weights.size() && !parents.empty() && parents.size() <= 4);
+  BornVertex record{id, {}, {}, mesh_.rest_[id], mesh_.current_[id]};
+  std::copy(parents.begin(), parents.end(), record.parents.begin());
+  std::copy(weights.begin(), weights.end(), record.weights.begin());
+  step_.born.push_back(record);
+}
+
 VertexId Transaction::add_vertex(std::span<const VertexId> parents, std::span<const double> weights, const Vec3& rest,
                                  const Vec3& current) {
-  assert(parents.size() == weights.size() && !parents.empty() && parents.size() <= 4);
   const VertexId id(take_vertex_slot());
   mesh_.rest_[id] = rest;
   mesh_.current_[id] = current;
   mesh_.vertex_tet_[id] = TetId();
   mesh_.vertex_origin_[id] = VertexId();
   mesh_.vertex_shape_[id] = 0;
-  BornVertex record{id, {}, {}, rest, current};
-  std::copy(parents.begin(), parents.end(), record.parents.begin());
-  std::copy(weights.begin(), weights.end(), record.weights.begin());
-  step_.born.push_back(record);
+  record_born(id, parents, weights);
   return id;
 }
 
@@ -345,4 +391,5 @@ void Transaction::rollback() {
   journal.undo(mesh_);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/mesh/star.h"
 #include "mesh/sum_internal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace {
 
 constexpr std::array<std::string_view, kViolationKinds> kNames = {"count",
@@ -343,4 +344,5 @@ ValidityChange compare_with_input(const ValidityReport& before, const ValidityRe
   return change;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "incise/geom/predicates.h"
 #include "incise/mesh/star.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace {
 
@@ -420,4 +421,5 @@ void apply(Transaction& transaction, const MoveVertexPlan& plan) {
   transaction.move(plan.vertex, plan.rest, plan.basis, plan.weights);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

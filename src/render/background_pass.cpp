@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "background_pass.h"
+#include "render/background_pass.h"
 
 #include <epoxy/gl.h>
 
-#include "full_screen.h"
-#include "ink_style.h"
+#include "render/full_screen.h"
+#include "render/ink_style.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -40,4 +41,5 @@ void BackgroundPass::draw(app::Theme theme) const {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "canvas.h"
+#include "render/canvas.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -114,4 +115,5 @@ void Canvas::show(unsigned framebuffer) const {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

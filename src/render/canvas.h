@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gl_object.h"
-#include "incise/app/camera.h"
+#include "app/view/camera.h"
+#include "render/gl_object.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Where a picture is drawn before it is shown: colour and depth with several samples per pixel, and one of each.
@@ -39,4 +40,5 @@ class Canvas {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gl_object.h"
+#include "render/gl_object.h"
 
 #include <epoxy/gl.h>
 
 #include <array>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -105,4 +106,5 @@ Status check_gl(std::string_view doing) {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

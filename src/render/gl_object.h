@@ -8,7 +8,8 @@
 
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// An object of OpenGL, deleted with its owner.
@@ -52,4 +53,5 @@ GlObject make_vertex_array();
 [[nodiscard]] Status check_gl(std::string_view doing);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

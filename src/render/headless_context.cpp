@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/headless_context.h"
+#include "render/headless_context.h"
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -11,7 +11,8 @@
 #include <initializer_list>
 #include <string_view>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -144,4 +145,5 @@ bool HeadlessContext::is_software() const {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/image.h"
+#include "render/image.h"
 
 #include <zlib.h>
 
@@ -40,9 +40,10 @@ unsigned char* pack(unsigned char* data, int size, int* packed_size, int /*level
 #include <memory>
 #include <string>
 
-#include "incise/app/text_file.h"
+#include "app/text/text_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -162,4 +163,5 @@ bool is_blank(const Image& image) {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

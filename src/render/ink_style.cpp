@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ink_style.h"
+#include "render/ink_style.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -67,4 +68,5 @@ Grounds grounds_of(app::Theme theme) {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

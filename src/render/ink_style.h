@@ -5,9 +5,10 @@
 #include <array>
 #include <cstddef>
 
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Numbers that the shaders know, too.
@@ -41,4 +42,5 @@ struct Grounds {
 [[nodiscard]] Grounds grounds_of(app::Theme theme);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "marks_pass.h"
+#include "render/marks_pass.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 #include <cstddef>
 
-#include "ink_style.h"
-#include "marks_shaders.h"
-#include "stop_watch.h"
+#include "render/ink_style.h"
+#include "render/marks_shaders.h"
+#include "render/stop_watch.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -224,4 +225,5 @@ void MarksPass::draw(app::Theme theme, const ViewMatrices& view) const {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

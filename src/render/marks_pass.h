@@ -5,14 +5,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "gl_object.h"
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 #include "incise/core/result.h"
-#include "incise/render/renderer.h"
-#include "mirrored_buffer.h"
-#include "view_matrices.h"
+#include "render/gl_object.h"
+#include "render/mirrored_buffer.h"
+#include "render/renderer.h"
+#include "render/view_matrices.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Lines of any width, balls and translucent triangles beside the surface, and the front edges of its cuts.
@@ -64,4 +65,5 @@ class MarksPass {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

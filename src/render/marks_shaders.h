@@ -2,7 +2,8 @@
 // Text of the shaders that draw lines, balls and translucent triangles.
 #pragma once
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Before each of them. The numbers of patterns are those of ink_style.h.
@@ -210,4 +211,5 @@ void main() {
 )";
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

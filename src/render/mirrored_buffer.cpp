@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirrored_buffer.h"
+#include "render/mirrored_buffer.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 #include <cstring>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 std::size_t MirroredBuffer::update(const void* data, std::size_t count, std::size_t stride) {
@@ -54,4 +55,5 @@ std::size_t MirroredBuffer::replace(const unsigned char* data, std::size_t size)
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

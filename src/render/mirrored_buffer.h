@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "gl_object.h"
+#include "render/gl_object.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Bytes on the graphics processor with a copy here, to upload only what differs.
@@ -39,4 +40,5 @@ class MirroredBuffer {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

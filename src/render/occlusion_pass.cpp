@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "occlusion_pass.h"
+#include "render/occlusion_pass.h"
 
 #include <epoxy/gl.h>
 
-#include "full_screen.h"
+#include "render/full_screen.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -193,4 +194,5 @@ Status OcclusionPass::draw(const Canvas& canvas, const ViewMatrices& view, bool 
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

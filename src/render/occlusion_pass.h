@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "canvas.h"
-#include "gl_object.h"
 #include "incise/core/result.h"
-#include "view_matrices.h"
+#include "render/canvas.h"
+#include "render/gl_object.h"
+#include "render/view_matrices.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Darkens hollows of what was drawn, from its depth, at half the resolution.
@@ -31,4 +32,5 @@ class OcclusionPass {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

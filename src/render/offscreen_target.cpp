@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/offscreen_target.h"
+#include "render/offscreen_target.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 
-#include "gl_object.h"
-#include "viewport_check.h"
+#include "render/gl_object.h"
+#include "render/viewport_check.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 struct OffscreenTarget::State {
@@ -68,4 +69,5 @@ Result<Image> read_framebuffer(unsigned framebuffer, const app::Viewport& viewpo
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

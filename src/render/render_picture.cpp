@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/render_picture.h"
+#include "render/render_picture.h"
 
-#include "incise/render/headless_context.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
+#include "render/headless_context.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 Result<Image> render_picture(const app::Picture& picture, const app::Viewport& viewport, unsigned samples) {
@@ -21,4 +22,5 @@ Result<Image> render_picture(const app::Picture& picture, const app::Viewport& v
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

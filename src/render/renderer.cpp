@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/renderer.h"
+#include "render/renderer.h"
 
 #include <epoxy/gl.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "background_pass.h"
-#include "canvas.h"
-#include "marks_pass.h"
-#include "occlusion_pass.h"
-#include "stop_watch.h"
-#include "surface_pass.h"
-#include "view_matrices.h"
-#include "viewport_check.h"
+#include "render/background_pass.h"
+#include "render/canvas.h"
+#include "render/marks_pass.h"
+#include "render/occlusion_pass.h"
+#include "render/stop_watch.h"
+#include "render/surface_pass.h"
+#include "render/view_matrices.h"
+#include "render/viewport_check.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -207,4 +208,5 @@ unsigned Renderer::samples() const {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

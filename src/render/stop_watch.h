@@ -4,7 +4,8 @@
 #include <ctime>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Processor time of this thread from one lap to the next: what others do on the same core does not count.
@@ -27,4 +28,5 @@ class StopWatch {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface_normals.h"
+#include "render/surface_normals.h"
 
 #include <cmath>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -59,4 +60,5 @@ float SurfaceNormals::length(Four v) {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

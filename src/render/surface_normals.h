@@ -8,7 +8,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Averages the normals of triangles at their points, and keeps its memory from one time to the next.
@@ -41,4 +42,5 @@ class SurfaceNormals {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

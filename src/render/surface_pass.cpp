@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface_pass.h"
+#include "render/surface_pass.h"
 
 #include <epoxy/gl.h>
 
@@ -7,12 +7,13 @@
 #include <array>
 #include <string>
 
-#include "incise/app/color_map.h"
-#include "ink_style.h"
-#include "stop_watch.h"
-#include "surface_shaders.h"
+#include "app/view/color_map.h"
+#include "render/ink_style.h"
+#include "render/stop_watch.h"
+#include "render/surface_shaders.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 namespace {
 
@@ -197,4 +198,5 @@ void SurfacePass::draw_wireframe(const app::ViewOptions& options, const ViewMatr
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,15 +3,16 @@
 
 #include <memory>
 
-#include "gl_object.h"
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 #include "incise/core/result.h"
-#include "incise/render/renderer.h"
-#include "mirrored_buffer.h"
-#include "surface_normals.h"
-#include "view_matrices.h"
+#include "render/gl_object.h"
+#include "render/mirrored_buffer.h"
+#include "render/renderer.h"
+#include "render/surface_normals.h"
+#include "render/view_matrices.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// The triangles of a surface on the graphics processor, and the ways to draw them.
@@ -47,4 +48,5 @@ class SurfacePass {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -2,7 +2,8 @@
 // Text of the shaders that draw the surface. The prelude may define ONLY_SOME (leave triangles out) or WIRE (lines).
 #pragma once
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 inline constexpr const char* kSurfaceVertex = R"(
@@ -106,4 +107,5 @@ void main() {
 )";
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

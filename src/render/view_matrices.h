@@ -3,9 +3,10 @@
 
 #include <Eigen/Core>
 
-#include "incise/app/camera.h"
+#include "app/view/camera.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// A camera as shaders take it.
@@ -17,4 +18,5 @@ struct ViewMatrices {
 };
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

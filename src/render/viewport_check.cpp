@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "viewport_check.h"
+#include "render/viewport_check.h"
 
 #include <epoxy/gl.h>
 
@@ -7,7 +7,8 @@
 #include <array>
 #include <string>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 Status check_viewport(const app::Viewport& viewport) {
@@ -25,4 +26,5 @@ Status check_viewport(const app::Viewport& viewport) {
 }
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

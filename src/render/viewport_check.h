@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "incise/app/camera.h"
+#include "app/view/camera.h"
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace render {
 
 /// Errors: kBadArgument for a size below 1 or above what the current context can draw.
 [[nodiscard]] Status check_viewport(const app::Viewport& viewport);
 
 }  // namespace render
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "app/folder.h"
 #include "handle.h"
+#include "support/folder.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "app/recording/engine_recording.h"
 #include "handle.h"
-#include "incise/app/recording.h"
 
 namespace {
 

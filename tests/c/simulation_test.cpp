@@ -6,9 +6,9 @@
 #include <limits>
 #include <string>
 
+#include "app/scene/scene.h"
+#include "app/scene/scene_simulation.h"
 #include "handle.h"
-#include "incise/app/scene.h"
-#include "incise/app/scene_simulation.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "cut/bodies.h"
 #include "incise/io/mesh_file.h"
+#include "support/bodies.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/folder.h"
+#include "support/folder.h"
 
 namespace incise_test {
 

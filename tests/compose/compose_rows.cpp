@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "geom/random.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <set>
 
-#include "cut/bodies.h"
 #include "cut/flagged_body.h"
-#include "cut/support.h"
 #include "incise/mesh/defects.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <set>
 
-#include "cut/bodies.h"
 #include "cut/strips.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

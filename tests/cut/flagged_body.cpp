@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cut/support.h"
+#include "support/engines.h"
 
 namespace incise::test {
 

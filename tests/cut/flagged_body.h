@@ -2,9 +2,9 @@
 // A body whose edges are crossed, vertices ON and faces pierced at will, without a blade.
 #pragma once
 
-#include "../geom/random.h"
 #include "cut/rebuild.h"
 #include "incise/mesh/journal.h"
+#include "support/random.h"
 
 namespace incise::test {
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "cut/bodies.h"
 #include "cut/flagged_body.h"
 #include "cut/strip_crossing.h"
 #include "cut/strips.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

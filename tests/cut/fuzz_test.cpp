@@ -8,13 +8,13 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/support.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/defects.h"
 #include "oracle/convex_arrangement.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/journal.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

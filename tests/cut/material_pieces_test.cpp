@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "cut/support.h"
 #include "incise/mesh/defects.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -6,11 +6,11 @@
 #include <map>
 #include <string>
 
-#include "cut/bodies.h"
 #include "cut/flagged_body.h"
 #include "cut/piece_finder.h"
-#include "cut/support.h"
 #include "incise/mesh/components.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "../geom/random.h"
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/shapes.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

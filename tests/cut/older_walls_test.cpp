@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cut/bodies.h"
 #include "cut/split_template.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <map>
 
-#include "cut/bodies.h"
 #include "cut/flagged_body.h"
-#include "cut/random_strokes.h"
 #include "cut/star_separation.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

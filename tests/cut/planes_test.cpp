@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <limits>
 
-#include "cut/bodies.h"
-#include "cut/strokes.h"
-#include "cut/support.h"
 #include "incise/geom/predicates.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

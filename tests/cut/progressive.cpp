@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
-#include "cut/strokes.h"
 #include "incise/geom/quality.h"
 #include "incise/geom/triangle_tree.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

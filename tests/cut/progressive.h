@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../../bench/accuracy.h"
-#include "cut/support.h"
+#include "support/engines.h"
 
 namespace incise::test {
 

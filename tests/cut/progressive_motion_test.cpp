@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cut/bodies.h"
 #include "cut/progressive.h"
-#include "cut/random_strokes.h"
-#include "cut/strokes.h"
 #include "incise/mesh/bounds.h"
+#include "support/bodies.h"
+#include "support/random_strokes.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

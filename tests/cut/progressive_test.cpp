@@ -9,8 +9,8 @@
 #include <ostream>
 #include <string>
 
-#include "cut/bodies.h"
-#include "cut/strokes.h"
+#include "support/bodies.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

@@ -8,9 +8,9 @@
 #include <map>
 #include <set>
 
-#include "cut/bodies.h"
 #include "cut/flagged_body.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

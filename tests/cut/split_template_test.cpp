@@ -8,8 +8,8 @@
 #include <numeric>
 #include <set>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

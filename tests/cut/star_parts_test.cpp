@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <set>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/star.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {
@@ -40,7 +40,7 @@ class Middle {
       star.push_back({tet, corner_of(tet), is_new(tet), kInvalidIndex, 0});
       for (unsigned s = 0; s < 4; ++s) turn(transaction, Side(tet, s), opens);
     }
-    const std::uint64_t made = parts_.divide(transaction, complex_, old_, vertex_, star, home, {1, false}).made;
+    const std::uint64_t made = parts_.divide(transaction, complex_, old_, vertex_, star, home, {{1, 1}, false}).made;
     step_ = transaction.commit();
     return made;
   }

@@ -5,9 +5,9 @@
 #include <array>
 #include <map>
 
-#include "cut/edge_table.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/verbs.h"
+#include "paper/cut_edge.h"
 
 namespace incise::test {
 

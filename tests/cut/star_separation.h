@@ -2,7 +2,7 @@
 // An oracle: what comes apart along given faces, told without a closed complex.
 #pragma once
 
-#include "cut/dividable.h"
+#include "paper/dividable.h"
 
 namespace incise::test {
 

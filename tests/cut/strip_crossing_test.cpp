@@ -7,9 +7,9 @@
 #include <map>
 #include <numeric>
 
-#include "cut/bodies.h"
 #include "cut/flagged_body.h"
 #include "cut/strips.h"
+#include "support/bodies.h"
 
 namespace incise::test {
 namespace {

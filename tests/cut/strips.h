@@ -5,8 +5,8 @@
 #include <memory>
 #include <set>
 
-#include "cut/random_strokes.h"
 #include "cut/strip.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 

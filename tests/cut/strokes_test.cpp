@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blades that curve, close, meet themselves, stop inside, stand still or go back.
-#include "cut/strokes.h"
+#include "support/strokes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

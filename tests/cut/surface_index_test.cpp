@@ -7,9 +7,9 @@
 #include <cmath>
 #include <set>
 
-#include "cut/bodies.h"
 #include "cut/flagged_body.h"
-#include "cut/support.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

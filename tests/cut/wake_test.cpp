@@ -8,11 +8,11 @@
 #include <array>
 
 #include "cut/blade_motion.h"
-#include "cut/bodies.h"
 #include "cut/stroke_cut.h"
-#include "cut/support.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

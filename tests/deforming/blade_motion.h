@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "geom/random.h"
 #include "incise/engine/engine.h"
 #include "incise/geom/box.h"
+#include "support/random.h"
 
 namespace incise::test {
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
 #include "deforming/swaying_field.h"
 #include "incise/geom/closest.h"
 #include "incise/mesh/bounds.h"
@@ -17,6 +16,7 @@
 #include "incise/mesh/remesh.h"
 #include "incise/mesh/transaction.h"
 #include "incise/mesh/validate.h"
+#include "support/bodies.h"
 
 namespace incise::test {
 

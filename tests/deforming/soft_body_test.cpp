@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/strokes.h"
-#include "cut/support.h"
 #include "deforming/leak_run.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/random_strokes.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

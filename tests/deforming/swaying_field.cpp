@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "geom/random.h"
+#include "support/random.h"
 
 namespace incise::test {
 

@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "../cut/bodies.h"
-#include "../cut/strokes.h"
 #include "incise/engine/engine.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/validate.h"
 #include "simulated.h"
+#include "support/bodies.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include "../cut/bodies.h"
 #include "incise/engine/simulation.h"
 #include "incise/mesh/validate.h"
+#include "support/bodies.h"
 
 namespace incise::test {
 namespace {

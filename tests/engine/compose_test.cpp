@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/quality_stats.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/strokes.h"
-#include "cut/support.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/random_strokes.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

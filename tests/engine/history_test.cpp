@@ -5,12 +5,12 @@
 #include <limits>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/support.h"
 #include "incise/engine/engine.h"
 #include "incise/mesh/journal_cursor.h"
-#include "mesh/mirror_checks.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/mirror_checks.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/strokes.h"
-#include "cut/support.h"
 #include "incise/mesh/bounds.h"
-#include "mesh/mirror_checks.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/mirror_checks.h"
+#include "support/random_strokes.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

@@ -6,12 +6,12 @@
 #include <functional>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/support.h"
 #include "incise/geom/quality.h"
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/transaction.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/quality_stats.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "app/recording_lines.h"
+#include "app/recording/engine_recording.h"
 
 namespace {
 
@@ -17,7 +17,7 @@ void expect_named(const Error& error) {
 
 void expect_stable(const app::RecordedCall& call) {
   const std::string line = to_line(call);
-  const Result<app::RecordedCall> again = app::parse_call(line, "again.jsonl", call.line);
+  const Result<app::RecordedCall> again = app::EngineCodec::parse_call(line, "again.jsonl", call.line);
   if (!again.ok() || to_line(*again) != line) std::abort();
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/random.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geom/random.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

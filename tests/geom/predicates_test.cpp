@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "geom/random.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geom/random.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/random.h"
 #include "incise/geom/closest.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

@@ -2,8 +2,8 @@
 // What maintenance reaches on the paper's cube of 750 tets, on hard cuts, and over many of them.
 #include <map>
 
-#include "cut/random_strokes.h"
 #include "improve/maintainer_cases.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

@@ -2,9 +2,9 @@
 // Swapping edges and faces away: the best triangulation of a ring, flat boundaries, and fronts.
 #include "improve/edge_removal.h"
 
-#include "cut/random_strokes.h"
 #include "improve/maintainer_cases.h"
 #include "incise/geom/quality.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cstdio>
 
-#include "cut/random_strokes.h"
 #include "improve/maintainer_cases.h"
 #include "improve/skin_drift.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

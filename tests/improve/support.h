@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/strokes.h"
-#include "cut/support.h"
 #include "improve/care.h"
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/verbs.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+cmake_minimum_required(VERSION 3.25)
 set(prefix ${WORK_DIR}/prefix)
 set(consumer_build ${WORK_DIR}/build)
 file(REMOVE_RECURSE ${prefix} ${consumer_build})
@@ -12,11 +13,28 @@ function(run_step what)
 endfunction()
 
 run_step("Install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
+
+# What is installed is what include/ holds, and the version.
+file(GLOB_RECURSE wanted RELATIVE ${SOURCE_DIR}/include ${SOURCE_DIR}/include/*)
+list(APPEND wanted incise/version.h)
+file(GLOB_RECURSE installed RELATIVE ${prefix}/include ${prefix}/include/*)
+foreach(header IN LISTS wanted)
+  if(NOT header IN_LIST installed)
+    message(FATAL_ERROR "include/${header} is not installed")
+  endif()
+endforeach()
+foreach(header IN LISTS installed)
+  if(NOT header IN_LIST wanted)
+    message(FATAL_ERROR "${header} is installed, but not in include/")
+  endif()
+endforeach()
+
 run_step("Configure the consumer" ${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${consumer_build} -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
-  -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DWANTED_VERSION=${VERSION} -DEXAMPLE=${EXAMPLE})
+  -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DINCLUDE_FOLDER=${prefix}/include -DWANTED_VERSION=${VERSION} -DEXAMPLE=${EXAMPLE})
 run_step("Build the consumer" ${CMAKE_COMMAND} --build ${consumer_build})
 run_step("Run the consumer" ${consumer_build}/consumer)
+run_step("Cut a file" ${consumer_build}/cut_a_file ${consumer_build})
 if(EXISTS ${consumer_build}/example)
   run_step("Run the example" ${CMAKE_COMMAND} -E chdir ${consumer_build} ${consumer_build}/example)
 endif()

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "geom/random.h"
 #include "incise/engine/engine.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/verbs.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/strokes.h"
-#include "cut/support.h"
 #include "incise/cut/cutter.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

@@ -13,9 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
-#include "geom/random.h"
 #include "incise/cut/cutter.h"
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/bounds.h"
@@ -23,7 +20,10 @@
 #include "incise/mesh/remesh.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
-#include "mesh/mirror_checks.h"
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/mirror_checks.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {
@@ -342,7 +342,7 @@ class Scene {
   Scene(TetMesh start, std::uint64_t seed)
       : mesh(std::move(start)),
         body(mesh),
-        by_lists_(mirror_of(mesh, JournalMirror::Reading::kLists)),
+        by_lists_(mirror_of(mesh, StepReading::kNet)),
         by_edits_(mirror_of(mesh)),
         random_(seed),
         volume_(volume_of(mesh)),
@@ -484,7 +484,7 @@ TEST(EditProgram, many_steps_at_once_give_what_they_give_one_by_one) {
 
 TEST(EditStep, lists_a_vertex_that_was_born_and_merged_away) {
   TetMesh mesh = build(kuhn_cube(3));
-  JournalMirror mirror = mirror_of(mesh, JournalMirror::Reading::kLists);
+  JournalMirror mirror = mirror_of(mesh, StepReading::kNet);
   Body body(mesh);
   Journal journal;
   Transaction transaction(mesh, true);
@@ -508,7 +508,7 @@ TEST(EditStep, lists_a_vertex_that_was_born_and_merged_away) {
 
 TEST(EditStep, may_name_a_vertex_that_no_edit_put_in) {
   TetMesh mesh = build(kuhn_cube(2));
-  JournalMirror by_lists = mirror_of(mesh, JournalMirror::Reading::kLists), by_edits = mirror_of(mesh);
+  JournalMirror by_lists = mirror_of(mesh, StepReading::kNet), by_edits = mirror_of(mesh);
   Body body(mesh);
   Journal journal;
   const std::uint64_t hash = mesh.hash();

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "mesh/random_step.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "geom/random.h"
 #include "incise/mesh/verbs.h"
+#include "support/random.h"
 
 namespace incise::test {
 

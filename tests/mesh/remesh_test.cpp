@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/cut/cutter.h"
 #include "incise/geom/predicates.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/validate.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

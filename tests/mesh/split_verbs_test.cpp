@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "geom/random.h"
 #include "incise/mesh/journal.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
 #include "incise/mesh/verbs.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

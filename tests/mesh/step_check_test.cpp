@@ -6,10 +6,10 @@
 #include <functional>
 #include <string>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/engine/engine.h"
 #include "mesh/random_step.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

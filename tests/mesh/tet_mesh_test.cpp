@@ -8,10 +8,10 @@
 #include <map>
 #include <set>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/defects.h"
 #include "incise/mesh/star.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/verbs.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "cut/bodies.h"
-#include "cut/support.h"
 #include "incise/mesh/star.h"
+#include "support/bodies.h"
+#include "support/engines.h"
 
 namespace incise::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/headless_context.h"
+#include "render/headless_context.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/image.h"
+#include "render/image.h"
 
 #include <gtest/gtest.h>
 
-#include "app/folder.h"
+#include "support/folder.h"
 
 using incise::ErrorCode;
 using incise::render::Image;

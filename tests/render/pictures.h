@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "incise/app/picture.h"
+#include "app/view/picture.h"
 #include "incise/engine/engine.h"
-#include "incise/render/headless_context.h"
-#include "incise/render/offscreen_target.h"
-#include "incise/render/renderer.h"
+#include "render/headless_context.h"
+#include "render/offscreen_target.h"
+#include "render/renderer.h"
 
 namespace incise_test {
 

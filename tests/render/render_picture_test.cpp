@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures as they looked when somebody last looked at them. INCISE_UPDATE_GOLDEN=1 takes them as they are now.
-#include "incise/render/render_picture.h"
+#include "render/render_picture.h"
 
 #include <gtest/gtest.h>
 

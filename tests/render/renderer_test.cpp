@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/render/renderer.h"
+#include "render/renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "incise/render/image.h"
 #include "pictures.h"
+#include "render/image.h"
 
 using incise::ErrorCode;
 using incise_test::Drawing;

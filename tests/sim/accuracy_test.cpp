@@ -11,7 +11,7 @@
 
 #include "incise/sim/body.h"
 #include "incise/sim/reference.h"
-#include "sim/beam.h"
+#include "support/beam.h"
 
 namespace incise::test {
 namespace {

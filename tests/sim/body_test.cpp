@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "beam.h"
 #include "moving_body.h"
+#include "support/beam.h"
 
 namespace incise::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/coarse_lattice.h"
+#include "sim/body/coarse_lattice.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "geom/random.h"
 #include "incise/sim/body.h"
-#include "sim/beam.h"
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
+#include "support/beam.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/element.h"
+#include "sim/body/element.h"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "../geom/random.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/body.h"
 #include "incise/sim/reference.h"
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

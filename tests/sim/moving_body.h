@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/strokes.h"
 #include "incise/engine/engine.h"
 #include "incise/mesh/bounds.h"
 #include "incise/sim/body.h"
-#include "sim/body_state.h"
+#include "sim/body/body_state.h"
+#include "support/bodies.h"
+#include "support/random_strokes.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 

@@ -7,9 +7,9 @@
 #include <ostream>
 #include <string>
 
-#include "geom/random.h"
 #include "incise/sim/simulated_operator.h"
 #include "sim/haptic_scenes.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything in here lives in a namespace of its own, so that it does not meet the library's kernel at link time.
-#define v0 v0_plain             // NOLINT(readability-identifier-naming): the library's namespace
-#include "sim/star_kernel.cpp"  // NOLINT(bugprone-suspicious-include): the file under test, without Highway
+#define v0 v0_plain                  // NOLINT(readability-identifier-naming): the library's namespace
+#include "sim/body/star_kernel.cpp"  // NOLINT(bugprone-suspicious-include): the file under test, without Highway
 #undef v0
 
 #include "plain_kernel.h"

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "../geom/random.h"
-#include "beam.h"
-#include "sim/elastic_body.h"
-#include "sim/neo_hookean.h"
+#include "sim/reference/elastic_body.h"
+#include "sim/reference/neo_hookean.h"
+#include "support/beam.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/star_kernel.h"
+#include "sim/body/star_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "../geom/random.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
 #include "plain_kernel.h"
+#include "support/random.h"
 
 #if INCISE_WITH_HIGHWAY
 #define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)  // as in star_kernel.cpp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/stars.h"
+#include "sim/body/stars.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "../geom/random.h"
+#include "support/random.h"
 
 namespace incise {
 namespace {

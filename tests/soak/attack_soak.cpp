@@ -15,15 +15,15 @@
 #include <sstream>
 #include <utility>
 
-#include "cut/bodies.h"
-#include "incise/app/mesh_loader.h"
 #include "incise/io/mesh_file.h"
+#include "incise/io/mesh_loader.h"
 #include "soak/attack_run.h"
 #include "soak/attack_strokes.h"
 #include "soak/minimise.h"
 #include "soak/models.h"
 #include "soak/motion_soak.h"
 #include "soak/watch.h"
+#include "support/bodies.h"
 
 namespace incise::test {
 namespace {
@@ -128,13 +128,13 @@ void add_made_bodies(std::vector<AttackedBody>& bodies) {
 void add_real_bodies(std::vector<AttackedBody>& bodies) {
   constexpr double kFlat = 1000;  // L/r
   for (const fs::path& path : sound_models()) {
-    AttackedBody body(path.filename().string(), path, app::load_mesh(path).value().mesh);
+    AttackedBody body(path.filename().string(), path, io::load_mesh(path).value().mesh);
     if (is_spotless(body.before) && body.before.worst_ratio < kFlat) bodies.push_back(std::move(body));
   }
 }
 
 bool add_body(std::vector<AttackedBody>& bodies, const std::string& file) {
-  Result<app::LoadedMesh> loaded = app::load_mesh(file);
+  Result<io::LoadedMesh> loaded = io::load_mesh(file);
   const std::string fault = !loaded.ok()                    ? loaded.error().message
                             : loaded->mesh.tet_count() == 0 ? file + ": has no tets"
                                                             : "";

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "cut/random_strokes.h"
-#include "cut/strokes.h"
 #include "soak/models.h"
 #include "soak/sheet_pieces.h"
+#include "support/random_strokes.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {

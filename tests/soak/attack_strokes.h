@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "geom/random.h"
 #include "incise/cut/stroke.h"
 #include "incise/mesh/tet_mesh.h"
 #include "soak/tet_review.h"
+#include "support/random.h"
 
 namespace incise::test {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "incise/app/cut_job.h"
+#include "app/jobs/cut_job.h"
 #include "incise/engine/engine.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/validate.h"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <map>
 
-#include "incise/app/mesh_loader.h"
+#include "incise/io/mesh_loader.h"
 #include "soak/minimise.h"
 #include "soak/models.h"
 #include "soak/motion_run.h"
@@ -62,7 +62,7 @@ std::vector<std::filesystem::path> sound_models() {
   constexpr std::size_t kMaxTets = 20000;
   std::vector<std::filesystem::path> models;
   for (const std::filesystem::path& path : corpus_files()) {
-    const Result<app::LoadedMesh> loaded = app::load_mesh(path);
+    const Result<io::LoadedMesh> loaded = io::load_mesh(path);
     if (loaded.ok() && loaded->mesh.tet_count() > 0 && loaded->mesh.tet_count() <= kMaxTets) models.push_back(path);
   }
   return models;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "cut/strokes.h"
-#include "incise/app/mesh_loader.h"
+#include "incise/io/mesh_loader.h"
 #include "soak/models.h"
+#include "support/bodies.h"
+#include "support/random_strokes.h"
+#include "support/strokes.h"
 
 namespace incise::test {
 namespace {
@@ -259,7 +259,7 @@ TetSoup make_body(const BodyPlan& plan) {
     case Kind::kNeedle:
       return needle(2 * plan.n);
     case Kind::kModel:
-      return to_soup(app::load_mesh(plan.model).value().mesh);
+      return to_soup(io::load_mesh(plan.model).value().mesh);
     default:
       return doubled_cube(plan.n);
   }

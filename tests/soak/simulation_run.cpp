@@ -11,13 +11,13 @@
 #include <optional>
 #include <utility>
 
-#include "geom/random.h"
-#include "incise/app/cut_job.h"
+#include "app/jobs/cut_job.h"
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/tet_tables.h"
 #include "incise/mesh/validate.h"
 #include "soak/watch.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

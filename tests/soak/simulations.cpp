@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cut/random_strokes.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {

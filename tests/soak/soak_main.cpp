@@ -30,12 +30,10 @@
 #include <utility>
 #include <vector>
 
-#include "cut/bodies.h"
-#include "cut/random_strokes.h"
-#include "incise/app/cut_job.h"
-#include "incise/app/mesh_loader.h"
+#include "app/jobs/cut_job.h"
 #include "incise/engine/engine.h"
 #include "incise/geom/quality.h"
+#include "incise/io/mesh_loader.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/defects.h"
 #include "incise/mesh/quality_stats.h"
@@ -47,6 +45,8 @@
 #include "soak/simulation_run.h"
 #include "soak/stability.h"
 #include "soak/watch.h"
+#include "support/bodies.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {
@@ -426,7 +426,7 @@ int soak_corpus(const Settings& settings) {
         return !part.empty() && name.find(part) != std::string::npos;
       };
       if (clock.is_over() || (!settings.only.empty() && !is_named(settings.only)) || is_named(settings.skip)) continue;
-      const Result<app::LoadedMesh> loaded = app::load_mesh(path);
+      const Result<io::LoadedMesh> loaded = io::load_mesh(path);
       if (!loaded.ok()) continue;  // refusals are the readers' tests
       if (loaded->mesh.tet_count() == 0 || loaded->mesh.tet_count() > settings.max_tets) continue;
       const double start = clock.elapsed();

@@ -7,10 +7,10 @@
 #include <limits>
 #include <vector>
 
-#include "geom/random.h"
 #include "incise/sim/body.h"
-#include "sim/beam.h"
 #include "soak/watch.h"
+#include "support/beam.h"
+#include "support/random.h"
 
 namespace incise::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cut/bodies.h"
 #include "soak/sheet_pieces.h"
+#include "support/bodies.h"
 
 namespace incise::test {
 namespace {

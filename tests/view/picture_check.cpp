@@ -3,7 +3,7 @@
 // Exit 0 where A is a picture of something and, with B, differs from it by more than a pointer does; else 1.
 #include <cstdio>
 
-#include "incise/render/image.h"
+#include "render/image.h"
 
 namespace {
 

@@ -9,7 +9,8 @@
 #include <type_traits>
 #include <utility>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace detail {
 
@@ -211,4 +212,5 @@ class ZeroedArray {
   detail::ReservedBlock<T> block_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

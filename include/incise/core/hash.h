@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A 64-bit hash of a sequence of words, equal on every compiler, thread count and byte-order-equal target.
 ///
@@ -32,4 +33,5 @@ class StateHash {
   std::uint64_t state_ = 0x243F6A8885A308D3ULL;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <functional>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The number that stands for "no element" in every id.
 inline constexpr std::uint32_t kInvalidIndex = 0xFFFFFFFFU;
@@ -32,7 +33,8 @@ struct TetTag;
 using VertexId = Id<VertexTag>;
 using TetId = Id<TetTag>;
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise
 
 template <class Tag>
 struct std::hash<incise::Id<Tag>> {

@@ -4,7 +4,8 @@
 #include "incise/core/grow_array.h"
 #include "incise/core/id.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A growing array that only its own id type indexes.
 template <class IdType, class T>
@@ -14,4 +15,5 @@ class IdArray : public GrowArray<T> {
   const T& operator[](IdType id) const { return GrowArray<T>::operator[](id.value); }
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

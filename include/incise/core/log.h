@@ -4,7 +4,8 @@
 #include <functional>
 #include <string_view>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 enum class LogLevel : unsigned char { kDebug, kInfo, kWarning };
 
@@ -12,4 +13,5 @@ enum class LogLevel : unsigned char { kDebug, kInfo, kWarning };
 /// Called on the thread that made the call which has something to say; must not throw.
 using LogSink = std::function<void(LogLevel, std::string_view)>;
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

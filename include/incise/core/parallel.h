@@ -5,7 +5,8 @@
 #include <functional>
 #include <memory>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Elements per block of `parallel_blocks`: fixed, so that results that depend on blocks do not depend on threads.
 inline constexpr std::size_t kBlockSize = std::size_t{1} << 15U;
@@ -41,4 +42,5 @@ class WorkPair {
   std::unique_ptr<Arena> arena_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <chrono>
 #include <cstddef>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The stages of the pipeline (paper, Figure 1), in the order in which a step runs them.
 enum class Stage : unsigned char { kCollision, kSubdivide, kSeparate, kMerge, kImprove, kRelax, kCount };
@@ -56,4 +57,5 @@ class StageZone {
   Clock::time_point start_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

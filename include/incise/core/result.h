@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Why a call did not do what was asked.
 enum class ErrorCode : std::uint8_t {
@@ -65,4 +66,5 @@ class [[nodiscard]] Status {
   std::optional<Error> error_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 #include <atomic>
 #include <cstdint>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Hands the newest value from one thread to another; neither waits, neither sees half a value.
 ///
@@ -50,4 +51,5 @@ class TripleBuffer {
   alignas(64) std::atomic<std::uint32_t> middle_{2};
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -11,29 +11,30 @@
 #include "incise/cut/stroke.h"
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
-/// Cuts a mesh along strokes: the paper's sections 2.2 to 2.4, or their exact counterpart (see `Profile`).
+/// Cuts a mesh along strokes, in the profile incise: the exact counterpart of the paper's sections 2.2 to 2.4. What
+/// the profile paper does is `cut_as_paper`.
 ///
 /// Keeps scratch memory and split templates between strokes. One mesh at a time; not thread-safe.
 class Cutter {
  public:
-  /// `threads` in [1, 256] search the mesh; the result does not depend on it.
-  explicit Cutter(CutOptions options, unsigned threads = 1);
+  explicit Cutter(CutOptions options);
   Cutter(Cutter&&) noexcept;
   Cutter& operator=(Cutter&&) noexcept;
   ~Cutter();
 
   /// Cuts along the whole stroke and appends the journal steps of each part of the sweep that does not meet itself.
   ///
-  /// The profile incise cuts up to where the blade stops, inside elements; the paper's ends at the last tets that it
-  /// has crossed completely. Walls get `tag`, which must be in [1, 2^31). Appends nothing where the blade misses.
+  /// Cuts up to where the blade stops, inside elements. Walls get `tag`, which must be in [1, 2^31). Appends nothing
+  /// where the blade misses.
   /// Errors: kBadArgument for a malformed stroke, kOutOfMemory where the mesh would exceed its id range; the mesh is
   /// then as before. Cost: one pass over the mesh at first, then O(cut tets).
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times);
 
-  /// Puts the blade in place for a stroke that is cut step by step (profile incise). `row`: its edge as the body
+  /// Puts the blade in place for a stroke that is cut step by step. `row`: its edge as the body
   /// stands, at least two finite points; `has_moved`: whether the body stands otherwise than at rest. Cost: one pass
   /// over the mesh at first, to find its surface.
   void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved, std::uint32_t tag);
@@ -44,6 +45,23 @@ class Cutter {
                              bool has_moved, StageTimes& times);
   /// Ends the stroke where the blade was last. Errors: as `step`.
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times);
+  /// A stroke as it stands before its end: its blade, its sheet, and the band around its front.
+  class Pause;
+  /// The stroke under way, so that a stroke to come may go on from it; null where it has cut something and has no front
+  /// in the body: it is through. To be called before `end`. Cost: O(band + strips).
+  [[nodiscard]] std::shared_ptr<const Pause> pause(const TetMesh& mesh) const;
+  /// Whether a blade stands where that of a paused stroke would, so that its stroke may go on from that one: it has the
+  /// same number of points, each within 0.05 spacings; in a body that has moved those in tissue are within 0.08 spacings
+  /// of where this has taken the front. `first_step` as for `go_on`; nothing changes, but that undone steps are lost.
+  /// Cost: O(points) at rest, else as `go_on`.
+  [[nodiscard]] bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
+                               std::span<const Vec3> row, bool has_moved);
+  /// Begins a stroke that goes on from a paused one: what the steps of the journal from `first_step` on did to end that
+  /// is taken back, by as many new steps. The journal must be as that stroke left it. From then on both are one cut;
+  /// walls get `tag`, the next one after those of the strokes before. Returns false, with nothing changed, where that
+  /// would join two pieces: there `begin`. Cost: O(those steps + band + strips), and that of `PieceFinder`.
+  bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
+             std::uint32_t tag);
   /// Has `between_sheets` called within `step` and `end` wherever a sheet of the stroke is finished and another one
   /// starts, since the blade has come back to what it cut: the mesh may be maintained there. It must not throw. Empty:
   /// nothing is called.
@@ -61,4 +79,5 @@ class Cutter {
   std::unique_ptr<Pipeline> pipeline_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

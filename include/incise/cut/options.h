@@ -3,7 +3,8 @@
 
 #include <cstdint>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Which pipeline cuts.
 enum class Profile : std::uint8_t {
@@ -39,4 +40,5 @@ struct CutStatistics {
   CutStatistics& operator-=(const CutStatistics& other);
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

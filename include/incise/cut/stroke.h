@@ -11,7 +11,8 @@
 #include "incise/geom/box.h"
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A blade's motion through the rest shape: its cutting edge as a polyline at increasing times.
 ///
@@ -52,4 +53,5 @@ SweptTriangles swept_triangles(const Stroke& stroke);
 /// Errors: kBadArgument for a zero or non-finite plane.
 Result<Stroke> plane_stroke(const Box& bounds, const Vec3& normal, double offset);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

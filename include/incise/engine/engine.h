@@ -18,7 +18,8 @@
 #include "incise/mesh/step_check.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 struct EngineOptions {
   CutOptions cut;
@@ -89,7 +90,8 @@ class Engine {
   Result<StrokeReport> cut(const Stroke& stroke);
 
   /// Puts the blade in place for a stroke that will be cut step by step; nothing is cut yet. Returns the stroke's
-  /// number. Errors: kBadArgument for a malformed pose, one too far from the body as it stands (`check_reach`), or
+  /// number. A stroke that starts where the last one ended, its points within 0.05 spacings of a typical edge, is one cut with it: its
+  /// first step takes back what ended that one, and cuts on (docs/decisions/0030). Errors: kBadArgument for a malformed pose, one too far from the body as it stands (`check_reach`), or
   /// while another stroke is under way; nothing changes then.
   Result<std::uint32_t> begin_stroke(const BladePose& pose);
   /// Moves the blade on and cuts what it passes through on the way, up to where it stands now. All poses of a stroke
@@ -138,10 +140,17 @@ class Engine {
   Status keep_undo(std::size_t operations);
 
  private:
+  /// From where a stroke that starts where the last one ended goes on.
+  struct Continuation {
+    std::shared_ptr<const Cutter::Pause> pause;  ///< null: from nowhere
+    std::size_t first_step = 0;                  ///< of those that ended the last one
+  };
+
   /// A stroke, or an `improve`, with all that followed it.
   struct Operation {
     std::size_t end = 0;  ///< journal position after it
     bool is_stroke = true;
+    Continuation continuation = {};
   };
 
   /// The stroke under way.
@@ -150,6 +159,8 @@ class Engine {
     std::size_t first_step = 0;
     std::vector<BladePose> poses;  ///< the first; for the paper's profile all
     std::size_t steps = 0;         ///< taken so far
+    Continuation from = {};        ///< until its first step
+    Continuation to = {};          ///< once it has ended
   };
 
   Engine(TetMesh mesh, EngineOptions options);
@@ -164,13 +175,15 @@ class Engine {
   void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step, const IsLocked& is_locked = {});
   [[nodiscard]] IsLocked busy() const;
   void maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times);
+  void go_on_from_last_stroke();
   Status close_stroke();
   void maintain_between_sheets(MaintainStatistics& sum, StageTimes& times);
   Error abort_stroke(std::size_t first_step, Error error);
   Result<StrokeReport> end_stroke_as_paper();
   MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop,
                               const IsLocked& is_locked = {});
-  void push_operation(bool is_stroke);
+  void push_operation(bool is_stroke) { push_operation(is_stroke, Continuation()); }
+  void push_operation(bool is_stroke, Continuation continuation);
 
   TetMesh mesh_;
   Journal journal_;
@@ -192,4 +205,5 @@ class Engine {
   static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

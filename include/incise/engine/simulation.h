@@ -13,7 +13,8 @@
 #include "incise/sim/contact.h"
 #include "incise/sim/haptic_snapshot.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A frame's budget of maintenance unless told otherwise, in work units: about 2 ms. The steps of a stroke need a tenth
 /// of it; what a stroke leaves when it ends is spread over some frames, without a hitch.
@@ -120,4 +121,5 @@ class Simulation {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

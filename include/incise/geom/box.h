@@ -6,7 +6,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A closed box with sides along the axes; empty unless told otherwise. Lengths in the mesh's unit.
 struct Box {
@@ -50,4 +51,5 @@ struct Box {
   return from <= to;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

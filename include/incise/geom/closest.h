@@ -6,7 +6,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The part of a triangle a, b, c that a point lies on.
 enum class TriangleFeature : std::uint8_t { kVertexA, kVertexB, kVertexC, kEdgeAb, kEdgeBc, kEdgeCa, kFace };
@@ -27,4 +28,5 @@ struct ClosestPoint {
 /// Cost: about 20 ns. No libm: the same bits on every target.
 ClosestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "incise/geom/predicates.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Finds whether two perturbed triangles cross: whether an edge of one passes through the other.
 ///
@@ -16,4 +17,5 @@ namespace incise::inline v0 {
 /// **Source:** Edelsbrunner & Mücke 1990 (perturbation).
 bool triangles_cross(const std::array<SosPoint, 3>& first, const std::array<SosPoint, 3>& second);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -13,7 +13,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 namespace detail {
 
@@ -134,4 +135,5 @@ inline bool segment_crosses_triangle(const SosPoint& p, const SosPoint& q, const
   return turn == orient3d_sos(p, q, b, c) && turn == orient3d_sos(p, q, c, a);
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

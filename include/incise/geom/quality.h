@@ -8,7 +8,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Six times the signed volume, in cubed length units; rounded (its sign is not exact, see `orient3d`).
 inline double signed_volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -67,4 +68,5 @@ inline bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   return !(signed_volume6(a, b, c, d) > 6.0 * kFlatShare * longest2 * std::sqrt(longest2));
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "incise/geom/box.h"
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A tree of boxes over a soup of triangles: nearest point, and triangles near a box.
 ///
@@ -107,4 +108,5 @@ class TriangleTree {
   std::vector<Leaf> leaves_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -4,10 +4,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A point or a vector in space; unit: the mesh's length unit.
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/improve/options.h"
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Keeps the neighbourhood of cuts fit to simulate: local, worst tets first, within a budget, monotone.
 ///
@@ -65,4 +66,5 @@ class Maintainer {
   std::unique_ptr<Queue> queue_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "incise/core/id.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Maintenance without a budget.
 inline constexpr std::uint64_t kUnlimitedWork = std::numeric_limits<std::uint64_t>::max();
@@ -50,4 +51,5 @@ struct MaintainStatistics {
   MaintainStatistics& operator-=(const MaintainStatistics& part);
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include <string>
 #include <string_view>
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// Reads bytes in order from raw or base64 text; streams that are padded and then go on are joined.
@@ -37,4 +38,5 @@ class ByteSource {
 void append_base64(std::string& out, std::string_view bytes);
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "incise/mesh/tet_soup.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// What a mesh file can carry: tets, faces, and labels. Optional arrays are empty where absent.
@@ -29,4 +30,5 @@ struct SurfaceSoup {
 };
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -12,7 +12,8 @@
 #include "incise/core/result.h"
 #include "incise/io/mesh_data.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// The families of mesh files.
@@ -87,4 +88,5 @@ using SiblingLoader = std::function<Result<std::string>(const std::string& name)
 [[nodiscard]] Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData& data);
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

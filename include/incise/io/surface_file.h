@@ -10,7 +10,8 @@
 #include "incise/io/mesh_data.h"
 #include "incise/io/mesh_file.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 namespace io {
 
 /// Read a triangle surface: .stl (ASCII and binary), .ply, .off by content; .obj otherwise. Also gzipped.
@@ -34,4 +35,5 @@ namespace io {
 std::size_t weld(SurfaceSoup& surface);
 
 }  // namespace io
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -16,7 +16,8 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How an attribute follows an edit of the mesh.
 enum class Transfer : std::uint8_t {
@@ -172,4 +173,5 @@ class Attributes {
   ZeroedArray<std::uint8_t> is_touched_tet_;     // likewise
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

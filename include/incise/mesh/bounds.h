@@ -4,10 +4,12 @@
 #include "incise/geom/box.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The smallest box around the rest positions of all vertices that tets use; empty for a mesh without tets.
 /// Cost: O(vertices).
 [[nodiscard]] Box rest_bounds(const TetMesh& mesh);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "incise/mesh/star.h"
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The plan of merging a vertex into a neighbour: the edge between them and the tets around it vanish.
 struct CollapsePlan {
@@ -60,4 +61,5 @@ bool stays_positive(const TetMesh& mesh, const CollapsePlan& plan, const Vec3& p
 /// bits of `from`. Cost: O(star).
 void apply(Transaction& transaction, const CollapsePlan& plan);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

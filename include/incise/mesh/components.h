@@ -7,7 +7,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The face-connected pieces of a mesh, numbered from 0 in the order of their lowest tet slots.
 struct Components {
@@ -25,4 +26,5 @@ struct Components {
 /// Thread-safe between commits.
 [[nodiscard]] Components find_components(const TetMesh& mesh);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 
 #include "incise/mesh/tet_soup.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Names one kind of defect; also the index into `Defects::examples`.
 enum class DefectKind : std::uint8_t {
@@ -89,4 +90,5 @@ struct Normalised {
 /// Errors: none. Cost: O(n log n). Points are left as they are.
 Normalised normalise(TetSoup& soup);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

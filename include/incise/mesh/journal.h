@@ -7,7 +7,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 // The journal is the mesh's second interface: solvers, renderers and recorders follow it instead of the mesh.
 // Within one step a follower applies the records in the order of the members of `Step`:
@@ -172,4 +173,5 @@ class Journal {
   std::uint64_t trimmed_serial_ = 0;  // of the step before first_
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Where a follower stands in a journal, and how it gets from there to where the journal stands now.
 class JournalCursor {
@@ -45,4 +46,5 @@ class JournalCursor {
   std::uint64_t newest_ = 0;  // the highest that the journal had given by then: steps above it are new
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

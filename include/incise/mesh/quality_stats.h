@@ -6,7 +6,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// The quality of a set of tets at rest, as the paper's tables give it. All zero where the set is empty.
 ///
@@ -34,4 +35,5 @@ struct QualityStats {
 /// Whether a tet has a vertex on a cut wall.
 [[nodiscard]] bool touches_cut(const TetMesh& mesh, TetId tet);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -5,7 +5,8 @@
 
 #include "incise/mesh/verbs.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A tet that fills part of a cavity.
 struct NewTet {
@@ -68,4 +69,5 @@ void fill_edge_removal(const TetMesh& mesh, VertexId a, VertexId b, const EdgeRi
 /// faces.
 void apply(Transaction& transaction, const RemeshPlan& plan, std::vector<TetId>& produced);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

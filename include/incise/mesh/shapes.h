@@ -7,7 +7,8 @@
 #include "incise/geom/vec.h"
 #include "incise/mesh/tet_soup.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Makes a box of `cells[0] × cells[1] × cells[2]` cells, six positive tets each, that share the cell's diagonal
 /// (Kuhn's, also called Freudenthal's, triangulation: faces of neighbouring cells match).
@@ -31,4 +32,5 @@ TetSoup kuhn_cube(std::uint32_t n);
 /// Cost: O(tets). Regions and tets stay as they are.
 void jitter(TetSoup& soup, double fraction, std::uint64_t seed);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

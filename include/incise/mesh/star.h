@@ -5,7 +5,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Collects the tets around a vertex by flooding through the sides that contain it. Reusable scratch.
 ///
@@ -92,4 +93,5 @@ bool walk_edge_ring(const TetMesh& mesh, VertexId a, VertexId b, TetId seed, IsB
   return false;
 }
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -13,7 +13,8 @@
 #include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Looks at the mesh as the steps from `first_step` on left it; an error has them taken back.
 using StepCheck = std::function<Status(const TetMesh& mesh, const Journal& journal, std::size_t first_step)>;
@@ -59,4 +60,5 @@ class TouchedCheck {
 /// and those on top of it), nothing in others.
 [[nodiscard]] StepCheck default_step_check();
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

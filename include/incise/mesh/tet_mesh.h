@@ -12,7 +12,8 @@
 #include "incise/mesh/tet_soup.h"
 #include "incise/mesh/tet_tables.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// One side of one tet: the face opposite a corner, as that tet sees it.
 struct Side {
@@ -261,4 +262,5 @@ class TetMesh {
   std::size_t live_vertices_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A boundary face that a cut made.
 struct SoupWall {
@@ -27,4 +28,5 @@ struct TetSoup {
   std::vector<std::uint8_t> fronts = {};           ///< `n_points`: 1 where a cut ends; or empty: seen from the walls
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

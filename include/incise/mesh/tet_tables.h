@@ -12,7 +12,8 @@
 //         0--|--2         Edge e joins kEdgeCorners[e]; the edge opposite e is 5 - e.
 //          \ | /
 //            1
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Corners of side s, turning counter-clockwise seen from outside a positive tet.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kSideCorners = {
@@ -52,4 +53,5 @@ constexpr bool tables_agree() {
 static_assert(tables_agree());
 }  // namespace detail
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "incise/mesh/journal.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Where a vertex stands once it is moved to the rest place with the coordinates `weights` in `basis`: there where all
 /// of them are at rest, else at the sampled current place. Cost: O(1).
@@ -41,6 +42,13 @@ class Transaction {
   TetId add_tet(const TetVertices& vertices, TetId parent);
   void remove_tet(TetId tet);
   void remove_vertex(VertexId vertex);
+  /// Puts a tet back into its slot, which must be free: all of the image but its links, which are boundary with tag 0
+  /// until set. `parent` as for `add_tet`. Cost: O(slots that were freed since it was).
+  void revive_tet(const TetImage& image, TetId parent);
+  /// Puts a vertex back into its slot, which must be free: all of the image but its current position. `parents` and
+  /// `weights` as for `add_vertex`. Cost: as for `revive_tet`.
+  void revive_vertex(const VertexImage& image, std::span<const VertexId> parents, std::span<const double> weights,
+                     const Vec3& current);
 
   /// One direction only; see `join`.
   void set_link(Side side, Link link);
@@ -93,6 +101,11 @@ class Transaction {
   void clear_marks();
   std::uint32_t take_tet_slot();
   std::uint32_t take_vertex_slot();
+  static void take_free_slot(std::uint32_t slot, GrowArray<std::uint32_t>& free, std::size_t& common,
+                             std::vector<std::uint32_t>& before);
+  void note_taken(TetId tet);
+  void note_taken(VertexId vertex);
+  void record_born(VertexId id, std::span<const VertexId> parents, std::span<const double> weights);
 
   TetMesh& mesh_;
   Step step_;
@@ -106,4 +119,5 @@ class Transaction {
   bool is_open_ = true;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

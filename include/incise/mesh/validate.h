@@ -9,7 +9,8 @@
 
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How much `validate` looks at; each level includes those before it.
 enum class ValidateLevel : std::uint8_t {
@@ -85,4 +86,5 @@ struct ValidityChange {
 /// the input's named defects, which must not grow; everything above is the edit's.
 [[nodiscard]] ValidityChange compare_with_input(const ValidityReport& before, const ValidityReport& after);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

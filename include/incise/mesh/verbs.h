@@ -5,7 +5,8 @@
 
 #include "incise/mesh/transaction.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Why a verb cannot be carried out. A refusal is normal flow: nothing has changed.
 enum class Refusal : std::uint8_t {
@@ -132,4 +133,5 @@ MoveVertexPlan plan_move_vertex(const TetMesh& mesh, VertexId vertex, const Vec3
 /// Carries a plan out; cannot fail. Links, slots and shape bits stay.
 void apply(Transaction& transaction, const MoveVertexPlan& plan);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -14,7 +14,8 @@
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/material.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How a body finds its balance.
 enum class Relaxation : std::uint8_t {
@@ -161,4 +162,5 @@ class DeformableBody {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -9,7 +9,8 @@
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/body.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A ball that presses on the body. Lengths in the mesh's unit, radius above 0.
 struct BallTool {
@@ -50,4 +51,5 @@ using Tool = std::variant<BallTool, RodTool, PlaneTool, FlatTool>;
 void find_contacts(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools, double stiffness,
                    double margin, std::vector<Pull>& pulls);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

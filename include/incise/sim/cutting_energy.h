@@ -3,7 +3,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How much of the work on a body may be missing before the account says so.
 struct EnergyTolerance {
@@ -58,4 +59,5 @@ class CuttingEnergy {
   Vec3 force_ = Vec3::Zero(), position_ = Vec3::Zero();
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Where a device is. SI units, world axes.
 struct DeviceState {
@@ -41,4 +42,5 @@ class NullDevice final : public HapticDevice {
   void command(const Vec3& /*force*/) override {}
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -7,7 +7,8 @@
 #include "incise/core/result.h"
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// What force feedback knows of the tissue at the blade: the state of the last physics step, linear around the tool.
 ///
@@ -42,4 +43,5 @@ struct HapticSnapshot {
 /// `is_sound` in words, for whoever fills snapshots. Errors: kBadArgument names the first promise that is broken.
 [[nodiscard]] Status check(const HapticSnapshot& snapshot);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

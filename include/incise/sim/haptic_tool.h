@@ -7,7 +7,8 @@
 #include "incise/sim/local_tissue.h"
 #include "incise/sim/passivity.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 struct HapticToolOptions {
   double coupling_stiffness = 500;   ///< N/m between device and tool, above 0; 300 to 800 suits desktop arms
@@ -82,4 +83,5 @@ class HapticTool {
   std::uint64_t ticks_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include "incise/sim/haptic_snapshot.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// When the tissue at the edge gives way, relative to what cutting costs. Both are ratios, 1.
 struct RuptureOptions {
@@ -56,4 +57,5 @@ class LocalTissue {
   bool is_cutting_ = false;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

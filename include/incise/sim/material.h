@@ -6,7 +6,8 @@
 
 #include "incise/core/result.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// What tissue is made of, in SI units.
 struct Material {
@@ -38,4 +39,5 @@ struct Materials {
 /// Errors: kBadArgument names the first number that is out of its range, or a region that is named twice.
 [[nodiscard]] Status check(const Materials& materials);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -6,7 +6,8 @@
 #include "incise/core/result.h"
 #include "incise/geom/vec.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Sums the energy that flows through a port into the virtual world, and keeps its minimum.
 ///
@@ -102,4 +103,5 @@ class PassivityController {
   Vec3 last_displacement_ = Vec3::Zero();
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -8,7 +8,8 @@
 #include "incise/core/result.h"
 #include "incise/sim/haptic_device.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A pose at a time.
 struct TimedPose {
@@ -54,4 +55,5 @@ class RecordedDevice final : public HapticDevice {
   Vec3 last_force_ = Vec3::Zero();
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -10,7 +10,8 @@
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/material.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// How each Newton step is solved.
 enum class LinearSolver : std::uint8_t {
@@ -98,4 +99,5 @@ class ReferenceSolver {
   std::shared_ptr<const Model> model_;  // never changes
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

@@ -3,7 +3,8 @@
 
 #include "incise/sim/pose_track.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// A hand and arm at the device, as one mass. Defaults: a light grip, damped to about 0.7 of critical.
 struct HandOptions {
@@ -37,4 +38,5 @@ class SimulatedOperator final : public HapticDevice {
   double time_ = 0;
 };
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

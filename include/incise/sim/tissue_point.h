@@ -9,7 +9,8 @@
 #include "incise/geom/vec.h"
 #include "incise/mesh/tet_mesh.h"
 
-namespace incise::inline v0 {
+namespace incise {
+inline namespace v0 {
 
 /// Which of its two shapes a body is looked at in.
 enum class BodyShape : std::uint8_t { kRest, kCurrent };
@@ -47,4 +48,5 @@ struct TissuePoint {
 [[nodiscard]] std::vector<std::optional<TissuePoint>> find_tissue(const TetMesh& mesh, BodyShape shape,
                                                                   std::span<const Vec3> places);
 
-}  // namespace incise::inline v0
+}  // namespace v0
+}  // namespace incise

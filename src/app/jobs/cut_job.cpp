@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/jobs/cut_job.h"
+
+#include <utility>
+
+#include "app/jobs/job_internal.h"
+#include "app/recording/recorded_engine.h"
+#include "incise/io/mesh_export.h"
+#include "incise/mesh/bounds.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+Error in_stroke(Error error, const CutJob& job, std::size_t index) {
+  const std::string& name = job.strokes[index].name;
+  error.message = "stroke " + std::to_string(index) + (name.empty() ? "" : " \"" + name + "\"") + ": " + error.message;
+  return error;
+}
+
+Result<StrokeReport> cut_whole(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples) {
+  Result<StrokeReport> report = engine.cut(stroke);
+  if (report.ok()) samples.add(engine.last_ms(), report->times);
+  return report;
+}
+
+/// What a stroke took beyond its steps.
+StageTimes rest_of(const StageTimes& whole, const std::vector<StageTimes>& steps) {
+  StageTimes rest = whole;
+  for (const StageTimes& step : steps) rest -= step;
+  return rest;
+}
+
+/// Moves the blade from time to time; the last step's sample has the stroke's beginning and end as well.
+Result<StrokeReport> cut_by_steps(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples) {
+  const Result<std::uint32_t> begun = engine.begin_stroke({stroke.edges.front()});
+  if (!begun.ok()) return begun.error();
+  double ends_ms = engine.last_ms();
+  for (std::size_t i = 1; i < stroke.edges.size(); ++i) {
+    const Result<StepReport> step = engine.step({stroke.edges[i]});
+    if (!step.ok()) return step.error();
+    samples.add(engine.last_ms(), step->times);
+  }
+  Result<StrokeReport> report = engine.end_stroke();
+  ends_ms += engine.last_ms();
+  if (report.ok()) samples.extend(ends_ms, rest_of(report->times, samples.stages));
+  return report;
+}
+
+/// Whether the blade goes step by step: the paper cuts when a stroke is complete.
+bool goes_by_steps(const CutJob& job) {
+  return job.by_steps && job.engine.cut.profile != Profile::kPaper;
+}
+
+/// Cuts along one stroke and maintains what its steps have not; the last cut is measured in between, off the clock.
+Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, detail::Upkeep& upkeep,
+               JobReport& report) {
+  detail::StepSamples samples;
+  const auto cut = goes_by_steps(job) ? cut_by_steps : cut_whole;
+  const Result<StrokeReport> stroke = cut(engine, job.strokes[index], samples);
+  if (!stroke.ok()) return in_stroke(stroke.error(), job, index);
+  report.cut += stroke->cut;
+  if (index + 1 == job.strokes.size()) detail::measure_cut(engine.mesh(), report);
+  MaintainReport maintained{stroke->maintain, {}};
+  const Result<double> upkeep_ms = upkeep.run(engine, maintained);
+  if (!upkeep_ms.ok()) return upkeep_ms.error();
+  samples.extend(*upkeep_ms, maintained.times);
+  detail::add_operation(maintained.maintain, samples, report);
+  return {};
+}
+
+Status cut_all(RecordedEngine& engine, const CutJob& job, JobReport& report) {
+  detail::Upkeep upkeep(job.engine, job.budget_us);
+  for (std::size_t i = 0; i < job.strokes.size(); ++i) {
+    if (job.progress) job.progress(i, job.strokes.size());
+    if (const Status status = cut_one(engine, job, i, upkeep, report); !status.ok()) return status;
+  }
+  if (job.progress) job.progress(job.strokes.size(), job.strokes.size());
+  return {};
+}
+
+/// Strokes cut step by step are maintained in the blade's wake, but for those against a clock.
+EngineOptions engine_options(const CutJob& job) {
+  return goes_by_steps(job) && job.budget_us == 0 ? job.engine : detail::without_upkeep(job.engine);
+}
+
+/// Says of all blades whether they sweep something and keep within reach, before anything is cut.
+Status check_blades(const CutJob& job, const Box& body) {
+  for (std::size_t i = 0; i < job.strokes.size(); ++i) {
+    Stroke stroke = job.strokes[i];
+    stroke.name.clear();  // `in_stroke` says it
+    if (const Status status = check(stroke); !status.ok()) return in_stroke(status.error(), job, i);
+    if (const Status status = check_reach(stroke, body); !status.ok()) return in_stroke(status.error(), job, i);
+  }
+  return {};
+}
+
+/// Takes the stroke that broke the mesh back, with all that came after it.
+Status keep_last_valid(RecordedEngine& engine, const CutJob& job, JobReport& report) {
+  const double tolerance = volume_tolerance(job.engine);
+  const Result<std::uint32_t> kept = detail::take_back_until(
+      engine, [&](const TetMesh& mesh) { return detail::keeps_contract(mesh, tolerance, report); });
+  if (!kept.ok()) return kept.error();
+  report.broken = BrokenStroke{*kept, job.strokes[*kept].name, engine.mesh().hash()};
+  return {};
+}
+
+}  // namespace
+
+Result<JobResult> run_cut(io::LoadedMesh loaded, const CutJob& job, bool wants_mesh) {
+  JobResult result;
+  JobReport& report = result.report;
+  report.options = job.options;
+  detail::describe_job(loaded, job.engine, job.budget_us, report);
+  report.strokes = job.strokes.size();
+  if (const Status status = check_blades(job, rest_bounds(loaded.mesh)); !status.ok()) return status.error();
+  detail::measure_before(loaded.mesh, report);
+  Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), engine_options(job),
+                                                         {job.record, loaded.source.file, job.options.seed});
+  if (!engine.ok()) return engine.error();
+  if (const Status status = cut_all(*engine, job, report); !status.ok()) return status.error();
+  Components pieces = detail::measure_end(engine->engine(), report);
+  if (!report.change.ok && !job.strokes.empty()) {
+    if (const Status status = keep_last_valid(*engine, job, report); !status.ok()) return status.error();
+    pieces = find_components(engine->mesh());
+  }
+  if (wants_mesh) result.mesh = io::to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
+  if (job.look) job.look(engine->engine());
+  return result;
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/jobs/replay_job.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+#include <utility>
+
+#include "app/jobs/job_internal.h"
+#include "app/jobs/simulation_replay.h"
+#include "app/recording/engine_recording.h"
+#include "app/recording/recorded_mesh.h"
+#include "app/recording/simulation_recording.h"
+#include "app/text/json_write.h"
+#include "app/text/line_reader.h"
+#include "incise/io/mesh_export.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error bad_line(std::string_view file_name, std::uint32_t line, const std::string& what) {
+  return {ErrorCode::kBadFile, std::string(file_name) + ":" + std::to_string(line) + ": " + what, {}};
+}
+
+/// How a call went: its error, and the work units it spent where it tells.
+struct Outcome {
+  std::optional<Error> error;
+  std::optional<std::uint64_t> work_units;
+};
+
+template <class T>
+Outcome outcome_of(const T& result) {
+  if (result.ok()) return {};
+  return {result.error(), {}};
+}
+
+Outcome outcome_of(bool is_done) {
+  if (is_done) return {};
+  return {Error{ErrorCode::kBadArgument, "there is nothing to undo or redo", {}}, {}};
+}
+
+Outcome outcome_of(const Result<MaintainReport>& report) {
+  if (!report.ok()) return {report.error(), {}};
+  return {{}, report->maintain.work_units};
+}
+
+Outcome maintain(Engine& engine, const RecordedCall& call) {
+  std::uint64_t asked = 0;
+  ShouldStop should_stop;
+  if (call.stop_ask) should_stop = [&] { return ++asked >= *call.stop_ask; };
+  return outcome_of(engine.maintain(call.limit, should_stop));
+}
+
+Outcome make_call(Engine& engine, const RecordedCall& call) {
+  switch (call.kind) {
+    case CallKind::kBegin:
+      return outcome_of(engine.begin_stroke(call.pose));
+    case CallKind::kStep:
+      return outcome_of(engine.step(call.pose));
+    case CallKind::kEnd:
+      return outcome_of(engine.end_stroke());
+    case CallKind::kCut:
+      return outcome_of(engine.cut(call.stroke));
+    case CallKind::kUndo:
+      return outcome_of(engine.undo());
+    case CallKind::kRedo:
+      return outcome_of(engine.redo());
+    case CallKind::kMaintain:
+      return maintain(engine, call);
+    case CallKind::kImprove:
+      return outcome_of(engine.improve());
+    case CallKind::kPositions:
+      return outcome_of(engine.set_positions(call.positions));
+  }
+  return {};
+}
+
+std::string shown(const std::optional<ErrorCode>& error) {
+  return error ? std::string("error ") + name_of(*error) : "success";
+}
+
+std::optional<ReplayDifference> differ(const RecordedCall& call, std::string expected, std::string found) {
+  if (expected == found) return std::nullopt;
+  return ReplayDifference{call.line, name_of(call.kind), std::move(expected), std::move(found)};
+}
+
+std::optional<ReplayDifference> compare_ends(const RecordedCall& call, const Outcome& outcome) {
+  std::optional<ErrorCode> found;
+  if (outcome.error) found = outcome.error->code;
+  return differ(call, shown(call.error), shown(found));
+}
+
+std::optional<ReplayDifference> compare_hashes(const RecordedCall& call, const TetMesh& mesh) {
+  return differ(call, "hash " + hash_text(call.hash), "hash " + hash_text(mesh.hash()));
+}
+
+std::optional<ReplayDifference> compare_work(const RecordedCall& call, const Outcome& outcome) {
+  if (!outcome.work_units) return std::nullopt;
+  return differ(call, fmt::format("{} work units", call.work_units), fmt::format("{} work units", *outcome.work_units));
+}
+
+Result<Engine> make_engine(TetMesh mesh, const RecordingHeader& header, const ReplayJob& job) {
+  EngineOptions options;
+  options.cut = header.cut;
+  options.maintain = header.maintain;
+  options.log = job.log;
+  options.threads = job.threads;
+  Result<Engine> engine = Engine::create(std::move(mesh), std::move(options));
+  if (engine.ok()) return engine;
+  return bad_line(job.recording.string(), 1, engine.error().message);
+}
+
+/// Makes all calls up to the first difference.
+Status replay_all(Engine& engine, RecordingReader& reader, bool verify, ReplayResult& result) {
+  std::optional<RecordedCall> last;
+  while (!result.difference) {
+    Result<std::optional<RecordedCall>> call = reader.next();
+    if (!call.ok()) return call.error();
+    if (!call->has_value()) break;
+    last = std::move(**call);
+    auto difference = replay_call(engine, *last, verify, reader.file_name());
+    if (!difference.ok()) return difference.error();
+    result.difference = std::move(*difference);
+    ++result.calls;
+  }
+  if (last && !result.difference) result.difference = compare_hashes(*last, engine.mesh());
+  return {};
+}
+
+void finish(const Engine& engine, const std::vector<std::uint32_t>& file_vertex, bool wants_mesh,
+            ReplayResult& result) {
+  const Components pieces = find_components(engine.mesh());
+  result.after = detail::counts_of(engine.mesh(), pieces);
+  result.strokes = engine.stroke_count();
+  result.is_in_stroke = engine.is_in_stroke();
+  result.hash = engine.mesh().hash();
+  if (wants_mesh && !result.difference) result.mesh = io::to_mesh_data(engine.mesh(), pieces, file_vertex);
+}
+
+}  // namespace
+
+Result<io::LoadedMesh> load_recorded_mesh(const RecordingHeader& header, const fs::path& recording) {
+  const std::string where = recording.string() + ":1: ";
+  if (header.mesh_file.empty()) {
+    return Error{ErrorCode::kBadFile, where + "it was recorded on a mesh of no file; replay it in the program", {}};
+  }
+  std::error_code code;
+  fs::path path = recording.parent_path() / header.mesh_file;
+  if (!fs::exists(path, code)) path = header.mesh_file;
+  if (!fs::exists(path, code)) {
+    return Error{ErrorCode::kBadFile,
+                 where + "the mesh \"" + header.mesh_file + "\" is not there; put it where it was beside the recording",
+                 {}};
+  }
+  Result<io::LoadedMesh> loaded = io::load_mesh(path);
+  if (!loaded.ok() || loaded->mesh.hash() == header.mesh_hash) return loaded;
+  return Error{ErrorCode::kBadFile,
+               path.string() + ": is not the mesh of the recording: its hash is " + hash_text(loaded->mesh.hash()) +
+                   ", recorded was " + hash_text(header.mesh_hash) + "; put the mesh of that time in its place",
+               {}};
+}
+
+Result<std::optional<ReplayDifference>> replay_call(Engine& engine, const RecordedCall& call, bool verify,
+                                                    std::string_view file_name) {
+  const Outcome outcome = make_call(engine, call);
+  if (outcome.error && outcome.error->code == ErrorCode::kBadArgument) {
+    return bad_line(file_name, call.line,
+                    std::string("the call \"") + name_of(call.kind) + "\" cannot be made: " + outcome.error->message);
+  }
+  std::optional<ReplayDifference> difference = compare_ends(call, outcome);
+  if (verify && !difference) difference = compare_hashes(call, engine.mesh());
+  if (verify && !difference) difference = compare_work(call, outcome);
+  return difference;
+}
+
+Result<ReplayResult> run_replay(const ReplayJob& job) {
+  if (is_simulation_recording(job.recording)) return run_simulation_replay(job);
+  Result<RecordingReader> reader = RecordingReader::open(job.recording);
+  if (!reader.ok()) return reader.error();
+  Result<io::LoadedMesh> loaded = load_recorded_mesh(reader->header(), job.recording);
+  if (!loaded.ok()) return loaded.error();
+  ReplayResult result;
+  result.source = loaded->source;
+  result.before = detail::counts_of(loaded->mesh, find_components(loaded->mesh));
+  Result<Engine> engine = make_engine(std::move(loaded->mesh), reader->header(), job);
+  if (!engine.ok()) return engine.error();
+  if (const Status status = replay_all(*engine, *reader, job.verify, result); !status.ok()) return status.error();
+  result.is_cut_off = reader->is_cut_off();
+  finish(*engine, loaded->file_vertex, job.wants_mesh, result);
+  return result;
+}
+
+std::string to_text(const ReplayResult& result) {
+  return fmt::format("{} calls, {} strokes: {} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", result.calls,
+                     result.strokes, result.before.tets, result.after.tets, result.before.vertices,
+                     result.after.vertices, result.before.components, result.after.components) +
+         fmt::format("hash {}\n", hash_text(result.hash));
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

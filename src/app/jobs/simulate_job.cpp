@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/jobs/simulate_job.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "app/jobs/frame_series.h"
+#include "app/jobs/job_internal.h"
+#include "app/jobs/scene_hand.h"
+#include "app/scene/exercise_score.h"
+#include "app/scene/scene_simulation.h"
+#include "incise/io/mesh_export.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+constexpr std::uint32_t kSettleChunk = 30;  // frames between two questions whether to stop
+
+class SceneRunner {
+ public:
+  SceneRunner(const Scene& scene, const SimulateJob& job, RecordedSimulation simulation, SimulationReport& report)
+      : scene_(scene), job_(job), simulation_(std::move(simulation)), report_(report), hand_(scene) {
+    if (scene.exercise) scorer_.emplace(scene, this->simulation().mesh());
+  }
+
+  Status settle();
+  Status run_frames(FrameSeries* series, const io::LoadedMesh& loaded);
+  void measure();
+
+  [[nodiscard]] const Simulation& simulation() const { return simulation_.simulation(); }
+  [[nodiscard]] bool was_stopped() const { return was_stopped_; }
+
+ private:
+  Status run_frame(std::uint64_t index);
+  void add(const FrameReport& frame, const FrameInput& input);
+  void add(const BladeState& blade);
+  void add_work(const FrameReport& frame);
+  bool stops() {
+    was_stopped_ = was_stopped_ || (job_.should_stop && job_.should_stop());
+    return was_stopped_;
+  }
+
+  const Scene& scene_;
+  const SimulateJob& job_;
+  RecordedSimulation simulation_;
+  SimulationReport& report_;
+  SceneHand hand_;
+  std::optional<ExerciseScorer> scorer_;  // where the scene is an exercise
+  bool had_blade_ = false;
+  bool was_stopped_ = false;
+};
+
+Status SceneRunner::settle() {
+  std::uint32_t left = scene_.settle.frames;
+  while (left > 0 && !stops()) {
+    const std::uint32_t chunk = std::min(left, kSettleChunk);
+    const Result<unsigned> done = simulation_.settle({chunk, scene_.settle.speed});
+    if (!done.ok()) return done.error();
+    report_.settle_frames += *done;
+    left = *done < chunk ? 0 : left - chunk;
+  }
+  report_.energy_before = simulation().body().energy();
+  return {};
+}
+
+Status SceneRunner::run_frames(FrameSeries* series, const io::LoadedMesh& loaded) {
+  const std::uint64_t every = job_.every > 0 ? job_.every : (scene_.frames + kSeriesFiles - 1) / kSeriesFiles;
+  const auto add_moment = [&](std::uint64_t done) -> Status {
+    if (series == nullptr || (done % every != 0 && done != scene_.frames)) return {};
+    const TetMesh& mesh = simulation().mesh();
+    return series->add(static_cast<double>(done) * scene_.options.frame_seconds,
+                       io::to_mesh_data(mesh, find_components(mesh), loaded.file_vertex, io::MeshPose::kAsItStands));
+  };
+  if (Status status = add_moment(0); !status.ok()) return status;
+  for (std::uint64_t i = 0; i < scene_.frames && !stops(); ++i) {
+    if (job_.progress) job_.progress(i, scene_.frames);
+    if (Status status = run_frame(i); !status.ok()) return status;
+    if (Status status = add_moment(i + 1); !status.ok()) return status;
+  }
+  if (job_.progress) job_.progress(scene_.frames, scene_.frames);
+  return {};
+}
+
+Status SceneRunner::run_frame(std::uint64_t index) {
+  const FrameInput input = scene_input(scene_, index);
+  if (had_blade_ && !input.blade) detail::measure_cut(simulation().mesh(), report_.job);
+  const Result<FrameReport> frame = simulation_.frame(input);
+  if (!frame.ok()) {
+    Error error = frame.error();
+    error.message = "frame " + std::to_string(index) + ": " + error.message;
+    return error;
+  }
+  add(*frame, input);
+  if (scorer_) scorer_->add(input, *frame, simulation());
+  hand_.feel(index, simulation().haptic_snapshot());
+  had_blade_ = input.blade.has_value();
+  return {};
+}
+
+void SceneRunner::add(const FrameReport& frame, const FrameInput& input) {
+  JobReport& job = report_.job;
+  if (input.blade && !had_blade_) {
+    ++job.strokes;
+    job.units_per_stroke.push_back(0);
+  }
+  const double ms = simulation_.last_ms();
+  job.total_ms += ms;
+  job.times += frame.times;
+  job.stage_ms.push_back(frame.times);
+  report_.frame_ms.push_back(ms);
+  if (input.blade) job.step_ms.push_back(frame.times.total() - frame.times[Stage::kRelax]);
+  add_work(frame);
+  add(frame.blade);
+  ForceFigures& forces = report_.forces;
+  for (const Vec3& force : frame.hook_forces) forces.peak_hook_force = std::max(forces.peak_hook_force, force.norm());
+  forces.contacts = std::max<std::uint64_t>(forces.contacts, frame.contacts);
+}
+
+void SceneRunner::add_work(const FrameReport& frame) {
+  JobReport& job = report_.job;
+  job.cut += frame.cut;
+  job.maintain += frame.maintain;
+  if (!job.units_per_stroke.empty()) job.units_per_stroke.back() += frame.maintain.work_units;
+}
+
+void SceneRunner::add(const BladeState& blade) {
+  ForceFigures& forces = report_.forces;
+  forces.peak_force = std::max(forces.peak_force, blade.force.norm());
+  forces.engaged_length = std::max(forces.engaged_length, blade.engaged_length);
+  forces.fracture_work += blade.fracture_work;
+  forces.friction_work += blade.friction_work;
+  forces.tool_work += blade.tool_work;
+  forces.touching_frames += blade.touches ? 1 : 0;
+  forces.yielding_frames += blade.yields ? 1 : 0;
+}
+
+void SceneRunner::measure() {
+  const Simulation& end = simulation();
+  if (had_blade_) detail::measure_cut(end.mesh(), report_.job);
+  detail::measure_after(end.mesh(), find_components(end.mesh()), volume_tolerance(scene_.options.engine), report_.job);
+  report_.energy_after = end.body().energy();
+  report_.haptics = hand_.figures();
+  report_.inverted_tets = end.body().count_inverted();
+  report_.is_finite = end.body().is_finite();
+  report_.state_hash = end.hash();
+  if (scorer_) report_.exercise = scorer_->score(end);
+}
+
+void describe(const Scene& scene, const SimulateJob& job, const io::LoadedMesh& loaded, SimulationReport& report) {
+  EngineOptions engine = scene.options.engine;
+  engine.threads = job.run.threads;
+  detail::describe_job(loaded, engine, job.budget_us, report.job);
+  report.job.options.seed = scene.seed;
+  report.scene = job.scene_file;
+  report.name = scene.name;
+  report.frames = scene.frames;
+  report.frame_seconds = scene.options.frame_seconds;
+}
+
+}  // namespace
+
+Result<SimulateResult> run_simulate(const Scene& scene, const SimulateJob& job) {
+  Result<io::LoadedMesh> loaded = load_model(scene);
+  if (!loaded.ok()) return loaded.error();
+  SimulateResult result;
+  describe(scene, job, *loaded, result.report);
+  detail::measure_before(loaded->mesh, result.report.job);
+  std::optional<FrameSeries> series;
+  if (!job.output.empty()) {
+    Result<FrameSeries> begun = FrameSeries::begin(job.output);
+    if (!begun.ok()) return begun.error();
+    series.emplace(std::move(begun).value());
+  }
+  Result<RecordedSimulation> made = RecordedSimulation::create(scene, std::move(loaded->mesh), job.run);
+  if (!made.ok()) return made.error();
+  SceneRunner runner(scene, job, std::move(made).value(), result.report);
+  if (const Status status = runner.settle(); !status.ok()) return status.error();
+  if (const Status status = runner.run_frames(series ? &*series : nullptr, *loaded); !status.ok())
+    return status.error();
+  result.was_stopped = runner.was_stopped();
+  if (result.was_stopped) return result;
+  runner.measure();
+  if (!series || !result.report.job.change.ok) return result;
+  if (const Status status = series->finish(); !status.ok()) return status.error();
+  return result;
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/model/convert.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include "incise/io/mesh_export.h"
+#include "incise/io/mesh_loader.h"
+#include "incise/io/surface_file.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 9> kMeshes = {".mesh", ".msh", ".msh2", ".vtk", ".vtu",
+                                                     ".node", ".ele", ".veg",  ".inp"};
+constexpr std::array<std::string_view, 4> kSurfaces = {".obj", ".stl", ".ply", ".off"};
+
+std::string extension_of(const fs::path& path) {
+  std::string text = path.extension().string();
+  if (text == ".gz") text = path.stem().extension().string();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+Result<Conversion> write_surface(const fs::path& out, const io::SurfaceSoup& surface, Conversion done) {
+  if (const Status status = io::write_surface(out, surface); !status.ok()) return status.error();
+  return done;
+}
+
+Result<Conversion> convert_surface(const fs::path& in, const fs::path& out) {
+  Result<io::SurfaceSoup> surface = io::read_surface(in);
+  if (!surface.ok()) return surface.error();
+  return write_surface(out, *surface, {});
+}
+
+Result<Conversion> mesh_to_surface(io::MeshFile file, const fs::path& in, const fs::path& out) {
+  Result<io::LoadedMesh> loaded = io::build_mesh(std::move(file), in);
+  if (!loaded.ok()) return loaded.error();
+  return write_surface(out, io::to_surface(loaded->mesh), {loaded->source.notes});
+}
+
+}  // namespace
+
+bool is_mesh_extension(const fs::path& path) {
+  return std::find(kMeshes.begin(), kMeshes.end(), extension_of(path)) != kMeshes.end();
+}
+
+bool is_surface_extension(const fs::path& path) {
+  return std::find(kSurfaces.begin(), kSurfaces.end(), extension_of(path)) != kSurfaces.end();
+}
+
+Result<Conversion> convert(const fs::path& in, const fs::path& out) {
+  const bool wants_surface = is_surface_extension(out);
+  if (!wants_surface && !is_mesh_extension(out)) {
+    return Error{
+        ErrorCode::kBadArgument,
+        out.string() + ": unknown extension; use " + kMeshExtensions + ", or for surfaces " + kSurfaceExtensions,
+        {}};
+  }
+  Result<io::MeshFile> file = io::read_mesh(in);
+  if (!file.ok()) return wants_surface && is_surface_extension(in) ? convert_surface(in, out) : file.error();
+  if (wants_surface) return mesh_to_surface(std::move(file).value(), in, out);
+  io::drop_mid_nodes(*file);
+  if (const Status status = io::write_mesh(out, file->data); !status.ok()) return status.error();
+  return Conversion{file->notes};
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "incise/core/result.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+
+/// Whether `io::write_mesh` knows the extension, `.gz` aside. Cost: O(1).
+[[nodiscard]] bool is_mesh_extension(const std::filesystem::path& path);
+/// Whether `io::write_surface` knows the extension, `.gz` aside. Cost: O(1).
+[[nodiscard]] bool is_surface_extension(const std::filesystem::path& path);
+/// The extensions of both, for messages.
+inline constexpr const char* kMeshExtensions = ".mesh .msh .msh2 .vtk .vtu .node .ele .veg .inp, each also with .gz";
+inline constexpr const char* kSurfaceExtensions = ".obj .stl .ply .off";
+
+/// What a conversion has to tell.
+struct Conversion {
+  std::vector<std::string> notes;  ///< what was left out, in words
+};
+
+/// Converts mesh to mesh as it stands, mesh to surface (its boundary), or surface to surface.
+///
+/// Ten-node tets keep their corners. Errors: as the readers and writers; kBadArgument for an extension that cannot be
+/// written, or a surface where a mesh is asked for. Cost: O(n).
+[[nodiscard]] Result<Conversion> convert(const std::filesystem::path& in, const std::filesystem::path& out);
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/recording/recorded_simulation.h"
+
+#include <utility>
+
+#include "app/recording/recording_path.h"
+#include "app/recording/stopwatch.h"
+#include "app/scene/scene_simulation.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+/// The scene as a recording has it: its model's path leads from the recording's folder.
+SimulationHeader header_of(const Scene& scene, std::uint64_t mesh_hash, const std::filesystem::path& record) {
+  SimulationHeader header;
+  header.scene = scene;
+  if (!scene.model.file.empty()) {
+    const Result<std::filesystem::path> model = find_model(scene);
+    header.scene.model.file = seen_from(record, model.ok() ? *model : std::filesystem::path(scene.model.file));
+  }
+  header.mesh_hash = mesh_hash;
+  return header;
+}
+
+}  // namespace
+
+RecordedSimulation::RecordedSimulation(Simulation simulation, std::optional<SimulationWriter> writer,
+                                       std::optional<Past> past)
+    : simulation_(std::move(simulation)), writer_(std::move(writer)), past_(std::move(past)) {}
+
+Result<RecordedSimulation> RecordedSimulation::create(const Scene& scene, TetMesh mesh, const SceneRun& run) {
+  std::optional<SimulationWriter> writer;
+  if (!run.record.empty()) writer.emplace(run.record, header_of(scene, mesh.hash(), run.record));
+  std::optional<Past> past;
+  if (run.keeps_calls) past = Past{scene, mesh.hash(), {}};
+  Result<Simulation> simulation = make_simulation(scene, std::move(mesh), run.threads, run.log);
+  if (!simulation.ok()) return simulation.error();
+  return RecordedSimulation(std::move(simulation).value(), std::move(writer), std::move(past));
+}
+
+template <class Call>
+auto RecordedSimulation::timed(const Call& call) {
+  const detail::Stopwatch watch;
+  auto outcome = call();
+  last_ms_ = watch.ms();
+  return outcome;
+}
+
+template <class Outcome>
+Outcome RecordedSimulation::recorded(SimulationCall call, Outcome outcome) {
+  if (!outcome.ok() && outcome.error().code == ErrorCode::kBadArgument) return outcome;
+  if (!outcome.ok()) call.error = outcome.error().code;
+  if (past_) past_->calls.push_back(call);
+  if (!writer_) return outcome;
+  call.hash = simulation_.hash();
+  if (const Status status = writer_->write(call); !status.ok()) return status.error();
+  return outcome;
+}
+
+Result<FrameReport> RecordedSimulation::frame(const FrameInput& input) {
+  Result<FrameReport> report = timed([&] { return simulation_.frame(input); });
+  if (!writer_ && !past_) return report;
+  SimulationCall call;
+  call.kind = SimulationCallKind::kFrame;
+  call.input = input;
+  return recorded(std::move(call), std::move(report));
+}
+
+Result<unsigned> RecordedSimulation::settle(const SceneSettle& settle) {
+  SimulationCall call;
+  call.kind = SimulationCallKind::kSettle;
+  call.settle = settle;
+  return recorded(std::move(call), timed([&] { return simulation_.settle(settle.frames, settle.speed); }));
+}
+
+Result<bool> RecordedSimulation::undo() {
+  if (!timed([&] { return simulation_.undo(); })) return false;
+  SimulationCall call;
+  call.kind = SimulationCallKind::kUndo;
+  return recorded(std::move(call), Result<bool>(true));
+}
+
+Result<bool> RecordedSimulation::redo() {
+  if (!timed([&] { return simulation_.redo(); })) return false;
+  SimulationCall call;
+  call.kind = SimulationCallKind::kRedo;
+  return recorded(std::move(call), Result<bool>(true));
+}
+
+Status RecordedSimulation::start_recording(const std::filesystem::path& path) {
+  stop_recording();
+  Result<SimulationWriter> writer = write_past(path);
+  if (!writer.ok()) return writer.error();
+  writer_ = std::move(writer).value();
+  return {};
+}
+
+Status RecordedSimulation::save_recording(const std::filesystem::path& path) const {
+  const Result<SimulationWriter> written = write_past(path);
+  return written.ok() ? Status() : Status(written.error());
+}
+
+Result<SimulationWriter> RecordedSimulation::write_past(const std::filesystem::path& path) const {
+  if (!past_) return Error{ErrorCode::kBadArgument, "this session keeps no calls that could be recorded", {}};
+  SimulationWriter writer(path, header_of(past_->scene, past_->mesh_hash, path));
+  for (std::size_t i = 0; i < past_->calls.size(); ++i) {
+    SimulationCall call = past_->calls[i];
+    if (i + 1 == past_->calls.size()) call.hash = simulation_.hash();
+    if (Status status = writer.write(call); !status.ok()) return status.error();
+  }
+  return writer;
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

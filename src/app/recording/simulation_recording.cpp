@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/recording/simulation_recording.h"
+
+#include <array>
+
+#include "app/scene/blade_file.h"
+#include "app/scene/scene_reader.h"
+#include "app/scene/scene_write.h"
+#include "app/text/line_reader.h"
+#include "app/text/line_source.h"
+#include "app/text/range_reader.h"
+#include "incise/version.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kMaxItems = 1'000'000;  // hooks and tools of one frame
+constexpr std::array<const char*, 4> kCallNames = {"settle", "frame", "undo", "redo"};
+
+// ---- writing ----
+
+Json encode_hook(const Hook& hook) {
+  return {{"id", hook.id}, {"position", encode(hook.position)}, {"radius", hook.radius}, {"stiffness", hook.stiffness}};
+}
+
+struct EncodeTool {
+  Json operator()(const BallTool& ball) const {
+    return {{"kind", "ball"}, {"centre", encode(ball.centre)}, {"radius", ball.radius}};
+  }
+  Json operator()(const RodTool& rod) const {
+    return {{"kind", "rod"}, {"from", encode(rod.from)}, {"to", encode(rod.to)}, {"radius", rod.radius}};
+  }
+  Json operator()(const PlaneTool& plane) const {
+    return {{"kind", "plane"}, {"normal", encode(plane.normal)}, {"offset", plane.offset}};
+  }
+  Json operator()(const FlatTool& flat) const {
+    return {{"kind", "flat"}, {"edge", encode(flat.edge)}, {"back", encode(flat.back)}, {"thickness", flat.thickness}};
+  }
+};
+
+void add_input(const FrameInput& input, Json& root) {
+  if (input.blade) root["blade"] = {{"edge", encode(input.blade->edge)}, {"direction", encode(input.blade->direction)}};
+  for (const Hook& hook : input.hooks) root["hooks"].push_back(encode_hook(hook));
+  for (const Tool& tool : input.tools) root["tools"].push_back(std::visit(EncodeTool{}, tool));
+}
+
+// ---- reading ----
+
+class HeaderReader : public LineReader {
+ public:
+  explicit HeaderReader(std::string_view file_name) : LineReader(file_name), file_name_(file_name) {}
+
+  Result<SimulationHeader> run(const JsonValue& root, const std::filesystem::path& folder) {
+    const std::string path = "the header";
+    SimulationHeader header;
+    if (!read_.is_format(root, "incise-simulation", kVersion) ||
+        !read_.is_object(root, path, {"format", "version", "program", "mesh", "scene"}) ||
+        !read_text(root, path, "program", header.program)) {
+      return error();
+    }
+    const JsonValue* mesh = read_.member(root, path, "mesh");
+    const JsonValue* scene = mesh != nullptr ? read_.member(root, path, "scene") : nullptr;
+    if (scene == nullptr || !read_.is_object(*mesh, "mesh", {"hash"}) || !read_hash(*mesh, "mesh", header.mesh_hash)) {
+      return error();
+    }
+    Result<Scene> found = read_scene_tree(*scene, file_name_, folder);
+    if (!found.ok()) return found.error();
+    header.scene = std::move(found).value();
+    return header;
+  }
+
+ private:
+  std::string_view file_name_;
+};
+
+class CallReader : public LineReader {
+ public:
+  using LineReader::LineReader;
+
+  bool run(const JsonValue& root, SimulationCall& call) {
+    return read_call_kind(root, kPath, kCallNames, call.kind) && read_arguments(root, call) &&
+           read_error(root, call.error) &&
+           (root.find("hash") == nullptr || read_hash(root, kPath, call.hash.emplace()));
+  }
+
+ private:
+  static constexpr const char* kPath = "the call";
+
+  bool read_arguments(const JsonValue& root, SimulationCall& call) {
+    switch (call.kind) {
+      case SimulationCallKind::kSettle:
+        return read_.is_object(root, kPath, {"call", "frames", "speed", "error", "hash"}) &&
+               read_settle(root, call.settle);
+      case SimulationCallKind::kFrame:
+        return read_.is_object(root, kPath, {"call", "blade", "hooks", "tools", "error", "hash"}) &&
+               read_blade(root.find("blade"), call.input) &&
+               read_items(root, "hooks",
+                          [&](const JsonValue& v, const std::string& p) {
+                            return read_hook(v, p, call.input.hooks.emplace_back());
+                          }) &&
+               read_items(root, "tools", [&](const JsonValue& v, const std::string& p) {
+                 return read_tool(v, p, call.input.tools.emplace_back());
+               });
+      case SimulationCallKind::kUndo:
+      case SimulationCallKind::kRedo:
+        break;
+    }
+    return read_.is_object(root, kPath, {"call", "error", "hash"});
+  }
+  bool read_settle(const JsonValue& root, SceneSettle& settle) {
+    std::uint64_t frames = 0;
+    if (!read_whole(root, kPath, "frames", frames)) return false;
+    settle.frames = static_cast<std::uint32_t>(frames);
+    return (settle.frames == frames || read_.fail(root, "frames", "must be below 2^32")) &&
+           read_number(root, "", "speed", settle.speed);
+  }
+  bool read_blade(const JsonValue* value, FrameInput& input) {
+    if (value == nullptr) return true;
+    BladePose& pose = input.blade.emplace();
+    if (!read_.is_object(*value, "blade", {"edge", "direction"})) return false;
+    const JsonValue* edge = read_.member(*value, "blade", "edge");
+    return edge != nullptr && read_.points(*edge, "blade.edge", kMaxBladePoints, pose.edge) &&
+           read_point(*value, "blade", "direction", pose.direction);
+  }
+  template <class ReadItem>
+  bool read_items(const JsonValue& root, const std::string& key, const ReadItem& read_item) {
+    const JsonValue* list = root.find(key);
+    if (list == nullptr) return true;
+    if (!read_.is_array(*list, key, 0, kMaxItems)) return false;
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      if (!read_item(list->items[i], at(key, i))) return false;
+    }
+    return true;
+  }
+  bool read_hook(const JsonValue& value, const std::string& path, Hook& hook) {
+    std::uint64_t id = 0;
+    if (!read_.is_object(value, path, {"id", "position", "radius", "stiffness"}) || !read_whole(value, path, "id", id))
+      return false;
+    hook.id = static_cast<std::uint32_t>(id);
+    return (hook.id == id || read_.fail(value, under(path, "id"), "must be below 2^32")) &&
+           read_point(value, path, "position", hook.position) && read_number(value, path, "radius", hook.radius) &&
+           read_number(value, path, "stiffness", hook.stiffness);
+  }
+  bool read_tool(const JsonValue& value, const std::string& path, Tool& tool) {
+    std::string kind;
+    if (value.kind != JsonValue::Kind::kObject) return read_.fail(value, path, "must be an object");
+    if (!read_text(value, path, "kind", kind)) return false;
+    if (kind == "ball") return read_shape(value, path, tool.emplace<BallTool>());
+    if (kind == "rod") return read_shape(value, path, tool.emplace<RodTool>());
+    if (kind == "plane") return read_shape(value, path, tool.emplace<PlaneTool>());
+    if (kind == "flat") return read_shape(value, path, tool.emplace<FlatTool>());
+    return read_.fail(*value.find("kind"), under(path, "kind"), "must be ball, rod, plane or flat");
+  }
+  bool read_shape(const JsonValue& value, const std::string& path, BallTool& ball) {
+    return read_.is_object(value, path, {"kind", "centre", "radius"}) &&
+           read_point(value, path, "centre", ball.centre) && read_number(value, path, "radius", ball.radius);
+  }
+  bool read_shape(const JsonValue& value, const std::string& path, RodTool& rod) {
+    return read_.is_object(value, path, {"kind", "from", "to", "radius"}) &&
+           read_point(value, path, "from", rod.from) && read_point(value, path, "to", rod.to) &&
+           read_number(value, path, "radius", rod.radius);
+  }
+  bool read_shape(const JsonValue& value, const std::string& path, PlaneTool& plane) {
+    return read_.is_object(value, path, {"kind", "normal", "offset"}) &&
+           read_point(value, path, "normal", plane.normal) && read_number(value, path, "offset", plane.offset);
+  }
+  bool read_shape(const JsonValue& value, const std::string& path, FlatTool& flat) {
+    if (!read_.is_object(value, path, {"kind", "edge", "back", "thickness"})) return false;
+    const JsonValue* edge = read_.member(value, path, "edge");
+    return edge != nullptr && read_.points(*edge, under(path, "edge"), kMaxBladePoints, flat.edge) &&
+           read_point(value, path, "back", flat.back) && read_number(value, path, "thickness", flat.thickness);
+  }
+  bool read_point(const JsonValue& object, const std::string& path, const char* key, Vec3& out) {
+    const JsonValue* value = read_.member(object, path, key);
+    return value != nullptr && read_.numbers(*value, under(path, key), out.data(), 3);
+  }
+  bool read_number(const JsonValue& object, const std::string& path, const char* key, double& out) {
+    const JsonValue* value = read_.member(object, path, key);
+    return value != nullptr && read_.number(*value, under(path, key), out);
+  }
+};
+
+}  // namespace
+
+const char* name_of(SimulationCallKind kind) {
+  return kCallNames[static_cast<std::size_t>(kind)];
+}
+
+std::string to_line(const SimulationHeader& header) {
+  Json root;
+  root["format"] = "incise-simulation";
+  root["version"] = kVersion;
+  root["program"] = header.program.empty() ? "incise " INCISE_VERSION : header.program;
+  root["mesh"]["hash"] = hash_text(header.mesh_hash);
+  root["scene"] = scene_tree(header.scene);
+  return line_of(root);
+}
+
+std::string to_line(const SimulationCall& call) {
+  Json root;
+  root["call"] = name_of(call.kind);
+  if (call.kind == SimulationCallKind::kFrame) add_input(call.input, root);
+  if (call.kind == SimulationCallKind::kSettle) {
+    root["frames"] = call.settle.frames;
+    root["speed"] = call.settle.speed;
+  }
+  if (call.error) root["error"] = name_of(*call.error);
+  if (call.hash) root["hash"] = hash_text(*call.hash);
+  return line_of(root);
+}
+
+Result<SimulationHeader> SimulationCodec::parse_header(std::string_view text, std::string_view file_name,
+                                                       const std::filesystem::path& folder) {
+  const Result<JsonValue> root = parse_json(text, file_name, kLineLimits);
+  if (!root.ok()) return root.error();
+  return HeaderReader(file_name).run(*root, folder);
+}
+
+Result<SimulationCall> SimulationCodec::parse_call(std::string_view text, std::string_view file_name,
+                                                   std::uint32_t line) {
+  const Result<JsonValue> root = parse_json(text, file_name, kLineLimits, line);
+  if (!root.ok()) return root.error();
+  SimulationCall call;
+  call.line = line;
+  CallReader reader(file_name);
+  if (!reader.run(*root, call)) return reader.error();
+  return call;
+}
+
+bool is_simulation_recording(const std::filesystem::path& path) {
+  Result<LineSource> source = LineSource::open(path);
+  if (!source.ok()) return false;
+  const Result<std::string> line = source->header();
+  if (!line.ok()) return false;
+  const Result<JsonValue> root = parse_json(*line, path.string(), kLineLimits);
+  const JsonValue* format = root.ok() ? root->find("format") : nullptr;
+  return format != nullptr && format->text == "incise-simulation";
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

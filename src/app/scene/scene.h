@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes: a body, what holds it, and what is done to it over time, as data (docs/scenes.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "app/scene/exercise.h"
+#include "app/scene/half_space.h"
+#include "app/scene/scene_stroke.h"
+#include "app/scene/scene_view.h"
+#include "incise/core/result.h"
+#include "incise/engine/simulation.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+
+/// A generated box of Kuhn tets; see `kuhn_box` and `jitter`.
+struct SceneBox {
+  std::array<std::uint32_t, 3> cells{5, 5, 5};
+  Vec3 size = Vec3::Ones();
+  Vec3 origin = Vec3::Zero();  ///< its least corner
+  double jitter = 0;           ///< as `fraction` of `jitter`, in [0, 0.15]; with the scene's seed
+};
+
+/// Gives all tets whose centroid lies in a half-space a region label.
+struct RegionPaint {
+  std::int32_t region = 0;
+  HalfSpace below;
+};
+
+struct SceneModel {
+  std::string file;  ///< seen from the scene's folder, or as it stands; empty: the box
+  SceneBox box;
+  std::vector<RegionPaint> regions;  ///< in order: later ones paint over earlier ones
+};
+
+/// Holds the vertices whose rest position lies somewhere.
+struct Attachment {
+  std::variant<Box, BallTool, HalfSpace> where;
+  bool surface_only = false;
+  double stiffness = std::numeric_limits<double>::infinity();  ///< N/m per vertex; infinite: rigidly
+};
+
+/// What presses on the body: from the first of its key times to the last, or always where it has one key and no time.
+struct SceneTool {
+  std::string name;
+  std::vector<double> times;  ///< s, strictly increasing
+  std::vector<Tool> keys;     ///< one per time, all of the same kind, which is none of `FlatTool`
+};
+
+/// A hook that takes hold at the first of its key times and lets go after the last.
+struct SceneHook {
+  std::string name;
+  double radius = 0;            ///< length unit, above 0
+  double stiffness = 100;       ///< N/m per vertex, above 0
+  std::vector<double> times;    ///< s, strictly increasing
+  std::vector<Vec3> positions;  ///< one per time
+};
+
+/// How long the body comes to rest before the first frame; see `Simulation::settle`.
+struct SceneSettle {
+  std::uint32_t frames = 0;  ///< at most
+  double speed = 1e-4;       ///< m/s
+};
+
+struct Scene {
+  std::string name;
+  std::filesystem::path folder;  ///< that `model.file` is seen from
+  SceneModel model;
+  SimulationOptions options;  ///< its threads and log are not part of scenes
+  std::vector<Attachment> attachments;
+  std::vector<SceneTool> tools;
+  std::vector<SceneHook> hooks;
+  std::vector<SceneStroke> strokes;  ///< in order of time, at least two frames between them
+  std::uint64_t frames = 0;
+  SceneSettle settle;
+  std::uint64_t seed = 0;
+  std::optional<SceneView> view;     ///< how it is first seen; unset: as every body without a word about it
+  std::optional<Exercise> exercise;  ///< what a trainee shall do
+};
+
+/// Bounds on what a scene may hold.
+inline constexpr std::uint64_t kMaxSceneFrames = 10'000'000;
+inline constexpr std::size_t kMaxSceneItems = 1000;  ///< attachments, tools, hooks, paintings, blades
+
+/// Parses a scene: JSON of format "incise-scene", version 1, whose keys `docs/scenes.md` lists.
+///
+/// @param json       the file's content, at most 64 MiB.
+/// @param file_name  stands for FILE in messages.
+/// @param folder     that blade files and the model are seen from; where they are not there, paths are taken as they
+///                   stand.
+/// @return a scene whose numbers are in range and whose blade files have been read; its model may not exist.
+/// Errors: kBadFile "FILE:LINE: PATH what; remedy", for instance for an unknown key. Thread-safe.
+[[nodiscard]] Result<Scene> parse_scene(std::string_view json, std::string_view file_name,
+                                        const std::filesystem::path& folder = {});
+
+/// Reads a scene file; see `parse_scene`. Errors: also kBadFile where it cannot be opened.
+[[nodiscard]] Result<Scene> read_scene(const std::filesystem::path& path);
+
+/// The whole scene as JSON on one line, defaults and the strokes of blade files included: `parse_scene` gives the same
+/// scene again, bit for bit, seen from the same folder.
+[[nodiscard]] std::string to_json(const Scene& scene);
+
+/// What the hands do in one frame, counted from 0: all that is there at its end, after (frame + 1) · frame_seconds.
+///
+/// Between key times points move linearly. What begins within a frame stands at its first key at the frame's end, and
+/// what ends within it at its last. A pure function. Cost: O(points + log times).
+[[nodiscard]] FrameInput scene_input(const Scene& scene, std::uint64_t frame);
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+
+#include "app/scene/scene.h"
+#include "app/scene/scene_blade.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+/// Where a moment lies between two of a track's keys.
+struct KeySpan {
+  std::size_t from = 0, to = 0;
+  double share = 0;  // of the way, in [0, 1)
+};
+
+Vec3 between(const Vec3& a, const Vec3& b, double share) {
+  return a + share * (b - a);
+}
+
+double between(double a, double b, double share) {
+  return a + share * (b - a);
+}
+
+/// A frame's end and beginning, in seconds.
+struct Moment {
+  Moment(double frame_seconds, std::uint64_t frame)
+      : begin(static_cast<double>(frame) * frame_seconds), end(static_cast<double>(frame + 1) * frame_seconds) {}
+
+  double begin, end;
+};
+
+/// Where a track with these key times is; nothing where it is not there.
+std::optional<KeySpan> find_span(const std::vector<double>& times, const Moment& now) {
+  const double first = times.front();
+  const double last = times.back();
+  if (now.end <= first || now.begin >= last) return std::nullopt;
+  if (now.begin <= first) return KeySpan{};
+  if (now.end >= last) return KeySpan{times.size() - 1, times.size() - 1, 0};
+  const auto after = std::upper_bound(times.begin(), times.end(), now.end);
+  const auto to = static_cast<std::size_t>(after - times.begin());
+  return KeySpan{to - 1, to, (now.end - times[to - 1]) / (times[to] - times[to - 1])};
+}
+
+struct Blend {
+  double share;
+
+  Tool operator()(const BallTool& a, const BallTool& b) const {
+    return BallTool{between(a.centre, b.centre, share), between(a.radius, b.radius, share)};
+  }
+  Tool operator()(const RodTool& a, const RodTool& b) const {
+    return RodTool{between(a.from, b.from, share), between(a.to, b.to, share), between(a.radius, b.radius, share)};
+  }
+  template <class A, class B>
+  Tool operator()(const A& a, const B&) const {
+    return a;
+  }
+};
+
+}  // namespace
+
+std::optional<BladePose> blade_at(const std::vector<SceneStroke>& strokes, double frame_seconds, std::uint64_t frame) {
+  const Moment now(frame_seconds, frame);
+  for (const SceneStroke& s : strokes) {
+    const auto span = find_span(s.stroke.times, now);
+    if (!span) continue;
+    BladePose pose{s.stroke.edges[span->from], s.direction};
+    const std::vector<Vec3>& next = s.stroke.edges[span->to];
+    for (std::size_t i = 0; i < pose.edge.size(); ++i) pose.edge[i] = between(pose.edge[i], next[i], span->share);
+    return pose;
+  }
+  return std::nullopt;
+}
+
+FrameInput scene_input(const Scene& scene, std::uint64_t frame) {
+  const Moment now(scene.options.frame_seconds, frame);
+  FrameInput input;
+  input.blade = blade_at(scene.strokes, scene.options.frame_seconds, frame);
+  for (std::size_t i = 0; i < scene.hooks.size(); ++i) {
+    const SceneHook& hook = scene.hooks[i];
+    const auto span = find_span(hook.times, now);
+    if (!span) continue;
+    input.hooks.push_back({static_cast<std::uint32_t>(i),
+                           between(hook.positions[span->from], hook.positions[span->to], span->share), hook.radius,
+                           hook.stiffness});
+  }
+  for (const SceneTool& tool : scene.tools) {
+    const auto span = tool.times.empty() ? KeySpan{} : find_span(tool.times, now);
+    if (span) input.tools.push_back(std::visit(Blend{span->share}, tool.keys[span->from], tool.keys[span->to]));
+  }
+  return input;
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,604 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/scene/scene_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "app/scene/blade_file.h"
+#include "app/scene/stroke_reader.h"
+#include "app/scene/view_names.h"
+#include "app/text/range_reader.h"
+#include "app/text/text_file.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kVersion = 1;
+constexpr std::uint64_t kMaxRegion = std::numeric_limits<std::int32_t>::max();
+constexpr double kMaxBoxTets = 268435456;  // as `kuhn_box`
+constexpr double kMaxPoisson = 0.499;      // as `Material`
+constexpr double kMaxSnap = 0.4;           // as `CutOptions`
+constexpr double kMaxJitter = 0.15;        // as `jitter`
+constexpr double kMaxStretch = 1e6;
+constexpr double kTail = 0.5;  // s, that a scene without frames and duration goes on after its last key time
+constexpr double kFramesBetweenStrokes = 2;
+constexpr double kSteepestAngle = 89;           // degrees, of an exercise: an edge along the surface cuts no depth
+constexpr std::size_t kMaxTargetPoints = 1000;  // each part of an attempt is compared with each of them
+constexpr double kLineTolerance = 0.05;         // of the target line's length
+constexpr double kDepthTolerance = 0.25;        // of the depth
+
+class SceneReader {
+ public:
+  SceneReader(std::string_view file_name, const fs::path& folder) : read_(file_name) { scene_.folder = folder; }
+
+  Result<Scene> run(const JsonValue& root) {
+    if (read_header(root) && read_body(root) && read_options(root) && read_hands(root) &&
+        read_exercise(root.find("exercise")) && read_frames(root) && read_view(root.find("view"))) {
+      return std::move(scene_);
+    }
+    return blade_error_ ? *blade_error_ : read_.error();
+  }
+
+ private:
+  using ReadItem = bool (SceneReader::*)(const JsonValue&, const std::string&);
+
+  bool read_header(const JsonValue& root) {
+    return read_.is_format(root, "incise-scene", kVersion) &&
+           read_.is_object(root, "", {"format",  "version",  "name",          "model",  "length_unit", "materials",
+                                      "gravity", "damping",  "attachments",   "tools",  "hooks",       "strokes",
+                                      "frames",  "duration", "frame_seconds", "settle", "seed",        "solver",
+                                      "cut",     "maintain", "contact",       "view",   "exercise"}) &&
+           read_.optional_text(root, "", "name", scene_.name) &&
+           read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
+  }
+
+  // --- the body
+
+  bool read_body(const JsonValue& root) {
+    BodyOptions& body = scene_.options.body;
+    const JsonValue* model = read_.member(root, "", "model");
+    return model != nullptr && read_model(*model) &&
+           read_.need_ranged(root, "", "length_unit", kAbove0, body.length_unit) && read_materials(root) &&
+           read_.optional_point(root, "", "gravity", body.gravity) &&
+           read_.optional_ranged(root, "", "damping", kAtLeast0, body.damping) &&
+           read_list(root, "attachments", &SceneReader::read_attachment);
+  }
+
+  bool read_model(const JsonValue& value) {
+    SceneModel& model = scene_.model;
+    if (!read_.is_object(value, "model", {"file", "box", "regions"})) return false;
+    const JsonValue* box = value.find("box");
+    if ((box == nullptr) == (value.find("file") == nullptr)) {
+      return read_.fail(value, "model", "needs either the key \"file\" or the key \"box\"");
+    }
+    if (box != nullptr && !read_box(*box, model.box)) return false;
+    if (!read_.optional_text(value, "model", "file", model.file)) return false;
+    if (box == nullptr && model.file.empty()) return read_.fail(value, "model.file", "is empty; name a mesh file");
+    return read_list(value, "model.regions", &SceneReader::read_painting);
+  }
+
+  bool read_box(const JsonValue& value, SceneBox& box) {
+    const std::string path = "model.box";
+    if (!read_.is_object(value, path, {"cells", "size", "origin", "jitter"})) return false;
+    const JsonValue* cells = read_.member(value, path, "cells");
+    return cells != nullptr && read_cells(*cells, box) && read_.optional_point(value, path, "size", box.size) &&
+           is_positive(value, path, box.size) && read_.optional_point(value, path, "origin", box.origin) &&
+           read_.optional_ranged(value, path, "jitter", {0, kMaxJitter}, box.jitter);
+  }
+  bool is_positive(const JsonValue& value, const std::string& path, const Vec3& size) {
+    return (size.array() > 0).all() || read_.fail(value, path + ".size", "must be above 0 on every axis");
+  }
+  bool read_cells(const JsonValue& value, SceneBox& box) {
+    const std::string path = "model.box.cells";
+    double tets = 6;
+    if (!read_.is_array(value, path, 3, 3)) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const JsonValue& item = value.items[i];
+      const bool is_count = item.is_whole && item.whole > 0 && item.whole <= kMaxRegion;
+      if (!is_count) return read_.fail(item, at(path, i), "must be a whole number above 0");
+      box.cells[i] = static_cast<std::uint32_t>(item.whole);
+      tets *= static_cast<double>(item.whole);
+    }
+    return tets <= kMaxBoxTets || read_.fail(value, path, "make more than 2^28 tets; take fewer");
+  }
+
+  bool read_region(const JsonValue& value, const std::string& path, std::int32_t& region) {
+    std::uint64_t label = 0;
+    if (read_.member(value, path, "region") == nullptr ||
+        !read_.optional_whole(value, path, "region", 0, kMaxRegion, label)) {
+      return false;
+    }
+    region = static_cast<std::int32_t>(label);
+    return true;
+  }
+
+  bool read_painting(const JsonValue& value, const std::string& path) {
+    RegionPaint& paint = scene_.model.regions.emplace_back();
+    if (!read_.is_object(value, path, {"region", "below"}) || !read_region(value, path, paint.region)) return false;
+    const JsonValue* below = read_.member(value, path, "below");
+    return below != nullptr && read_plane(*below, path + ".below", paint.below);
+  }
+
+  /// Four numbers nx, ny, nz, d.
+  bool read_plane(const JsonValue& value, const std::string& path, HalfSpace& out) {
+    double numbers[4] = {};
+    if (!read_.numbers(value, path, numbers, 4)) return false;
+    out = {Vec3(numbers[0], numbers[1], numbers[2]), numbers[3]};
+    const double length = out.normal.norm();
+    return (length > 0 && std::isfinite(length)) ||
+           read_.fail(value, path, "needs a normal that is not zero: [nx,ny,nz,d]");
+  }
+
+  bool read_materials(const JsonValue& root) {
+    const JsonValue* value = root.find("materials");
+    if (value == nullptr) return true;
+    if (!read_.is_object(*value, "materials", {"default", "regions"})) return false;
+    const JsonValue* fallback = value->find("default");
+    const std::string path = "materials.default";
+    if (fallback != nullptr &&
+        !(read_.is_object(*fallback, path, {"density", "young", "poisson", "toughness", "cut_friction"}) &&
+          read_material(*fallback, path, scene_.options.materials.fallback))) {
+      return false;
+    }
+    return read_list(*value, "materials.regions", &SceneReader::read_region_material);
+  }
+  bool read_region_material(const JsonValue& value, const std::string& path) {
+    Materials& all = scene_.options.materials;
+    Materials::Entry entry{0, all.fallback};
+    if (!read_.is_object(value, path, {"region", "density", "young", "poisson", "toughness", "cut_friction"}) ||
+        !read_region(value, path, entry.region) || !read_material(value, path, entry.material)) {
+      return false;
+    }
+    for (const Materials::Entry& other : all.by_region) {
+      if (other.region == entry.region) return read_.fail(value, path + ".region", "is named before; name it once");
+    }
+    all.by_region.push_back(entry);
+    return true;
+  }
+  bool read_material(const JsonValue& value, const std::string& path, Material& material) {
+    return read_.optional_ranged(value, path, "density", kAbove0, material.density) &&
+           read_.optional_ranged(value, path, "young", kAbove0, material.young) &&
+           read_.optional_ranged(value, path, "poisson", {0, kMaxPoisson}, material.poisson) &&
+           read_.optional_ranged(value, path, "toughness", kAtLeast0, material.toughness) &&
+           read_.optional_ranged(value, path, "cut_friction", kAtLeast0, material.cut_friction);
+  }
+
+  bool read_attachment(const JsonValue& value, const std::string& path) {
+    Attachment& held = scene_.attachments.emplace_back();
+    return read_.is_object(value, path, {"box", "ball", "below", "surface", "stiffness"}) &&
+           has_one(value, path, {"box", "ball", "below"}) && read_where(value, path, held) &&
+           read_.optional_boolean(value, path, "surface", held.surface_only) &&
+           read_.optional_ranged(value, path, "stiffness", kAbove0, held.stiffness);
+  }
+  bool read_where(const JsonValue& value, const std::string& path, Attachment& held) {
+    if (const JsonValue* box = value.find("box")) return read_hold_box(*box, path + ".box", held.where.emplace<Box>());
+    if (const JsonValue* ball = value.find("ball")) {
+      return read_.is_object(*ball, path + ".ball", {"centre", "radius"}) &&
+             read_ball(*ball, path + ".ball", held.where.emplace<BallTool>());
+    }
+    return read_plane(*value.find("below"), path + ".below", held.where.emplace<HalfSpace>());
+  }
+  bool read_hold_box(const JsonValue& value, const std::string& path, Box& box) {
+    if (!read_.is_object(value, path, {"low", "high"}) || !read_.need_point(value, path, "low", box.lo) ||
+        !read_.need_point(value, path, "high", box.hi)) {
+      return false;
+    }
+    return !box.is_empty() || read_.fail(value, path, "has a low corner that is not below its high corner");
+  }
+  bool read_ball(const JsonValue& value, const std::string& path, BallTool& ball) {
+    return read_.need_point(value, path, "centre", ball.centre) &&
+           read_.need_ranged(value, path, "radius", kAbove0, ball.radius);
+  }
+
+  // --- how it is computed
+
+  bool read_options(const JsonValue& root) {
+    SimulationOptions& options = scene_.options;
+    return read_.optional_ranged(root, "", "frame_seconds", {0, 1, true}, options.frame_seconds) &&
+           read_settle(root.find("settle")) && read_solver(root.find("solver")) && read_cut(root.find("cut")) &&
+           read_maintain(root.find("maintain")) && read_contact(root.find("contact"));
+  }
+  bool read_settle(const JsonValue* value) {
+    if (value == nullptr) return true;
+    std::uint64_t frames = 0;
+    if (!read_.is_object(*value, "settle", {"frames", "speed"}) ||
+        read_.member(*value, "settle", "frames") == nullptr ||
+        !read_.optional_whole(*value, "settle", "frames", 0, 100'000, frames)) {
+      return false;
+    }
+    scene_.settle.frames = static_cast<std::uint32_t>(frames);
+    return read_.optional_ranged(*value, "settle", "speed", kAbove0, scene_.settle.speed);
+  }
+  bool read_solver(const JsonValue* value) {
+    if (value == nullptr) return true;
+    BodyOptions& body = scene_.options.body;
+    std::string name = "block-descent";
+    std::uint64_t substeps = body.substeps;
+    std::uint64_t iterations = body.iterations;
+    if (!read_.is_object(*value, "solver", {"relaxation", "substeps", "iterations"}) ||
+        !read_.optional_text(*value, "solver", "relaxation", name) ||
+        !read_.optional_whole(*value, "solver", "substeps", 1, 1000, substeps) ||
+        !read_.optional_whole(*value, "solver", "iterations", 1, 1000, iterations)) {
+      return false;
+    }
+    body.substeps = static_cast<unsigned>(substeps);
+    body.iterations = static_cast<unsigned>(iterations);
+    body.relaxation = name == "block-descent" ? Relaxation::kBlockDescent : Relaxation::kPositionBased;
+    return name == "block-descent" || name == "position-based" ||
+           read_.fail(*value, "solver.relaxation", R"(must be "block-descent" or "position-based")");
+  }
+  bool read_cut(const JsonValue* value) {
+    if (value == nullptr) return true;
+    CutOptions& cut = scene_.options.engine.cut;
+    std::string profile = "incise";
+    if (!read_.is_object(*value, "cut", {"snap", "profile"}) ||
+        !read_.optional_ranged(*value, "cut", "snap", {0, kMaxSnap}, cut.snap) ||
+        !read_.optional_text(*value, "cut", "profile", profile)) {
+      return false;
+    }
+    cut.profile = profile == "paper" ? Profile::kPaper : Profile::kIncise;
+    return profile == "incise" || profile == "paper" ||
+           read_.fail(*value, "cut.profile", R"(must be "incise" or "paper")");
+  }
+  bool read_maintain(const JsonValue* value) {
+    if (value == nullptr) return true;
+    MaintainOptions& maintain = scene_.options.engine.maintain;
+    const JsonValue* units = value->find("work_units");
+    const bool is_unlimited = units != nullptr && units->kind == JsonValue::Kind::kNull;
+    if (is_unlimited) maintain.work_units = kUnlimitedWork;
+    return read_.is_object(*value, "maintain", {"merge", "improve", "work_units"}) &&
+           read_.optional_boolean(*value, "maintain", "merge", maintain.merge) &&
+           read_.optional_boolean(*value, "maintain", "improve", maintain.improve) &&
+           (is_unlimited ||
+            read_.optional_whole(*value, "maintain", "work_units", 0, kUnlimitedWork, maintain.work_units));
+  }
+  bool read_contact(const JsonValue* value) {
+    if (value == nullptr) return true;
+    SimulationOptions& options = scene_.options;
+    return read_.is_object(*value, "contact", {"stiffness", "flat_height"}) &&
+           read_.optional_ranged(*value, "contact", "stiffness", kAtLeast0, options.contact_stiffness) &&
+           read_.optional_ranged(*value, "contact", "flat_height", kAtLeast0, options.flat_height);
+  }
+
+  // --- what is done to it
+
+  bool read_hands(const JsonValue& root) {
+    return read_list(root, "tools", &SceneReader::read_tool) && read_list(root, "hooks", &SceneReader::read_hook) &&
+           read_list(root, "strokes", &SceneReader::read_blade_entry);
+  }
+
+  /// A time that is 0 or more, and after the one before it.
+  bool read_time(const JsonValue& value, const std::string& path, std::vector<double>& times) {
+    double t = 0;
+    if (!read_.need_ranged(value, path, "t", kAtLeast0, t)) return false;
+    if (!times.empty() && !(t > times.back())) {
+      return read_.fail(*value.find("t"), path + ".t", "must be later than the time before it; sort the times");
+    }
+    times.push_back(t);
+    return true;
+  }
+  /// Reads every key of the path of a tool or hook.
+  template <class ReadKey>
+  bool read_path(const JsonValue& owner, const std::string& owner_path, const ReadKey& read_key) {
+    const JsonValue* list = read_.member(owner, owner_path, "path");
+    const std::string path = owner_path + ".path";
+    if (list == nullptr || !read_.is_array(*list, path, 2, kMaxBladePoints)) return false;
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      if (!read_key(list->items[i], at(path, i))) return false;
+    }
+    return true;
+  }
+
+  bool read_tool(const JsonValue& value, const std::string& path) {
+    SceneTool& tool = scene_.tools.emplace_back();
+    if (!read_.is_object(value, path, {"name", "plane", "ball", "rod"}) ||
+        !has_one(value, path, {"plane", "ball", "rod"}) || !read_.optional_text(value, path, "name", tool.name)) {
+      return false;
+    }
+    if (const JsonValue* plane = value.find("plane")) return read_plane_tool(*plane, path + ".plane", tool);
+    if (const JsonValue* ball = value.find("ball")) return read_ball_tool(*ball, path + ".ball", tool);
+    return read_rod_tool(*value.find("rod"), path + ".rod", tool);
+  }
+  bool read_plane_tool(const JsonValue& value, const std::string& path, SceneTool& tool) {
+    HalfSpace plane;
+    if (!read_plane(value, path, plane)) return false;
+    const double length = plane.normal.norm();
+    const bool is_unit = std::abs(length - 1) < 1e-12;  // then it stays as it is, bit for bit
+    tool.keys.emplace_back(PlaneTool{is_unit ? plane.normal : Vec3(plane.normal / length),
+                                     is_unit ? plane.offset : plane.offset / length});
+    return true;
+  }
+  bool read_ball_tool(const JsonValue& value, const std::string& path, SceneTool& tool) {
+    BallTool ball;
+    if (!read_.is_object(value, path, {"radius", "centre", "path"}) || !has_one(value, path, {"centre", "path"}) ||
+        !read_.need_ranged(value, path, "radius", kAbove0, ball.radius)) {
+      return false;
+    }
+    const auto read_key = [&](const JsonValue& key, const std::string& where) {
+      return read_.need_point(key, where, "centre", ball.centre) && (tool.keys.emplace_back(ball), true);
+    };
+    if (value.find("path") == nullptr) return read_key(value, path);
+    return read_path(value, path, [&](const JsonValue& key, const std::string& where) {
+      return read_.is_object(key, where, {"t", "centre"}) && read_time(key, where, tool.times) && read_key(key, where);
+    });
+  }
+  bool read_rod_tool(const JsonValue& value, const std::string& path, SceneTool& tool) {
+    RodTool rod;
+    if (!read_.is_object(value, path, {"radius", "from", "to", "path"}) || !has_one(value, path, {"from", "path"}) ||
+        !read_.need_ranged(value, path, "radius", kAbove0, rod.radius)) {
+      return false;
+    }
+    const auto read_key = [&](const JsonValue& key, const std::string& where) {
+      return read_.need_point(key, where, "from", rod.from) && read_.need_point(key, where, "to", rod.to) &&
+             (tool.keys.emplace_back(rod), true);
+    };
+    if (value.find("path") == nullptr) return read_key(value, path);
+    if (value.find("to") != nullptr) return read_.fail(value, path, "has \"to\" beside \"path\"; put it into the path");
+    return read_path(value, path, [&](const JsonValue& key, const std::string& where) {
+      return read_.is_object(key, where, {"t", "from", "to"}) && read_time(key, where, tool.times) &&
+             read_key(key, where);
+    });
+  }
+
+  bool read_hook(const JsonValue& value, const std::string& path) {
+    SceneHook& hook = scene_.hooks.emplace_back();
+    return read_.is_object(value, path, {"name", "radius", "stiffness", "path"}) &&
+           read_.optional_text(value, path, "name", hook.name) &&
+           read_.need_ranged(value, path, "radius", kAbove0, hook.radius) &&
+           read_.optional_ranged(value, path, "stiffness", kAbove0, hook.stiffness) &&
+           read_path(value, path, [&](const JsonValue& key, const std::string& where) {
+             return read_.is_object(key, where, {"t", "position"}) && read_time(key, where, hook.times) &&
+                    read_.need_point(key, where, "position", hook.positions.emplace_back());
+           });
+  }
+
+  /// How the strokes of one blade lie in time.
+  struct Timing {
+    double start = 0, stretch = 1, pause = 0.1;
+  };
+
+  bool read_blade_entry(const JsonValue& value, const std::string& path) {
+    return read_blade_entry(value, path, scene_.strokes);
+  }
+  /// Appends the strokes of one blade.
+  bool read_blade_entry(const JsonValue& value, const std::string& path, std::vector<SceneStroke>& out) {
+    std::vector<Stroke> strokes;
+    Timing timing;
+    Vec3 direction = Vec3::Zero();
+    if (!read_.is_object(value, path, {"blade", "start", "stretch", "pause", "direction"}) ||
+        !read_blade_of(value, path, strokes) || !read_.optional_ranged(value, path, "start", kAtLeast0, timing.start) ||
+        !read_.optional_ranged(value, path, "stretch", {0, kMaxStretch, true}, timing.stretch) ||
+        !read_.optional_ranged(value, path, "pause", kAtLeast0, timing.pause) ||
+        !read_.optional_point(value, path, "direction", direction)) {
+      return false;
+    }
+    double earliest = -std::numeric_limits<double>::infinity();
+    for (Stroke& stroke : strokes) {
+      place_in_time(timing, earliest, stroke.times);
+      earliest = stroke.times.back() + timing.pause;
+      if (!is_fit(value, path, stroke, out)) return false;
+      out.push_back({std::move(stroke), direction});
+    }
+    return true;
+  }
+  /// A blade file by its path, or strokes.
+  bool read_blade_of(const JsonValue& value, const std::string& path, std::vector<Stroke>& strokes) {
+    const JsonValue* blade = read_.member(value, path, "blade");
+    if (blade == nullptr) return false;
+    if (blade->kind != JsonValue::Kind::kString) return read_strokes(read_, *blade, path + ".blade", strokes);
+    std::error_code code;
+    const fs::path beside = scene_.folder / blade->text;
+    Result<std::vector<Stroke>> found = read_blade(fs::exists(beside, code) ? beside : fs::path(blade->text));
+    if (!found.ok()) {
+      blade_error_ = found.error();
+      return false;
+    }
+    strokes = std::move(found).value();
+    return true;
+  }
+  static void place_in_time(const Timing& timing, double earliest, std::vector<double>& times) {
+    for (double& t : times) t = timing.start + timing.stretch * t;
+    const double delay = earliest - times.front();
+    if (!(delay > 0)) return;
+    for (double& t : times) t += delay;
+  }
+  bool is_fit(const JsonValue& value, const std::string& path, const Stroke& stroke,
+              const std::vector<SceneStroke>& others) {
+    const double frame = scene_.options.frame_seconds;
+    const double first = stroke.times.front();
+    const bool has_times = stroke.times.size() > 1;  // else it lasts no frame
+    if (has_times && !check(stroke).ok())
+      return read_.fail(value, path, "has times that are equal in the scene; stretch them");
+    if (!(first >= 0)) return read_.fail(value, path, "begins before 0 s; start it later");
+    if (!(stroke.times.back() - first >= frame)) {
+      return read_.fail(value, path, "lasts less than a frame; stretch it, or give it two times");
+    }
+    if (others.empty()) return true;
+    const double before = others.back().stroke.times.back();
+    if (first - before >= kFramesBetweenStrokes * frame) return true;
+    return read_.fail(value, path,
+                      "begins at " + short_number(first) + " s, but the stroke before it ends at " +
+                          short_number(before) + " s; leave two frames between strokes, in order of time");
+  }
+
+  // --- what a trainee shall do
+
+  bool read_exercise(const JsonValue* value) {
+    if (value == nullptr) return true;
+    const std::string path = "exercise";
+    Exercise& exercise = scene_.exercise.emplace();
+    std::uint64_t strokes = exercise.strokes;
+    if (!read_.is_object(
+            *value, path,
+            {"name", "instructions", "target", "depth", "angle", "tolerances", "max_force", "strokes", "ideal"}) ||
+        !read_.optional_text(*value, path, "name", exercise.name) ||
+        !read_.optional_text(*value, path, "instructions", exercise.instructions) ||
+        !read_target(*value, path, exercise) || !read_.need_ranged(*value, path, "depth", kAbove0, exercise.depth) ||
+        !read_.optional_ranged(*value, path, "angle", {0, kSteepestAngle}, exercise.angle) ||
+        !read_tolerances(*value, path + ".tolerances", exercise) ||
+        !read_.optional_ranged(*value, path, "max_force", kAtLeast0, exercise.max_force) ||
+        !read_.optional_whole(*value, path, "strokes", 1, kMaxSceneItems, strokes)) {
+      return false;
+    }
+    exercise.strokes = static_cast<std::uint32_t>(strokes);
+    return read_ideal(value->find("ideal"), path + ".ideal", exercise.ideal);
+  }
+  bool read_target(const JsonValue& value, const std::string& path, Exercise& exercise) {
+    const JsonValue* target = read_.member(value, path, "target");
+    if (target == nullptr || !read_.points(*target, path + ".target", kMaxTargetPoints, exercise.target)) return false;
+    for (std::size_t i = 1; i < exercise.target.size(); ++i) {
+      const double length = (exercise.target[i] - exercise.target[i - 1]).norm();
+      if (length > 0 && std::isfinite(length)) continue;
+      return read_.fail(target->items[i], at(path + ".target", i), "must be apart from the point before it");
+    }
+    return true;
+  }
+  bool read_tolerances(const JsonValue& value, const std::string& path, Exercise& exercise) {
+    ExerciseTolerances& allowed = exercise.tolerances;
+    double length = 0;
+    for (std::size_t i = 1; i < exercise.target.size(); ++i) {
+      length += (exercise.target[i] - exercise.target[i - 1]).norm();
+    }
+    allowed.line = kLineTolerance * length;
+    allowed.depth = kDepthTolerance * exercise.depth;
+    const JsonValue* given = value.find("tolerances");
+    if (given == nullptr) return true;
+    return read_.is_object(*given, path, {"line", "depth", "angle", "force"}) &&
+           read_.optional_ranged(*given, path, "line", kAbove0, allowed.line) &&
+           read_.optional_ranged(*given, path, "depth", kAbove0, allowed.depth) &&
+           read_.optional_ranged(*given, path, "angle", {0, 90, true}, allowed.angle) &&
+           read_.optional_ranged(*given, path, "force", kAtLeast0, allowed.force);
+  }
+  /// One of the scene's strokes by its number, or a blade.
+  bool read_ideal(const JsonValue* value, const std::string& path, std::vector<SceneStroke>& ideal) {
+    if (value == nullptr) return true;
+    if (value->kind == JsonValue::Kind::kObject) return read_blade_entry(*value, path, ideal);
+    if (!value->is_whole || value->whole >= scene_.strokes.size()) {
+      return read_.fail(*value, path, "must be the number of one of the scene's strokes, from 0, or a blade");
+    }
+    ideal.push_back(scene_.strokes[static_cast<std::size_t>(value->whole)]);
+    return true;
+  }
+
+  // --- how it is first seen
+
+  bool read_view(const JsonValue* value) {
+    if (value == nullptr) return true;
+    SceneView& view = scene_.view.emplace();
+    return read_.is_object(
+               *value, "view",
+               {"from", "up", "target", "distance", "zoom", "color", "wireframe", "opacity", "theme", "clip"}) &&
+           read_direction(*value, "from", view.from) && read_direction(*value, "up", view.up) &&
+           read_eye(*value, view) && read_.optional_ranged(*value, "view", "zoom", kAbove0, view.zoom) &&
+           read_name(*value, "color", kColorNames, view.color) &&
+           read_.optional_boolean(*value, "view", "wireframe", view.shows_wireframe) &&
+           read_.optional_ranged(*value, "view", "opacity", {0, 1, true}, view.skin_opacity) &&
+           read_name(*value, "theme", kThemeNames, view.theme) && read_clip(value->find("clip"), view);
+  }
+  bool read_eye(const JsonValue& value, SceneView& view) {
+    const JsonValue* target = value.find("target");
+    const JsonValue* distance = value.find("distance");
+    return (target == nullptr || read_.numbers(*target, "view.target", view.target.emplace().data(), 3)) &&
+           (distance == nullptr || read_.ranged(*distance, "view.distance", kAbove0, view.distance.emplace()));
+  }
+  bool read_direction(const JsonValue& view, const std::string& key, std::optional<Vec3>& out) {
+    const JsonValue* value = view.find(key);
+    if (value == nullptr) return true;
+    if (!read_.numbers(*value, "view." + key, out.emplace().data(), 3)) return false;
+    return !out->isZero(0) || read_.fail(*value, "view." + key, "is zero; give a direction [x,y,z]");
+  }
+  bool read_clip(const JsonValue* value, SceneView& view) {
+    return value == nullptr || read_plane(*value, "view.clip", view.clip.emplace());
+  }
+  /// One of the names of an enumeration, in the order of its values.
+  template <class Names, class Enum>
+  bool read_name(const JsonValue& view, const std::string& key, const Names& names, Enum& out) {
+    std::string name(names[static_cast<std::size_t>(out)]);
+    if (!read_.optional_text(view, "view", key, name)) return false;
+    std::string all;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i] == name) return out = static_cast<Enum>(i), true;
+      all += (i > 0 ? ", " : "") + std::string(names[i]);
+    }
+    return read_.fail(*view.find(key), "view." + key, "must be one of " + all);
+  }
+
+  // --- how long
+
+  bool read_frames(const JsonValue& root) {
+    const bool has_frames = root.find("frames") != nullptr;
+    double duration = last_key_time() + kTail;
+    if (has_frames && root.find("duration") != nullptr) {
+      return read_.fail(root, "", "has both \"frames\" and \"duration\"; give one");
+    }
+    if (has_frames) return read_.optional_whole(root, "", "frames", 1, kMaxSceneFrames, scene_.frames);
+    const double longest = static_cast<double>(kMaxSceneFrames) * scene_.options.frame_seconds;
+    if (!read_.optional_ranged(root, "", "duration", {0, longest, true}, duration)) return false;
+    if (!(duration <= longest)) return read_.fail(root, "", "has key times beyond the last possible frame");
+    scene_.frames =
+        static_cast<std::uint64_t>(std::max(1.0, std::ceil(duration / scene_.options.frame_seconds - 1e-9)));
+    return true;
+  }
+  [[nodiscard]] double last_key_time() const {
+    double last = 0;
+    for (const SceneStroke& s : scene_.strokes) last = std::max(last, s.stroke.times.back());
+    for (const SceneHook& hook : scene_.hooks) last = std::max(last, hook.times.back());
+    for (const SceneTool& tool : scene_.tools) last = std::max(last, tool.times.empty() ? 0 : tool.times.back());
+    return last;
+  }
+
+  // --- what all of them need
+
+  /// Reads each item of a list that may be left out; `path` ends with the list's key.
+  bool read_list(const JsonValue& owner, const std::string& path, ReadItem read_item) {
+    const JsonValue* list = owner.find(path.substr(path.rfind('.') + 1));
+    if (list == nullptr) return true;
+    if (!read_.is_array(*list, path, 0, kMaxSceneItems)) return false;
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      if (!(this->*read_item)(list->items[i], at(path, i))) return false;
+    }
+    return true;
+  }
+  bool has_one(const JsonValue& value, const std::string& path, std::initializer_list<std::string_view> keys) {
+    int found = 0;
+    std::string names;
+    for (const std::string_view key : keys) {
+      found += value.find(key) != nullptr ? 1 : 0;
+      names += (names.empty() ? "" : ", ") + std::string(key);
+    }
+    return found == 1 || read_.fail(value, path, "needs one of the keys " + names);
+  }
+
+  RangeReader read_;
+  Scene scene_;
+  std::optional<Error> blade_error_;
+};
+
+}  // namespace
+
+Result<Scene> read_scene_tree(const JsonValue& root, std::string_view file_name, const fs::path& folder) {
+  return SceneReader(file_name, folder).run(root);
+}
+
+Result<Scene> parse_scene(std::string_view json, std::string_view file_name, const fs::path& folder) {
+  const Result<JsonValue> root = parse_json(json, file_name);
+  if (!root.ok()) return root.error();
+  return read_scene_tree(*root, file_name, folder);
+}
+
+Result<Scene> read_scene(const fs::path& path) {
+  const Result<std::string> text = read_text_file(path, JsonLimits{}.max_bytes);
+  if (!text.ok()) return text.error();
+  return parse_scene(*text, path.string(), path.parent_path());
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "incise/core/log.h"
+#include "incise/io/mesh_loader.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+
+/// Where the file of a scene's model is: seen from the scene's folder, else as its path stands.
+/// Errors: kBadFile where it is in neither place.
+[[nodiscard]] Result<std::filesystem::path> find_model(const Scene& scene);
+
+/// Reads or makes a scene's model and paints its regions.
+///
+/// Errors: as `find_model` and `io::load_mesh`.
+[[nodiscard]] Result<io::LoadedMesh> load_model(const Scene& scene);
+
+/// The vertices that an attachment holds, by their rest positions, in the order of their slots. Cost: O(tets).
+[[nodiscard]] std::vector<VertexId> find_attached(const TetMesh& mesh, const Attachment& attachment);
+
+/// Makes the simulation of a scene, with its attachments, before it settles.
+///
+/// @param mesh     as `load_model` gave it.
+/// @param threads  in [1, 256]; the result does not depend on them.
+/// Errors: as `Simulation::create`; kBadFile for an attachment that holds nothing, or for a blade out
+/// of reach (`check_reach`). Cost: O(tets).
+[[nodiscard]] Result<Simulation> make_simulation(const Scene& scene, TetMesh mesh, unsigned threads = 1,
+                                                 LogSink log = {});
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

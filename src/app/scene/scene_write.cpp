@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/scene/scene_write.h"
+
+#include <cmath>
+
+#include "app/scene/view_names.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+Json json_of(const HalfSpace& plane) {
+  return Json::array({plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset});
+}
+
+Json json_of(const SceneModel& model) {
+  Json root;
+  if (model.file.empty()) {
+    root["box"] = {{"cells", model.box.cells},
+                   {"size", encode(model.box.size)},
+                   {"origin", encode(model.box.origin)},
+                   {"jitter", model.box.jitter}};
+  } else {
+    root["file"] = model.file;
+  }
+  root["regions"] = Json::array();
+  for (const RegionPaint& paint : model.regions) {
+    root["regions"].push_back({{"region", paint.region}, {"below", json_of(paint.below)}});
+  }
+  return root;
+}
+
+void add_material(const Material& material, Json& root) {
+  root["density"] = material.density;
+  root["young"] = material.young;
+  root["poisson"] = material.poisson;
+  root["toughness"] = material.toughness;
+  root["cut_friction"] = material.cut_friction;
+}
+
+Json json_of(const Materials& materials) {
+  Json root;
+  add_material(materials.fallback, root["default"]);
+  root["regions"] = Json::array();
+  for (const Materials::Entry& entry : materials.by_region) {
+    Json item = {{"region", entry.region}};
+    add_material(entry.material, item);
+    root["regions"].push_back(std::move(item));
+  }
+  return root;
+}
+
+struct EncodeWhere {
+  Json operator()(const Box& box) const { return {{"box", {{"low", encode(box.lo)}, {"high", encode(box.hi)}}}}; }
+  Json operator()(const BallTool& ball) const {
+    return {{"ball", {{"centre", encode(ball.centre)}, {"radius", ball.radius}}}};
+  }
+  Json operator()(const HalfSpace& plane) const { return {{"below", json_of(plane)}}; }
+};
+
+Json json_of(const Attachment& held) {
+  Json root = std::visit(EncodeWhere{}, held.where);
+  root["surface"] = held.surface_only;
+  if (std::isfinite(held.stiffness)) root["stiffness"] = held.stiffness;
+  return root;
+}
+
+/// What changes along a tool's path.
+void add_place(const Tool& tool, Json& root) {
+  if (const auto* ball = std::get_if<BallTool>(&tool)) root["centre"] = encode(ball->centre);
+  if (const auto* rod = std::get_if<RodTool>(&tool)) {
+    root["from"] = encode(rod->from);
+    root["to"] = encode(rod->to);
+  }
+}
+
+Json json_of(const SceneTool& tool) {
+  Json root = {{"name", tool.name}};
+  if (const auto* plane = std::get_if<PlaneTool>(&tool.keys.front())) {
+    root["plane"] = json_of(HalfSpace{plane->normal, plane->offset});
+    return root;
+  }
+  const auto* ball = std::get_if<BallTool>(&tool.keys.front());
+  Json& shape = root[ball != nullptr ? "ball" : "rod"];
+  shape["radius"] = ball != nullptr ? ball->radius : std::get<RodTool>(tool.keys.front()).radius;
+  if (tool.times.empty()) add_place(tool.keys.front(), shape);
+  for (std::size_t i = 0; i < tool.times.size(); ++i) {
+    Json key = {{"t", tool.times[i]}};
+    add_place(tool.keys[i], key);
+    shape["path"].push_back(std::move(key));
+  }
+  return root;
+}
+
+Json json_of(const SceneHook& hook) {
+  Json root = {{"name", hook.name}, {"radius", hook.radius}, {"stiffness", hook.stiffness}};
+  for (std::size_t i = 0; i < hook.times.size(); ++i) {
+    root["path"].push_back({{"t", hook.times[i]}, {"position", encode(hook.positions[i])}});
+  }
+  return root;
+}
+
+Json json_of(const SceneStroke& s) {
+  Json stroke = {{"name", s.stroke.name}};
+  for (std::size_t i = 0; i < s.stroke.times.size(); ++i) {
+    stroke["edges"].push_back({{"t", s.stroke.times[i]}, {"points", encode(s.stroke.edges[i])}});
+  }
+  return {{"blade", Json::array({std::move(stroke)})}, {"direction", encode(s.direction)}};
+}
+
+template <class Item>
+Json json_of_all(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+template <class Value>
+void add_if(const std::optional<Value>& value, const char* key, Json& root) {
+  if (value) root[key] = encode(*value);
+}
+
+Json json_of(const SceneView& view) {
+  Json root = Json::object();
+  add_if(view.from, "from", root);
+  add_if(view.up, "up", root);
+  add_if(view.target, "target", root);
+  add_if(view.distance, "distance", root);
+  root["zoom"] = view.zoom;
+  root["color"] = name_of(view.color);
+  root["wireframe"] = view.shows_wireframe;
+  root["opacity"] = view.skin_opacity;
+  root["theme"] = name_of(view.theme);
+  if (view.clip) root["clip"] = json_of(*view.clip);
+  return root;
+}
+
+/// The ideal as one blade: its times are the scene's already, and nothing is put off.
+Json json_of_ideal(const std::vector<SceneStroke>& strokes) {
+  Json root = json_of(strokes.front());
+  for (std::size_t i = 1; i < strokes.size(); ++i) root["blade"].push_back(json_of(strokes[i])["blade"][0]);
+  root["pause"] = 0.0;
+  return root;
+}
+
+Json json_of(const Exercise& exercise) {
+  const ExerciseTolerances& allowed = exercise.tolerances;
+  Json root = {{"name", exercise.name},
+               {"instructions", exercise.instructions},
+               {"target", encode(exercise.target)},
+               {"depth", exercise.depth},
+               {"angle", exercise.angle},
+               {"tolerances",
+                {{"line", allowed.line}, {"depth", allowed.depth}, {"angle", allowed.angle}, {"force", allowed.force}}},
+               {"max_force", exercise.max_force},
+               {"strokes", exercise.strokes}};
+  if (!exercise.ideal.empty()) root["ideal"] = json_of_ideal(exercise.ideal);
+  return root;
+}
+
+void add_options(const SimulationOptions& options, Json& root) {
+  const MaintainOptions& maintain = options.engine.maintain;
+  const bool is_descent = options.body.relaxation == Relaxation::kBlockDescent;
+  root["frame_seconds"] = options.frame_seconds;
+  root["solver"] = {{"relaxation", is_descent ? "block-descent" : "position-based"},
+                    {"substeps", options.body.substeps},
+                    {"iterations", options.body.iterations}};
+  root["cut"] = {{"snap", options.engine.cut.snap},
+                 {"profile", options.engine.cut.profile == Profile::kPaper ? "paper" : "incise"}};
+  root["maintain"] = {{"merge", maintain.merge},
+                      {"improve", maintain.improve},
+                      {"work_units", maintain.work_units == kUnlimitedWork ? Json() : Json(maintain.work_units)}};
+  root["contact"] = {{"stiffness", options.contact_stiffness}, {"flat_height", options.flat_height}};
+}
+
+}  // namespace
+
+Json scene_tree(const Scene& scene) {
+  const BodyOptions& body = scene.options.body;
+  Json root = {{"format", "incise-scene"}, {"version", 1}, {"name", scene.name}};
+  root["model"] = json_of(scene.model);
+  root["length_unit"] = body.length_unit;
+  root["materials"] = json_of(scene.options.materials);
+  root["gravity"] = encode(body.gravity);
+  root["damping"] = body.damping;
+  root["attachments"] = json_of_all(scene.attachments);
+  root["tools"] = json_of_all(scene.tools);
+  root["hooks"] = json_of_all(scene.hooks);
+  root["strokes"] = json_of_all(scene.strokes);
+  root["frames"] = scene.frames;
+  root["settle"] = {{"frames", scene.settle.frames}, {"speed", scene.settle.speed}};
+  root["seed"] = scene.seed;
+  add_options(scene.options, root);
+  if (scene.view) root["view"] = json_of(*scene.view);
+  if (scene.exercise) root["exercise"] = json_of(*scene.exercise);
+  return root;
+}
+
+std::string to_json(const Scene& scene) {
+  return scene_tree(scene).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

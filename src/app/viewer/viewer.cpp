@@ -1,0 +1,506 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/viewer/viewer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <system_error>
+#include <utility>
+
+#include "app/view/scene_camera.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNoticeSeconds = 5;
+constexpr double kDepthFactor = 1.1;
+constexpr double kTilt = 5 * std::numbers::pi / 180;
+constexpr double kZoomFactor = 0.9;
+constexpr double kTurnShare = 1.0 / 24;  // of the picture's height, per press of a key
+constexpr double kClipStep = 0.05;
+constexpr double kSeeThrough = 0.35;
+constexpr double kTextFactor = 1.15, kSmallestText = 0.6, kLargestText = 3;
+constexpr std::size_t kWorstTets = 10;
+constexpr std::uint64_t kMostFiles = 1'000'000;
+
+/// The first name of a row of names that no file has.
+fs::path free_name(const fs::path& folder, const std::string& stem, const std::string& extension) {
+  std::error_code code;
+  for (std::uint64_t i = 1; i < kMostFiles; ++i) {
+    fs::path path = folder / fmt::format("{}-{:04}{}", stem, i, extension);
+    if (!fs::exists(path, code)) return path;
+  }
+  return folder / (stem + extension);
+}
+
+double stiffest(const Scene& scene) {
+  double young = scene.options.materials.fallback.young;
+  for (const Materials::Entry& entry : scene.options.materials.by_region) {
+    young = std::max(young, entry.material.young);
+  }
+  return young;
+}
+
+}  // namespace
+
+struct Viewer::State {
+  State(SessionThread& chosen_session, const ViewerOptions& chosen) : session(chosen_session), options(chosen) {
+    shown.options = chosen.view;
+  }
+
+  SessionThread& session;
+  ViewerOptions options;
+  ViewerState shown;
+  Picture picture;
+  Hud hud;
+  ToolMachine tools{ToolSettings{1, 0, 1, 1, 1, 1}};
+  std::uint64_t session_seen = 0, notices_seen = 0;
+  std::optional<std::pair<std::string, std::uint64_t>> scene_seen;  // its title and its tets at the start
+  bool is_changed = true;
+  double now = 0, notice_until = 0;
+  bool wants_screenshot = false;
+  std::array<std::uint64_t, 3> sequence_frame{};  // that was saved last: session, frame, call
+  std::uint64_t sequence_number = 0;
+  fs::path sequence_folder;
+  fs::path attempt;  // the recording of what was scored last
+  Vec3 clip_normal = Vec3::UnitX();
+
+  [[nodiscard]] ToolContext context(const Viewport& viewport) const {
+    return {viewport, &session.view().surface, session.view().body};
+  }
+  [[nodiscard]] Viewport free_part(const Viewport& viewport) const;
+  void begin_session(const Viewport& viewport);
+  void say(const std::string& text);
+  void hand_over();
+  void change_settings(double depth_factor, double tilt);
+  void clip(bool is_on);
+  void clip_as(const HalfSpace& hidden);
+  void show_surface();
+  void score();
+  void show_ideal();
+  void toggle_recording();
+  void toggle_sequence();
+  bool act_on_tools(Action action);
+  bool act_on_time(Action action);
+  bool act_on_files(Action action);
+  bool act_on_camera(Action action, const Viewport& viewport);
+  bool act_on_view(Action action);
+  void act_on_window(Action action);
+  void cancel();
+};
+
+Viewer::Viewer(SessionThread& session, const ViewerOptions& options)
+    : state_(std::make_unique<State>(session, options)) {}
+Viewer::~Viewer() = default;
+
+// --- what comes in
+
+void Viewer::handle(const PointerEvent& event, const Viewport& viewport) {
+  State& s = *state_;
+  PointerEvent seen = event;
+  const bool is_press = event.kind == PointerEvent::Kind::kPress && event.button == PointerEvent::Button::kLeft;
+  const bool is_looking = s.tools.tool() == ToolKind::kOrbit || s.tools.tool() == ToolKind::kProbe;
+  const bool only_looks = event.alt || (is_looking && !event.shift);  // with Shift every tool grasps
+  const bool is_watched = !s.options.mouse_is_hand || s.session.view().is_replay;
+  if (is_press && is_watched && !only_looks) {
+    seen.alt = true;  // turns the view instead
+    seen.shift = false;
+  }
+  if (is_press && s.session.view().is_replay && !only_looks) {
+    s.say("A recording is played: " + key_of(Action::kTakeOver) + " goes on by hand from here");
+  } else if (is_press && s.session.view().is_paused && !is_watched && !only_looks) {
+    s.say("Paused: " + key_of(Action::kPause) + " goes on");
+  }
+  s.tools.handle(seen, s.context(viewport), s.picture.camera);
+  s.hand_over();
+}
+
+void Viewer::State::hand_over() {
+  session.set_hands(tools.hands());
+  if (const std::optional<Stroke> stroke = tools.take_plane_cut()) session.follow(*stroke);
+  if (const std::optional<SurfaceHit> hit = tools.take_probe()) session.probe(hit->side);
+  is_changed = true;
+}
+
+void Viewer::act(Action action, const Viewport& viewport) {
+  State& s = *state_;
+  s.is_changed = true;
+  if (s.act_on_tools(action) || s.act_on_time(action) || s.act_on_files(action)) return;
+  if (s.act_on_camera(action, viewport) || s.act_on_view(action)) return;
+  s.act_on_window(action);
+}
+
+void Viewer::set_clip_depth(double depth) {
+  state_->shown.clip_depth = depth;
+  state_->show_surface();
+  state_->is_changed = true;
+}
+
+void Viewer::open(const fs::path& path) {
+  state_->session.open(path);
+}
+
+void Viewer::notify(const std::string& text) {
+  state_->say(text);
+}
+
+bool Viewer::State::act_on_tools(Action action) {
+  switch (action) {
+    case Action::kOrbit:
+    case Action::kScalpel:
+    case Action::kPlaneCut:
+    case Action::kGrasp:
+    case Action::kPin:
+    case Action::kProbe:
+      tools.choose(static_cast<ToolKind>(action));
+      break;
+    case Action::kDeeper:
+      change_settings(kDepthFactor, 0);
+      break;
+    case Action::kShallower:
+      change_settings(1 / kDepthFactor, 0);
+      break;
+    case Action::kTiltLeft:
+      change_settings(1, kTilt);
+      break;
+    case Action::kTiltRight:
+      change_settings(1, -kTilt);
+      break;
+    case Action::kCancel:
+      cancel();
+      break;
+    default:
+      return false;
+  }
+  hand_over();
+  return true;
+}
+
+void Viewer::State::change_settings(double depth_factor, double tilt) {
+  ToolSettings settings = tools.settings();
+  settings.depth *= depth_factor;
+  settings.angle += tilt;
+  tools.set(settings);
+}
+
+/// Closes one thing at a time, what is nearest first.
+void Viewer::State::cancel() {
+  if (tools.cancel()) return;
+  shown.shows_help = false;
+}
+
+bool Viewer::State::act_on_time(Action action) {
+  switch (action) {
+    case Action::kUndo:
+      session.undo();
+      return true;
+    case Action::kRedo:
+      session.redo();
+      return true;
+    case Action::kPause:
+      session.pause(!session.view().is_paused);
+      return true;
+    case Action::kStep:
+      session.step();
+      return true;
+    case Action::kReset:
+      session.reset();
+      return true;
+    case Action::kNextStep:
+      session.seek_next_step();
+      return true;
+    case Action::kTakeOver:
+      session.take_over();
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Viewer::State::act_on_files(Action action) {
+  switch (action) {
+    case Action::kRecord:
+      toggle_recording();
+      return true;
+    case Action::kScreenshot:
+      wants_screenshot = true;
+      return true;
+    case Action::kImageSequence:
+      toggle_sequence();
+      return true;
+    case Action::kScore:
+      score();
+      return true;
+    case Action::kIdeal:
+      show_ideal();
+      return true;
+    case Action::kExportMesh:
+      session.export_mesh(free_name(options.folder, "incise-mesh", ".vtu"));
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Of a recording that is played there is no other recording.
+void Viewer::State::score() {
+  const fs::path recording = free_name(options.folder, "incise-attempt", ".jsonl");
+  attempt = session.view().is_replay ? fs::path() : recording;
+  session.score(free_name(options.folder, "incise-score", ".json"), recording);
+}
+
+/// Beside the attempt that was scored, where there is one; else beside the blade from now on.
+void Viewer::State::show_ideal() {
+  const SessionView& view = session.view();
+  if (!view.scene || !view.scene->exercise) return say("This scene is no exercise");
+  shown.shows_ideal = view.score.has_value() || !shown.shows_ideal;
+  session.show_ideal(shown.shows_ideal);
+  if (!view.score || view.is_replay || attempt.empty()) return;
+  session.open(attempt);
+  session.pause(false);
+}
+
+void Viewer::State::toggle_recording() {
+  if (session.view().is_recording) {
+    session.stop_recording();
+  } else {
+    session.start_recording(free_name(options.folder, "incise-recording", ".jsonl"));
+  }
+}
+
+void Viewer::State::toggle_sequence() {
+  shown.saves_sequence = !shown.saves_sequence;
+  if (!shown.saves_sequence) return say("Saved pictures in " + sequence_folder.string());
+  sequence_folder = free_name(options.folder, "incise-pictures", "");
+  sequence_number = 0;
+  sequence_frame = {};
+  say("Saving pictures in " + sequence_folder.string());
+}
+
+bool Viewer::State::act_on_camera(Action action, const Viewport& viewport) {
+  Camera& camera = picture.camera;
+  const double turn = kTurnShare * viewport.height;
+  switch (action) {
+    case Action::kFrameAll:
+      frame_all(camera, free_part(viewport), session.view().body);
+      return true;
+    case Action::kTurnLeft:
+      orbit(camera, viewport, Vec2(turn, 0));
+      return true;
+    case Action::kTurnRight:
+      orbit(camera, viewport, Vec2(-turn, 0));
+      return true;
+    case Action::kTurnUp:
+      orbit(camera, viewport, Vec2(0, turn));
+      return true;
+    case Action::kTurnDown:
+      orbit(camera, viewport, Vec2(0, -turn));
+      return true;
+    case Action::kZoomIn:
+      zoom(camera, kZoomFactor, session.view().body);
+      return true;
+    case Action::kZoomOut:
+      zoom(camera, 1 / kZoomFactor, session.view().body);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Viewer::State::act_on_view(Action action) {
+  ViewOptions& view = shown.options;
+  switch (action) {
+    case Action::kWireframe:
+      view.shows_wireframe = !view.shows_wireframe;
+      return true;
+    case Action::kClipPlane:
+      clip(!shown.is_clipped);
+      return true;
+    case Action::kClipDeeper:
+    case Action::kClipShallower:
+      shown.clip_depth += action == Action::kClipDeeper ? kClipStep : -kClipStep;
+      show_surface();
+      return true;
+    case Action::kColor:
+      view.color = static_cast<ColorBy>((static_cast<unsigned>(view.color) + 1) % 4);
+      return true;
+    case Action::kWorstTets:
+      shown.shows_worst = !shown.shows_worst;
+      show_surface();
+      return true;
+    case Action::kTransparency:
+      view.skin_opacity = view.skin_opacity < 1 ? 1 : kSeeThrough;
+      return true;
+    case Action::kOcclusion:
+      view.shows_occlusion = !view.shows_occlusion;
+      return true;
+    case Action::kTheme:
+      view.theme = view.theme == Theme::kDark ? Theme::kLight : Theme::kDark;
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Viewer::State::clip(bool is_on) {
+  shown.is_clipped = is_on;
+  if (is_on) {
+    clip_normal = -picture.camera.backward();  // what is nearer than the plane goes
+    shown.clip_depth = 0.5;
+  }
+  show_surface();
+}
+
+/// The clip plane of a scene.
+void Viewer::State::clip_as(const HalfSpace& hidden) {
+  const Box& body = session.view().body;
+  const double middle = hidden.normal.dot(0.5 * (body.lo + body.hi));
+  const double reach = hidden.normal.cwiseAbs().dot(0.5 * (body.hi - body.lo));
+  shown.is_clipped = reach > 0;
+  clip_normal = hidden.normal;
+  if (shown.is_clipped) shown.clip_depth = 0.5 + 0.5 * (hidden.offset - middle) / reach;
+}
+
+void Viewer::State::show_surface() {
+  shown.clip_depth = std::clamp(shown.clip_depth, 0.0, 1.0);
+  SurfaceOptions surface;
+  const Box& body = session.view().body;
+  if (shown.is_clipped && !body.is_empty()) {
+    const double middle = clip_normal.dot(0.5 * (body.lo + body.hi));
+    const double reach = clip_normal.cwiseAbs().dot(0.5 * (body.hi - body.lo));
+    surface.clip = HalfSpace{clip_normal, middle + (2 * shown.clip_depth - 1) * reach};
+  }
+  session.show(surface, shown.shows_worst ? kWorstTets : 0);
+}
+
+void Viewer::State::act_on_window(Action action) {
+  switch (action) {
+    case Action::kPanels:
+      shown.panels = static_cast<Panels>((static_cast<unsigned>(shown.panels) + 1) % 3);
+      break;
+    case Action::kLarger:
+    case Action::kSmaller:
+      shown.text_scale *= action == Action::kLarger ? kTextFactor : 1 / kTextFactor;
+      shown.text_scale = std::clamp(shown.text_scale, kSmallestText, kLargestText);
+      break;
+    case Action::kFullScreen:
+      shown.is_full_screen = !shown.is_full_screen;
+      break;
+    case Action::kHelp:
+      shown.shows_help = !shown.shows_help;
+      break;
+    case Action::kQuit:
+      shown.wants_quit = true;
+      break;
+    default:
+      break;
+  }
+}
+
+void Viewer::State::say(const std::string& text) {
+  shown.notice = text;
+  notice_until = now + kNoticeSeconds;
+  is_changed = true;
+}
+
+// --- what comes out
+
+bool Viewer::update(const Viewport& viewport, double now) {
+  State& s = *state_;
+  s.now = now;
+  if (s.session.take()) {
+    const SessionView& view = s.session.view();
+    if (s.session_seen != view.session) s.begin_session(viewport);
+    s.session_seen = view.session;
+    if (s.notices_seen != view.notices) s.say(view.notice);
+    s.notices_seen = view.notices;
+    s.is_changed = true;
+  }
+  if (!s.shown.notice.empty() && now > s.notice_until) {
+    s.shown.notice.clear();
+    s.is_changed = true;
+  }
+  if (!std::exchange(s.is_changed, false)) return false;
+  s.picture.surface = s.session.view().surface;
+  s.picture.options = s.shown.options;
+  s.picture.marks = s.session.view().marks;
+  s.tools.draw(s.context(viewport), s.picture.camera, s.picture.marks);
+  return true;
+}
+
+/// What panels leave free. A body that fits into a part of the picture is seen in it as a camera of that part sees it,
+/// but for the field of view, which is that of the whole height.
+Viewport Viewer::State::free_part(const Viewport& viewport) const {
+  if (shown.panels != Panels::kAll) return viewport;
+  return {std::max(1, static_cast<int>(options.free_share.x() * viewport.width)), viewport.height};
+}
+
+void Viewer::State::begin_session(const Viewport& viewport) {
+  const SessionView& view = session.view();
+  const Scene& scene = *view.scene;
+  tools.reset(settings_for(view.body, stiffest(scene), scene.options.body.length_unit));
+  const std::pair scene_now(view.title, view.figures.tets_at_start);
+  if (scene_seen != scene_now) {  // the same scene from its start keeps the person's view
+    picture.camera = camera_of(scene, view.body, free_part(viewport));
+    if (!options.keeps_view) shown.options = view_options_of(scene);
+    shown.options.shows_occlusion = options.shades_hollows;
+    shown.is_clipped = false;
+    if (scene.view && scene.view->clip && !options.keeps_view) clip_as(*scene.view->clip);
+  }
+  scene_seen = scene_now;
+  show_surface();
+  session.set_hands(tools.hands());
+}
+
+void Viewer::drawn(double now, double draw_ms) {
+  const SessionView& view = state_->session.view();
+  state_->hud.add(now, draw_ms, view.session, view.figures);
+}
+
+const Picture& Viewer::picture() const {
+  return state_->picture;
+}
+const SessionView& Viewer::view() const {
+  return state_->session.view();
+}
+const ViewerState& Viewer::state() const {
+  return state_->shown;
+}
+ViewerState& Viewer::state() {
+  state_->is_changed = true;
+  return state_->shown;
+}
+const Hud& Viewer::hud() const {
+  return state_->hud;
+}
+SessionThread& Viewer::session() {
+  return state_->session;
+}
+Camera& Viewer::camera() {
+  state_->is_changed = true;
+  return state_->picture.camera;
+}
+ToolMachine& Viewer::tools() {
+  state_->is_changed = true;
+  return state_->tools;
+}
+
+std::optional<fs::path> Viewer::take_screenshot() {
+  State& s = *state_;
+  if (std::exchange(s.wants_screenshot, false)) return free_name(s.options.folder, "incise", ".png");
+  const SessionView& view = s.session.view();
+  const std::array<std::uint64_t, 3> frame = {view.session, view.figures.frames, view.place.call};
+  if (!s.shown.saves_sequence || s.sequence_frame == frame) return std::nullopt;
+  s.sequence_frame = frame;
+  return s.sequence_folder / fmt::format("{:06}.png", ++s.sequence_number);
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Constants that cuts of both profiles share.
+#pragma once
+
+namespace incise {
+inline namespace v0 {
+
+/// Vertices closer to the blade than this share of their mean edge coincide with it: geometry given twice, not a
+/// choice.
+inline constexpr double kCoincident = 1e-6;
+/// A blade that lies within this share of the mesh's spacing of what it swept before is in its own slit.
+inline constexpr double kOwnSlit = 0.02;
+/// Consecutive parts of a sweep that meets itself overlap by this many spacings, so that the cut stays whole.
+inline constexpr double kPartOverlap = 3.0;
+
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// A step keeps images of all that it changed. What comes back is sampled in the tets that stand in its place now.
+#include "cut/reversal.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "cut/old_children.h"
+#include "incise/geom/quality.h"
+#include "incise/mesh/star.h"
+#include "incise/mesh/transaction.h"
+
+namespace incise {
+inline namespace v0 {
+
+namespace {
+
+/// A vertex is looked for this share of the way to the middle of a tet that it had: on its own side of a wall.
+constexpr double kInwards = 0.02;
+/// A place that would have a weight below this in a tet is sampled in it as it was before anything moved.
+constexpr double kLeastWeight = -2.0;
+
+class Reversal {
+ public:
+  Reversal(TetMesh& mesh, const Step& step) : mesh_(mesh), step_(step), transaction_(mesh) {}
+
+  Step run() {
+    keep_present();
+    find_middles();
+    for (const Back& back : backs_) {
+      if (!mesh_.is_live(back.image->id)) revive(back);
+    }
+    for (auto back = backs_.rbegin(); back != backs_.rend(); ++back) {
+      if (mesh_.rest(back->image->id) != back->image->rest) move(*back);
+    }
+    restore_tets();
+    restore_vertices();
+    return transaction_.commit();
+  }
+
+ private:
+  /// A vertex that comes back, or goes back to where it was.
+  struct Back {
+    const VertexImage* image;
+    Vec3 middle = Vec3::Zero();  ///< of the largest tet that it had
+    double volume6 = -1.0;       ///< of that
+    std::uint32_t first = 0, last = 0;  ///< the tets around it, in `stars_`
+  };
+
+  /// The tets that stand where the step changed something: first those that it made.
+  void keep_present() {
+    for (const TetId tet : step_.new_tets) {
+      if (mesh_.is_live(tet)) present_.add(mesh_, tet);
+    }
+    made_ = present_.size();
+    for (const TetImage& image : step_.before.tets) {
+      if (mesh_.is_live(image.id)) present_.add(mesh_, image.id);
+    }
+  }
+  void find_middles() {
+    images_.reserve(step_.before.vertices.size());
+    for (const VertexImage& image : step_.before.vertices) {
+      images_.push_back(&image);
+      if (!mesh_.is_live(image.id) || mesh_.rest(image.id) != image.rest) backs_.push_back({&image});
+    }
+    std::sort(images_.begin(), images_.end(),
+              [](const VertexImage* a, const VertexImage* b) { return a->id < b->id; });
+    for (const TetImage& image : step_.before.tets) note_middle(image);
+    for (Back& back : backs_) {
+      if (mesh_.is_live(back.image->id)) keep_star(back);
+    }
+  }
+  void keep_star(Back& back) {
+    back.first = stars_.size();
+    for (const TetId tet : walker_.star(mesh_, back.image->id)) stars_.add(mesh_, tet);
+    back.last = stars_.size();
+  }
+  void note_middle(const TetImage& tet) {
+    std::array<Vec3, 4> p;
+    for (unsigned c = 0; c < 4; ++c) p[c] = rest_before(tet.vertices[c]);
+    const double volume6 = signed_volume6(p[0], p[1], p[2], p[3]);
+    for (Back& back : backs_) {
+      const bool has_it = std::find(tet.vertices.begin(), tet.vertices.end(), back.image->id) != tet.vertices.end();
+      if (!has_it || volume6 <= back.volume6) continue;
+      back.volume6 = volume6;
+      back.middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+    }
+  }
+  [[nodiscard]] const Vec3& rest_before(VertexId vertex) const {
+    const auto at = std::lower_bound(images_.begin(), images_.end(), vertex,
+                                     [](const VertexImage* image, VertexId v) { return image->id < v; });
+    return at != images_.end() && (*at)->id == vertex ? (*at)->rest : mesh_.rest(vertex);
+  }
+  /// The present tet that holds a vertex that comes back.
+  [[nodiscard]] std::uint32_t holder_of(const Back& back) const {
+    const Vec3& place = back.image->rest;
+    const Vec3 inwards = back.volume6 > 0 ? Vec3(place + kInwards * (back.middle - place)) : place;
+    return present_.holding(inwards, 0, present_.size());
+  }
+  void revive(const Back& back) {
+    const MaterialPlace place = present_.place_in(holder_of(back), back.image->rest);
+    transaction_.revive_vertex(*back.image, place.basis, place.weights, place.current);
+  }
+  /// The others have moved by now, and its tet may be flat.
+  void move(const Back& back) {
+    const std::uint32_t holder = stars_.holding(back.image->rest, back.first, back.last);
+    MaterialPlace place = place_in(mesh_, stars_.id(holder), back.image->rest);
+    if (!(place.inside > kLeastWeight)) place = stars_.place_in(holder, back.image->rest);
+    transaction_.move(back.image->id, back.image->rest, place.basis, place.weights);
+  }
+
+  void restore_tets() {
+    for (std::uint32_t i = 0; i < made_; ++i) transaction_.remove_tet(present_.id(i));
+    for (const TetImage& image : step_.before.tets) {
+      if (!mesh_.is_live(image.id)) transaction_.revive_tet(image, parent_of(image));
+    }
+    for (const TetImage& image : step_.before.tets) restore(image);
+    for (const OpenedFace& face : step_.closed) transaction_.open(face.a, face.b, face.tag);
+  }
+  /// Of the tets that the step made the one in which the middle of another one lies.
+  [[nodiscard]] TetId parent_of(const TetImage& image) const {
+    Vec3 middle = Vec3::Zero();
+    for (const VertexId v : image.vertices) middle += 0.25 * rest_before(v);
+    return present_.id(present_.holding(middle, 0, made_ > 0 ? made_ : present_.size()));
+  }
+  void restore(const TetImage& image) {
+    for (unsigned k = 0; k < 4; ++k) {
+      if (mesh_.vertices(image.id)[k] != image.vertices[k]) transaction_.set_corner(image.id, k, image.vertices[k]);
+      const Side side(image.id, k);
+      if (mesh_.link(side) != image.links[k]) transaction_.set_link(side, image.links[k]);
+    }
+  }
+  void restore_vertices() {
+    for (const VertexId vertex : step_.new_vertices) {
+      if (mesh_.is_live(vertex)) transaction_.remove_vertex(vertex);
+    }
+    for (const VertexImage& image : step_.before.vertices) {
+      if (mesh_.tet_of(image.id) != image.tet) transaction_.set_tet_of(image.id, image.tet);
+      if (mesh_.shape_of(image.id) != image.shape) transaction_.set_shape(image.id, image.shape);
+    }
+  }
+
+  TetMesh& mesh_;
+  const Step& step_;
+  Transaction transaction_;
+  StarWalker walker_;
+  OldChildren present_, stars_;
+  std::uint32_t made_ = 0;  // of these: by the step
+  std::vector<Back> backs_;
+  std::vector<const VertexImage*> images_;  // by id
+};
+
+}  // namespace
+
+Step reversal_of(TetMesh& mesh, const Step& step) {
+  return Reversal(mesh, step).run();
+}
+
+}  // namespace v0
+}  // namespace incise

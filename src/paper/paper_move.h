@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "incise/mesh/star.h"
+#include "incise/mesh/transaction.h"
+#include "paper/paper_quality.h"
+
+namespace incise {
+inline namespace v0 {
+namespace paper {
+
+/// How often a move that does harm is tried: the whole way, half, a quarter, an eighth. What is left after that is less
+/// than the paper's smoothing is worth.
+inline constexpr unsigned kMoveTries = 4;
+
+/// Moves a vertex to `target`, or as far on the way there as no tet around it turns over and the worst of them is not
+/// bad-shaped (`kBadShape`) or no worse than the worst before. Returns whether it moved.
+///
+/// Keeping a boundary vertex on its surface is up to the caller. Cost: O(star), about 1 µs.
+/// **Source:** the paper has no such rule in its section 3.4; without it the mesh would not stay valid.
+bool move_towards(Transaction& transaction, VertexId vertex, const Vec3& target, QualityMeter& meter,
+                  StarWalker& walker);
+
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

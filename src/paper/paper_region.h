@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "incise/mesh/journal.h"
+
+namespace incise {
+inline namespace v0 {
+namespace paper {
+
+/// The paper's "divided vertices": those that the journal's steps from `first_step` on made (split points), copied or
+/// copied from, or moved, as far as they live. Ascending. Cost: O(n log n) in the records.
+/// **Source:** Paper §3.2, Algorithm 3, line 1.
+std::vector<VertexId> find_divided_vertices(const TetMesh& mesh, const Journal& journal, std::size_t first_step);
+
+/// Every live vertex, ascending. Cost: O(vertices).
+std::vector<VertexId> find_all_vertices(const TetMesh& mesh);
+
+/// The tets at any of some vertices, dead ones passed over. Ascending. Cost: O(n log n) in their stars.
+std::vector<TetId> find_tets_at(const TetMesh& mesh, const std::vector<VertexId>& vertices);
+
+/// The corners of some live tets, each once. Ascending. Cost: O(n log n).
+std::vector<VertexId> find_corners_of(const TetMesh& mesh, const std::vector<TetId>& tets);
+
+}  // namespace paper
+}  // namespace v0
+}  // namespace incise

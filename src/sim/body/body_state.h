@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a deformable body holds, for the files that implement it: following the journal, moving on, questions.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "incise/core/parallel.h"
+#include "incise/mesh/attributes.h"
+#include "incise/mesh/journal_cursor.h"
+#include "incise/sim/body.h"
+#include "sim/body/coarse_lattice.h"
+#include "sim/body/star_kernel.h"
+#include "sim/body/stars.h"
+#include "sim/body/sweep_order.h"
+
+namespace incise {
+inline namespace v0 {
+namespace detail {
+
+/// A vertex that is held where it is: `stiffness` in N/m, infinite for rigidly.
+struct Hold {
+  double stiffness = 0;
+  Vec3 target = Vec3::Zero();
+  Vec3 rest = Vec3::Zero();  ///< the vertex' place in the rest shape that the target is for
+  [[nodiscard]] bool is_rigid() const { return !(stiffness < kRigid); }
+  static constexpr double kRigid = 1e30;
+};
+
+enum class Held : std::uint8_t { kNot, kBySpring, kRigidly };
+
+/// The energy of a body in the middle of things, in kg L²/s², not counted from rest.
+struct EnergyNow {
+  double total = 0;
+  double motion = 0;  ///< its kinetic part, without that of the drift of free pieces
+  double noise = 0;   ///< by which rounding may change it
+};
+
+/// A part of the body that hangs together through vertices.
+struct Piece {
+  bool is_free = false;  ///< nothing holds or pulls it
+  double mass = 0;
+  Vec3 momentum = Vec3::Zero(), centre = Vec3::Zero(), spin = Vec3::Zero();  ///< as they must be; centre: mass · place
+};
+
+/// A pull as the descent sees it, limits in kg L/s².
+[[nodiscard]] PullTerm term_of(const Pull& pull, const Vec3& middle, double unit);
+
+/// What may stand otherwise than at the last `follow`, each once, in the order in which it was found.
+struct Touched {
+  std::vector<std::uint32_t> tets;
+  std::vector<std::uint32_t> fresh;  ///< vertices that the rest shape has anew, or elsewhere
+};
+
+}  // namespace detail
+
+/// Arrays go by slot. Units: the mesh's length unit L, kg and s: so forces are in kg L/s², energies in kg L²/s².
+struct DeformableBody::State {
+  State(const TetMesh& mesh, const Journal& journal, Materials given, const BodyOptions& chosen)
+      : options(chosen),
+        materials(std::move(given)),
+        attributes(mesh, journal),
+        pair(chosen.threads),
+        cursor(journal) {}
+
+  BodyOptions options;
+  Materials materials;
+
+  // the mesh as it was at the last `follow`
+  IdArray<TetId, TetVertices> tets;  // the first one is invalid where the slot is free
+  IdArray<TetId, std::int32_t> regions;
+  IdArray<VertexId, Vec3> rest;
+
+  // state in time
+  std::vector<Vec3> places;
+  std::vector<Vec3> places_before;  // at the start of the advance under way, where its energy is watched
+  Attributes attributes;            // mass and momentum of the vertices: kept through every edit
+  AttributeId mass_id, momentum_id;
+  std::map<std::uint32_t, detail::Hold> holds;
+  std::map<std::uint32_t, detail::Hold> lost_holds;  // of vertices that died: undo may bring them back
+  IdArray<VertexId, detail::Held> held;              // what `holds` says
+  std::vector<Pull> pulls;
+  Vec3 middle = Vec3::Zero();  // that single-precision places count from
+  double extent = 0;           // of the body along its longest axis, when `middle` was found
+  double drifted = 0;          // the most that anything has moved since
+
+  // the descent
+  detail::Stars stars;
+  detail::SweepOrder order;
+  GrowArray<float> floats;  // places against the middle, 4 per vertex
+  IdArray<VertexId, detail::Motion> motions;
+  std::vector<detail::PullTerm> terms;
+  std::vector<detail::PullUse> uses;
+  IdArray<VertexId, float> travelled;  // squared, in this `advance`
+  detail::CoarseLattice lattice;
+  WorkPair pair;
+
+  // free pieces
+  IdArray<VertexId, std::uint32_t> piece_of;
+  std::vector<detail::Piece> pieces;
+  bool has_free_piece = false;
+  unsigned stale_pieces = 0;  // `advance`s since tets changed; 0: none did
+
+  // scratch of `energy_now`
+  std::vector<std::uint32_t> resting;  // live vertices that are held or asleep
+  std::vector<Vec3> drifts;            // by piece: mean velocity of the free ones
+
+  JournalCursor cursor;
+
+  // of one `follow`
+  detail::Touched touched;
+  std::vector<std::uint32_t> changed;          // vertices whose stars changed
+  ZeroedArray<std::uint8_t> is_touched_tet;    // scratch, zero between calls
+  ZeroedArray<std::uint8_t> is_fresh;          // likewise, by vertex: `Fresh`
+  ZeroedArray<std::uint8_t> has_changed_star;  // likewise
+
+  [[nodiscard]] bool is_live(VertexId v) const { return v.value < places.size() && stars.of(v).lanes > 0; }
+  [[nodiscard]] double unit() const { return options.length_unit; }
+  [[nodiscard]] double* masses() { return attributes.values(mass_id).data(); }
+  [[nodiscard]] const double* masses() const { return attributes.values(mass_id).data(); }
+  [[nodiscard]] double* momenta() { return attributes.values(momentum_id).data(); }
+  [[nodiscard]] const double* momenta() const { return attributes.values(momentum_id).data(); }
+  [[nodiscard]] double mass_of(VertexId v) const { return masses()[v.value]; }
+  [[nodiscard]] Vec3 momentum_of(VertexId v) const {
+    const double* p = momenta() + std::size_t{3} * v.value;
+    return {p[0], p[1], p[2]};
+  }
+  void set_momentum(VertexId v, const Vec3& momentum) {
+    double* p = momenta() + std::size_t{3} * v.value;
+    for (unsigned i = 0; i < 3; ++i) p[i] = momentum.data()[i];
+  }
+  [[nodiscard]] std::array<Vec3, 4> corners_at_rest(TetId t) const;
+  [[nodiscard]] std::array<Vec3, 4> corners(TetId t) const;
+  [[nodiscard]] detail::Element element(TetId t) const;
+  [[nodiscard]] detail::Descent descent();
+  void round_place(VertexId v);
+
+  void set_hold(VertexId v, const detail::Hold& hold);
+  void clear_hold(VertexId v);
+  /// Where a held vertex is to be that is now at `rest`, a mean of the rest places in `basis`: those of them that are
+  /// held shift it as they are shifted, for the others `shift` counts.
+  [[nodiscard]] Vec3 held_place(const Vec3& rest, const Vec3& shift, const TetVertices& basis,
+                                const std::array<double, 4>& weights) const;
+
+  // building and following (body_follow.cpp)
+  void build(const TetMesh& mesh);
+  void ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots);
+  void lay_out_stars();
+  void note_tet(TetId t);
+  enum class Fresh : std::uint8_t { kMoved = 1, kNew };
+  void note_fresh(VertexId v, Fresh how);
+  void remove_touched(const TetMesh& mesh, FollowReport& report);
+  void put_fresh(const TetMesh& mesh);
+  void add_touched(const TetMesh& mesh, FollowReport& report);
+  void settle_changed();
+  void finish_follow(FollowReport& report);
+  bool add_tet(const TetMesh& mesh, TetId t);
+  bool remove_tet(TetId t);
+  void note_changed(const TetVertices& vertices);
+  void settle_vertex(VertexId v);
+  void release_lost_holds();
+  void drop_lost_pulls(const TetMesh& mesh);
+  [[nodiscard]] bool differs(const TetMesh& mesh, TetId t) const;
+
+  // moving on (body_advance.cpp)
+  template <class Visit>
+  void for_each_awake(Visit&& visit) const {
+    for (std::size_t part = 0; part < detail::SweepOrder::kParts; ++part) {
+      for (const std::uint32_t v : order.awake(static_cast<detail::SweepOrder::Part>(part))) visit(v);
+    }
+  }
+  void centre();
+  void prepare_pulls();
+  void wake_pulled(const Pull& pull);
+  void list_uses();
+  void begin_substep(double h);
+  void descend(double h);
+  void find_slopes(float* slopes);
+  void end_substep(double h, double& fastest);
+  void relax(std::span<const std::uint32_t> vertices, unsigned sweeps);
+  void fall_asleep();
+
+  // energy (body_energy.cpp)
+  void find_drifts(std::vector<Vec3>& found) const;
+  [[nodiscard]] detail::EnergyNow energy_now();
+  void keep_energy(const detail::EnergyNow& before, double dt);
+  void step_back(double most, double dt);
+
+  // free pieces (body_pieces.cpp)
+  void label_pieces();
+  void label_stale_pieces();
+  void find_free_pieces();
+  void leave_lost_pieces();
+  void expect_motion(double h);
+  void correct_motion(double h);
+};
+
+}  // namespace v0
+}  // namespace incise

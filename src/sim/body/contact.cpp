@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/sim/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace incise {
+inline namespace v0 {
+
+namespace {
+
+Error bad(const char* message) {
+  return {ErrorCode::kBadArgument, message, {}};
+}
+
+Status check_tool(const BallTool& ball) {
+  if (!ball.centre.allFinite()) return bad("the centre of a ball must be finite");
+  return ball.radius > 0 && std::isfinite(ball.radius) ? Status{} : Status{bad("the radius of a ball must be above 0")};
+}
+
+Status check_tool(const RodTool& rod) {
+  if (!rod.from.allFinite() || !rod.to.allFinite()) return bad("the ends of a rod must be finite");
+  return rod.radius > 0 && std::isfinite(rod.radius) ? Status{} : Status{bad("the radius of a rod must be above 0")};
+}
+
+Status check_tool(const PlaneTool& plane) {
+  if (!std::isfinite(plane.offset)) return bad("the offset of a plane must be finite");
+  return std::abs(plane.normal.squaredNorm() - 1) < 1e-6 ? Status{}
+                                                         : Status{bad("the normal of a plane must be of length 1")};
+}
+
+Status check_tool(const FlatTool& flat) {
+  if (flat.edge.size() < 2) return bad("the edge of a flat must have at least 2 points");
+  for (const Vec3& point : flat.edge) {
+    if (!point.allFinite()) return bad("the edge of a flat must be finite");
+  }
+  if (!flat.back.allFinite() || flat.back.isZero(0)) return bad("the back of a flat must be finite and not zero");
+  return flat.thickness >= 0 && std::isfinite(flat.thickness)
+             ? Status{}
+             : Status{bad("the thickness of a flat must be at least 0")};
+}
+
+/// Where a tool's surface is, seen from a vertex: below 0, the vertex is inside it.
+struct Touch {
+  double distance = std::numeric_limits<double>::infinity();
+  Vec3 normal = Vec3::Zero(), surface = Vec3::Zero();
+};
+
+Touch touch_around(const Vec3& x, const Vec3& axis_point, double radius) {
+  const Vec3 out = x - axis_point;
+  const double length = out.norm();
+  if (!(length > 0)) return {};
+  const Vec3 normal = out / length;
+  return {length - radius, normal, axis_point + radius * normal};
+}
+
+Touch touch(const BallTool& ball, const Vec3& x, const Vec3& /*inner*/) {
+  return touch_around(x, ball.centre, ball.radius);
+}
+
+Touch touch(const RodTool& rod, const Vec3& x, const Vec3& /*inner*/) {
+  const Vec3 along = rod.to - rod.from;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0 ? std::min(1.0, std::max(0.0, along.dot(x - rod.from) / length2)) : 0.0;
+  return touch_around(x, rod.from + t * along, rod.radius);
+}
+
+Touch touch(const PlaneTool& plane, const Vec3& x, const Vec3& /*inner*/) {
+  const double distance = plane.normal.dot(x) - plane.offset;
+  return {distance, plane.normal, x - distance * plane.normal};
+}
+
+/// One part of a flat, between two points of the edge. The tissue behind the vertex tells on which side it belongs.
+Touch touch_strip(const FlatTool& flat, std::size_t i, const Vec3& x, const Vec3& inner) {
+  const Vec3& from = flat.edge[i];
+  const Vec3 along = flat.edge[i + 1] - from, normal = along.cross(flat.back);
+  const double area2 = normal.squaredNorm();
+  if (!(area2 > 0)) return {};
+  const double s = (x - from).cross(flat.back).dot(normal) / area2;
+  const double t = along.cross(x - from).dot(normal) / area2;
+  if (!(s >= 0 && s <= 1 && t > 0 && t <= 1)) return {};
+  const Vec3 unit = normal / std::sqrt(area2);
+  const Vec3 out = unit.dot(inner - x) >= 0 ? unit : Vec3(-unit);
+  const double height = out.dot(x - from);
+  return {height - flat.thickness / 2, out, x - (height - flat.thickness / 2) * out};
+}
+
+/// Only tissue near the flat is kept on its side: what is deep behind it was never beside it.
+Touch touch(const FlatTool& flat, const Vec3& x, const Vec3& inner) {
+  const double deepest = -0.5 * flat.back.norm();
+  Touch nearest;
+  for (std::size_t i = 0; i + 1 < flat.edge.size(); ++i) {
+    const Touch strip = touch_strip(flat, i, x, inner);
+    if (strip.distance < nearest.distance && strip.distance > deepest) nearest = strip;
+  }
+  return nearest;
+}
+
+/// The middle of one of the vertex' tets: on the tissue's side of its surface.
+Vec3 tissue_behind(const TetMesh& mesh, std::span<const Vec3> positions, VertexId v) {
+  Vec3 sum = Vec3::Zero();
+  for (const VertexId corner : mesh.vertices(mesh.tet_of(v))) sum += positions[corner.value];
+  return sum / 4;
+}
+
+bool is_surface(std::uint8_t bits) {
+  return (bits & (shape::kSkin | shape::kWall)) != 0 && (bits & (shape::kFront | shape::kDead)) == 0;
+}
+
+}  // namespace
+
+Status check(const Tool& tool) {
+  return std::visit([](const auto& t) { return check_tool(t); }, tool);
+}
+
+void find_contacts(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools, double stiffness,
+                   double margin, std::vector<Pull>& pulls) {
+  if (tools.empty()) return;
+  const bool has_flat =
+      std::any_of(tools.begin(), tools.end(), [](const Tool& tool) { return std::holds_alternative<FlatTool>(tool); });
+  for (std::uint32_t slot = 0; slot < mesh.vertex_slots(); ++slot) {
+    const VertexId v(slot);
+    if (!is_surface(mesh.shape_of(v)) || !mesh.tet_of(v).is_valid()) continue;
+    const Vec3& x = positions[slot];
+    const Vec3 inner = has_flat ? tissue_behind(mesh, positions, v) : x;  // flats alone ask for it
+    Touch deepest;
+    for (const Tool& tool : tools) {
+      const Touch found = std::visit([&](const auto& t) { return touch(t, x, inner); }, tool);
+      if (found.distance < deepest.distance) deepest = found;
+    }
+    if (deepest.distance >= margin) continue;
+    Pull pull;
+    pull.vertices[0] = v;
+    pull.target = deepest.surface;
+    pull.axis = deepest.normal;
+    pull.stiffness = stiffness;
+    pull.pushes_only = true;
+    pulls.push_back(pull);
+  }
+}
+
+}  // namespace v0
+}  // namespace incise

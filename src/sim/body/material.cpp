@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/sim/material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace incise {
+inline namespace v0 {
+
+namespace {
+
+Status check(const Material& material, const std::string& whose) {
+  const auto bad = [&](const char* what) { return Error{ErrorCode::kBadArgument, whose + ": " + what, {}}; };
+  if (!(material.density > 0 && std::isfinite(material.density))) return bad("the density must be above 0 kg/m³");
+  if (!(material.young > 0 && std::isfinite(material.young))) return bad("Young's modulus must be above 0 Pa");
+  if (!(material.poisson >= 0 && material.poisson <= 0.499)) return bad("Poisson's ratio must lie in [0, 0.499]");
+  if (!(material.toughness >= 0 && std::isfinite(material.toughness))) {
+    return bad("the toughness must be at least 0 J/m²");
+  }
+  if (!(material.cut_friction >= 0 && std::isfinite(material.cut_friction))) {
+    return bad("the friction of cutting must be at least 0 N/m");
+  }
+  return {};
+}
+
+}  // namespace
+
+const Material& Materials::of(std::int32_t region) const {
+  const auto entry =
+      std::find_if(by_region.begin(), by_region.end(), [&](const Entry& e) { return e.region == region; });
+  return entry == by_region.end() ? fallback : entry->material;
+}
+
+Status check(const Materials& materials) {
+  if (Status status = check(materials.fallback, "the material of all other regions"); !status) return status;
+  for (std::size_t i = 0; i < materials.by_region.size(); ++i) {
+    const std::int32_t region = materials.by_region[i].region;
+    const std::string whose = "the material of region " + std::to_string(region);
+    if (Status status = check(materials.by_region[i].material, whose); !status) return status;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (materials.by_region[j].region == region) return Error{ErrorCode::kBadArgument, whose + " is given twice", {}};
+    }
+  }
+  return {};
+}
+
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled once for each instruction set; the best that the machine has is chosen when the program runs.
+#include "sim/body/star_kernel.h"
+
+#include <cmath>
+#include <cstring>
+
+#if INCISE_WITH_HIGHWAY
+// 8 lanes are all that a star fills: wider sets would only compile longer.
+#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/body/star_kernel.cpp"  // NOLINT(readability-identifier-naming): Highway's name
+#include <hwy/foreach_target.h>                        // NOLINT(misc-header-include-cycle): it includes this file
+#endif
+#include "sim/body/lanes-inl.h"
+
+#if INCISE_WITH_HIGHWAY
+HWY_BEFORE_NAMESPACE();
+#endif
+namespace incise {
+inline namespace v0 {
+namespace detail {
+namespace INCISE_LANES_NAMESPACE {
+
+constexpr std::size_t kFetchAhead = 2;  // vertices
+
+/// Slope and curvature of a star, summed lane by lane.
+struct StarSum {
+  Lanes gx, gy, gz, xx, xy, xz, yy, yz, zz;
+
+  // Written out: a constructor that the compiler makes is not compiled for the instruction set at hand.
+  inline explicit StarSum(const Lanes& zero)
+      : gx(zero), gy(zero), gz(zero), xx(zero), xy(zero), xz(zero), yy(zero), yz(zero), zz(zero) {}
+
+  template <bool kWithCurvature>
+  inline void add(const StarBlock& block, const float* places, const Lanes& x, const Lanes& y, const Lanes& z) {
+    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+    load_points(places, block.a.data(), ax, ay, az);
+    load_points(places, block.b.data(), bx, by, bz);
+    load_points(places, block.c.data(), cx, cy, cz);
+    ax = ax - x, ay = ay - y, az = az - z;
+    bx = bx - x, by = by - y, bz = bz - z;
+    cx = cx - x, cy = cy - y, cz = cz - z;
+    const Lanes ux = bx - ax, uy = by - ay, uz = bz - az, wx = cx - ax, wy = cy - ay, wz = cz - az;
+    // The slope of six volumes in the vertex, and the volumes themselves.
+    const Lanes nx = uz * wy - uy * wz, ny = ux * wz - uz * wx, nz = uy * wx - ux * wy;
+    const Lanes volume6 = all(0) - (nx * ax + ny * ay + nz * az);
+    const Lanes bulk = load(block.bulk.data());
+    const Lanes swell = bulk * volume6 - load(block.pressure.data());
+    const Lanes to_a = load(block.to_a.data()), to_b = load(block.to_b.data()), to_c = load(block.to_c.data());
+    gx = gx + (swell * nx + (to_a * ax + (to_b * bx + to_c * cx)));
+    gy = gy + (swell * ny + (to_a * ay + (to_b * by + to_c * cy)));
+    gz = gz + (swell * nz + (to_a * az + (to_b * bz + to_c * cz)));
+    if constexpr (!kWithCurvature) return;
+    const Lanes kx = bulk * nx, ky = bulk * ny, kz = bulk * nz;
+    xx = xx + kx * nx, xy = xy + kx * ny, xz = xz + kx * nz;
+    yy = yy + ky * ny, yz = yz + ky * nz, zz = zz + kz * nz;
+  }
+};
+
+/// Inlined wherever it is called: the sweep is too slow with a call for each vertex.
+template <bool kWithCurvature>
+[[gnu::always_inline]] inline Quadratic star_quadratic(const Descent& d, const Star& star, const float* place) {
+  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+  StarSum sum(all(0));
+  const StarBlock* block = d.blocks + star.first;
+  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block)
+    sum.template add<kWithCurvature>(*block, d.places, x, y, z);
+  float s[12];
+  sum_lanes(sum.gx, sum.gy, sum.gz, sum.xx, s);
+  const auto wide = [&](unsigned i) { return static_cast<double>(s[i]); };
+  if constexpr (!kWithCurvature) return {{wide(0), wide(1), wide(2)}, {}};
+  sum_lanes(sum.xy, sum.xz, sum.yy, sum.yz, s + 4);
+  sum_lanes(sum.zz, sum.zz, sum.zz, sum.zz, s + 8);
+  return {{wide(0), wide(1), wide(2)}, {wide(3), wide(4), wide(5), wide(6), wide(7), wide(8)}};
+}
+
+inline void add_inertia(const Motion& motion, const float* x, Quadratic& q) {
+  for (unsigned i = 0; i < 3; ++i) {
+    const double moved = static_cast<double>(x[i]) - static_cast<double>(motion.start[i]);
+    q.slope[i] += motion.weight * (moved - static_cast<double>(motion.aim[i]));
+  }
+  const double stiffness = motion.weight + motion.diagonal;
+  q.curvature[0] += stiffness;
+  q.curvature[3] += stiffness;
+  q.curvature[5] += stiffness;
+}
+
+template <bool kWithCurvature = true>
+[[gnu::always_inline]] inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex) {
+  const Motion& motion = d.motions[vertex];
+  const float* x = d.places + std::size_t{4} * vertex;
+  Quadratic q = star_quadratic<kWithCurvature>(d, d.stars[vertex], x);
+  add_inertia(motion, x, q);
+  if (motion.pulls > 0) add_pulls(d, motion, q);
+  return q;
+}
+
+/// The step to the least of a quadratic, by cofactors in double precision: single precision fails on slivers.
+inline bool least_of(const Quadratic& q, std::array<double, 3>& step) {
+  const auto& [xx, xy, xz, yy, yz, zz] = q.curvature;
+  const double c00 = yy * zz - yz * yz, c01 = xz * yz - xy * zz, c02 = xy * yz - xz * yy;
+  const double c11 = xx * zz - xz * xz, c12 = xy * xz - xx * yz, c22 = xx * yy - xy * xy;
+  const double determinant = xx * c00 + xy * c01 + xz * c02;
+  const double by = -1 / determinant;
+  const auto& [gx, gy, gz] = q.slope;
+  step[0] = by * (c00 * gx + c01 * gy + c02 * gz);
+  step[1] = by * (c01 * gx + c11 * gy + c12 * gz);
+  step[2] = by * (c02 * gx + c12 * gy + c22 * gz);
+  const double fall = gx * step[0] + gy * step[1] + gz * step[2];
+  return determinant > 0 && fall < 0;  // rounding may turn it uphill, or into no number
+}
+
+/// Writes a place at once: the next vertex reads it at once, and a machine cannot hand on what was stored in parts.
+inline void put(float x, float y, float z, float* place) {
+  using Row = float __attribute__((vector_size(16)));
+  const Row row = {x, y, z, 0};
+  std::memcpy(place, &row, sizeof row);
+}
+
+/// Moves a vertex to its least energy, at most as far as it may go: on the way there the energy falls all along.
+inline void descend(const Quadratic& q, double reach, float* x) {
+  std::array<double, 3> step;
+  if (!least_of(q, step)) return;
+  const double length2 = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
+  const double scale = length2 > reach * reach ? reach / std::sqrt(length2) : 1.0;
+  const auto moved = [&](unsigned i) { return static_cast<float>(static_cast<double>(x[i]) + scale * step[i]); };
+  put(moved(0), moved(1), moved(2), x);
+}
+
+/// The quadratic's value at the start of the substep, against that where the vertex is.
+inline double value_at_start(const Quadratic& q, const Motion& motion, const float* x) {
+  std::array<double, 3> d;
+  for (unsigned i = 0; i < 3; ++i) d[i] = static_cast<double>(motion.start[i]) - static_cast<double>(x[i]);
+  const auto& [xx, xy, xz, yy, yz, zz] = q.curvature;
+  const double bent = xx * d[0] * d[0] + yy * d[1] * d[1] + zz * d[2] * d[2] +
+                      2 * (xy * d[0] * d[1] + xz * d[0] * d[2] + yz * d[1] * d[2]);
+  return q.slope[0] * d[0] + q.slope[1] * d[1] + q.slope[2] * d[2] + 0.5 * bent;
+}
+
+/// Stars are longer than what the machine fetches ahead by itself.
+inline void fetch(const Descent& d, std::uint32_t vertex) {
+  const Star& star = d.stars[vertex];
+  const auto* line = reinterpret_cast<const char*>(d.blocks + star.first);
+  const char* end = line + star.used_blocks() * sizeof(StarBlock);
+  for (; line < end; line += 64) __builtin_prefetch(line);
+}
+
+void sweep_all(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
+  const std::size_t count = order.size();
+  const auto at = [&](std::size_t i) { return order[is_backward ? count - 1 - i : i]; };
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t v = at(i);
+    if (i + kFetchAhead < count) fetch(d, at(i + kFetchAhead));
+    descend(whole_quadratic(d, v), static_cast<double>(d.motions[v].reach), d.places + std::size_t{4} * v);
+  }
+}
+
+void pick_all(const Descent& d, std::span<const std::uint32_t> order) {
+  for (const std::uint32_t v : order) {
+    float* x = d.places + std::size_t{4} * v;
+    const Motion& motion = d.motions[v];
+    if (!motion.leaps || !(value_at_start(whole_quadratic(d, v), motion, x) < 0)) continue;
+    put(motion.start[0], motion.start[1], motion.start[2], x);
+  }
+}
+
+void slopes_of_all(const Descent& d, std::span<const std::uint32_t> order, float* slopes) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
+    const std::array<double, 3> slope = whole_quadratic<false>(d, order[i]).slope;
+    put(static_cast<float>(slope[0]), static_cast<float>(slope[1]), static_cast<float>(slope[2]),
+        slopes + std::size_t{4} * order[i]);
+  }
+}
+
+/// A corner's share in a tet's energy: a quarter of what its volume takes, half of what its own edges do, so that all
+/// four make it up.
+inline double star_energy(const Descent& d, const Star& star, const float* place) {
+  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+  Lanes swelling = all(0), stretch = all(0);
+  const StarBlock* block = d.blocks + star.first;
+  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) {
+    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+    load_points(d.places, block->a.data(), ax, ay, az);
+    load_points(d.places, block->b.data(), bx, by, bz);
+    load_points(d.places, block->c.data(), cx, cy, cz);
+    ax = ax - x, ay = ay - y, az = az - z;
+    bx = bx - x, by = by - y, bz = bz - z;
+    cx = cx - x, cy = cy - y, cz = cz - z;
+    const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+    const Lanes half = load(block->bulk.data()) * volume6 * all(0.5F);
+    swelling = swelling + (half - load(block->pressure.data())) * volume6;
+    stretch = stretch + (load(block->to_a.data()) * (ax * ax + ay * ay + az * az) +
+                         (load(block->to_b.data()) * (bx * bx + by * by + bz * bz) +
+                          load(block->to_c.data()) * (cx * cx + cy * cy + cz * cz)));
+  }
+  float s[4];
+  sum_lanes(swelling, stretch, stretch, stretch, s);
+  return 0.25 * (static_cast<double>(s[0]) - static_cast<double>(s[1]));
+}
+
+void add_energies(const Descent& d, std::span<const std::uint32_t> order, double& sum) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
+    sum += star_energy(d, d.stars[order[i]], d.places + std::size_t{4} * order[i]);
+  }
+}
+
+void find_quadratic(const Descent& d, std::uint32_t vertex, Quadratic& quadratic) {
+  quadratic = whole_quadratic(d, vertex);
+}
+
+}  // namespace INCISE_LANES_NAMESPACE
+}  // namespace detail
+}  // namespace v0
+}  // namespace incise
+#if INCISE_WITH_HIGHWAY
+HWY_AFTER_NAMESPACE();
+#endif
+
+#if !INCISE_WITH_HIGHWAY || HWY_ONCE
+namespace incise {
+inline namespace v0 {
+namespace detail {
+
+#if INCISE_WITH_HIGHWAY
+HWY_EXPORT(sweep_all);
+HWY_EXPORT(pick_all);
+HWY_EXPORT(slopes_of_all);
+HWY_EXPORT(add_energies);
+HWY_EXPORT(find_quadratic);
+#define INCISE_DISPATCH(function) HWY_DYNAMIC_DISPATCH(function)
+#else
+#define INCISE_DISPATCH(function) plain::function
+#endif
+
+PullState pull_state(const PullTerm& term, const Vec3& off) {
+  if (!term.has_axis) return {term.stiffness * off, term.stiffness};
+  const double along = term.axis.dot(off), slope = term.stiffness * along;
+  if (term.pushes_only && along >= 0) return {};
+  if (slope > term.limit) return {term.limit * term.axis, 0};
+  if (slope < -term.limit) return {-term.limit * term.axis, 0};
+  return {slope * term.axis, term.stiffness};
+}
+
+Vec3 off_target(const PullTerm& term, const float* places) {
+  Vec3 off = -term.target;
+  for (unsigned i = 0; i < 4; ++i) {
+    if (term.weights[i] == 0) continue;
+    const float* p = places + std::size_t{4} * term.vertices[i];
+    off += term.weights[i] * Vec3(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
+  }
+  return off;
+}
+
+void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q) {
+  for (std::uint32_t i = 0; i < motion.pulls; ++i) {
+    const PullUse& use = descent.uses[motion.first_pull + i];
+    const PullTerm& term = descent.terms[use.term];
+    const PullState pull = pull_state(term, off_target(term, descent.places));
+    const Mat3 along = term.has_axis ? Mat3(term.axis * term.axis.transpose()) : Mat3(Mat3::Identity());
+    const Mat3 bend = pull.stiffness * use.weight * use.weight * along;
+    for (int k = 0; k < 3; ++k) q.slope[static_cast<std::size_t>(k)] += use.weight * pull.slope[k];
+    const std::array<double, 6> upper = {bend(0, 0), bend(0, 1), bend(0, 2), bend(1, 1), bend(1, 2), bend(2, 2)};
+    for (unsigned k = 0; k < 6; ++k) q.curvature[k] += upper[k];
+  }
+}
+
+void sweep(const Descent& descent, std::span<const std::uint32_t> order, bool is_backward) {
+  INCISE_DISPATCH(sweep_all)(descent, order, is_backward);
+}
+
+void pick_starts(const Descent& descent, std::span<const std::uint32_t> order) {
+  INCISE_DISPATCH(pick_all)(descent, order);
+}
+
+void find_slopes(const Descent& descent, std::span<const std::uint32_t> order, float* slopes) {
+  INCISE_DISPATCH(slopes_of_all)(descent, order, slopes);
+}
+
+double energy_share(const Descent& descent, std::span<const std::uint32_t> order) {
+  double sum = 0;
+  INCISE_DISPATCH(add_energies)(descent, order, sum);
+  return sum;
+}
+
+Quadratic quadratic_of(const Descent& descent, std::uint32_t vertex) {
+  Quadratic quadratic;
+  INCISE_DISPATCH(find_quadratic)(descent, vertex, quadratic);
+  return quadratic;
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace incise
+#endif

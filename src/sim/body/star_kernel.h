@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The inner loop of the descent: one visit of a vertex moves it to the least energy that its neighbours leave it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "incise/geom/vec.h"
+#include "sim/body/stars.h"
+
+namespace incise {
+inline namespace v0 {
+namespace detail {
+
+/// A vertex in motion: what pulls it besides its tets. Places are single precision, against the body's middle.
+struct Motion {
+  std::array<float, 3> start{};             ///< before the substep
+  std::array<float, 3> aim{};               ///< where inertia and gravity take it, from `start`
+  double weight = 0;                        ///< mass by the substep squared: what it costs to be elsewhere
+  double diagonal = 0;                      ///< of the star's Laplacian
+  float reach = 0;                          ///< the most that one visit may move it
+  std::uint32_t first_pull = 0, pulls = 0;  ///< its part of the list of pull uses
+  bool leaps = false;                       ///< its velocity takes it far enough to do harm
+};
+
+/// A pull as the descent sees it; places against the body's middle.
+struct PullTerm {
+  std::array<std::uint32_t, 4> vertices{};
+  std::array<double, 4> weights{};  ///< 0 where there is no vertex
+  Vec3 target = Vec3::Zero();
+  Vec3 axis = Vec3::Zero();
+  double stiffness = 0;
+  double limit = 0;  ///< of the force along the axis
+  bool has_axis = false, pushes_only = false;
+};
+
+/// One vertex' part in a pull.
+struct PullUse {
+  std::uint32_t term = 0;
+  double weight = 0;
+};
+
+/// What visits read and write.
+struct Descent {
+  float* places = nullptr;  ///< 4 per vertex slot, the fourth unused
+  const StarBlock* blocks = nullptr;
+  const Star* stars = nullptr;
+  const Motion* motions = nullptr;
+  const PullTerm* terms = nullptr;
+  const PullUse* uses = nullptr;
+};
+
+/// The energy of one vertex as a quadratic: value 0 at its place, slope, and symmetric curvature (xx xy xz yy yz zz).
+struct Quadratic {
+  std::array<double, 3> slope{};
+  std::array<double, 6> curvature{};
+};
+
+/// What a pull does at its point as it stands: the slope of its energy, and how stiff it is there: 0 where it does not
+/// push, or has reached its limit.
+struct PullState {
+  Vec3 slope = Vec3::Zero();
+  double stiffness = 0;
+};
+/// `off`: from the target to the point.
+[[nodiscard]] PullState pull_state(const PullTerm& term, const Vec3& off);
+
+/// From a pull's target to its point as it stands.
+[[nodiscard]] Vec3 off_target(const PullTerm& term, const float* places);
+
+/// Adds what pulls a vertex to its quadratic.
+void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q);
+
+/// Visits vertices in order, or backwards. Vertices of one call are visited one after the other.
+void sweep(const Descent& descent, std::span<const std::uint32_t> order, bool is_backward);
+/// Puts vertices back to their start where they cost less there: light slivers would fly off where their velocity
+/// takes them.
+void pick_starts(const Descent& descent, std::span<const std::uint32_t> order);
+/// Writes the slopes of the energies of vertices, 4 numbers per vertex slot; moves nothing.
+void find_slopes(const Descent& descent, std::span<const std::uint32_t> order, float* slopes);
+/// The share of vertices in the elastic energy of their tets, not counted from rest.
+[[nodiscard]] double energy_share(const Descent& descent, std::span<const std::uint32_t> order);
+/// The quadratic of one vertex, its inertia and pulls included.
+[[nodiscard]] Quadratic quadratic_of(const Descent& descent, std::uint32_t vertex);
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene file says, what is refused, and what the hands do in each frame.
+#include "app/scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "app/scene/scene_simulation.h"
+#include "app/text/text_file.h"
+#include "app/view/scene_camera.h"
+#include "support/folder.h"
+#include "support/scene_cases.h"
+
+namespace {
+
+using namespace incise;
+using namespace incise_test;
+
+app::Scene parsed(const Json& scene) {
+  Result<app::Scene> result = app::parse_scene(scene.dump(), "scene.json");
+  EXPECT_TRUE(result.ok()) << result.error().message;
+  return result.ok() ? std::move(result).value() : app::Scene();
+}
+
+std::string error_of(const Json& scene) {
+  const Result<app::Scene> result = app::parse_scene(scene.dump(1), "scene.json");
+  return result.ok() ? "" : result.error().message;
+}
+
+/// Expects that a full scene with a value put at a place is refused with some words.
+void expect_refused(const std::string& pointer, const Json& value, const std::string& words) {
+  Json scene = full_scene();
+  scene[Json::json_pointer(pointer)] = value;
+  const std::string error = error_of(scene);
+  EXPECT_NE(error.find(words), std::string::npos) << pointer << ": " << error;
+  EXPECT_EQ(error.rfind("scene.json:", 0), 0U) << error;
+}
+
+TEST(Scene, reads_the_least_with_defaults) {
+  const app::Scene scene = parsed(least_scene());
+  EXPECT_EQ(scene.options.body.length_unit, 0.1);
+  EXPECT_EQ(scene.frames, 10U);
+  EXPECT_EQ(scene.options.frame_seconds, 1.0 / 60);
+  EXPECT_EQ(scene.options.engine.maintain.work_units, kFrameWorkUnits);
+  EXPECT_TRUE(scene.strokes.empty() && scene.hooks.empty() && scene.tools.empty() && scene.attachments.empty());
+}
+
+TEST(Scene, reads_every_key) {
+  const app::Scene scene = parsed(full_scene());
+  EXPECT_EQ(scene.seed, 12345678901234567890U);
+  EXPECT_EQ(scene.frames, 50U);
+  EXPECT_EQ(scene.options.body.relaxation, Relaxation::kPositionBased);
+  EXPECT_EQ(scene.options.body.substeps, 3U);
+  EXPECT_EQ(scene.options.materials.of(3).young, 2e4);
+  EXPECT_EQ(scene.options.materials.of(0).toughness, 5);
+  EXPECT_EQ(scene.options.contact_stiffness, 100);
+  EXPECT_EQ(scene.options.flat_height, 0.1);
+  EXPECT_EQ(scene.attachments.size(), 3U);
+  EXPECT_TRUE(std::isinf(scene.attachments[0].stiffness));
+  EXPECT_EQ(scene.attachments[1].stiffness, 500);
+  const auto& table = std::get<PlaneTool>(scene.tools[0].keys.front());
+  EXPECT_EQ(table.normal, Vec3(0, 0, 1));
+  EXPECT_EQ(table.offset, -0.5);
+  EXPECT_EQ(scene.strokes[0].stroke.times, (std::vector<double>{0.1, 0.1 + 0.5 * 0.4}));
+  EXPECT_EQ(scene.strokes[1].direction, Vec3(1, 0, 0));
+  EXPECT_TRUE(scene.strokes[1].stroke.edges[1][0].isApprox(Vec3(1.2, 0.6, -0.2), 1e-12));
+}
+
+TEST(Scene, reads_how_it_is_first_seen) {
+  const app::Scene scene = parsed(full_scene());
+  ASSERT_TRUE(scene.view.has_value());
+  EXPECT_EQ(scene.view->from, Vec3(1, -2, 3));
+  EXPECT_EQ(scene.view->target, Vec3(0.5, 0.4, 0.9));
+  EXPECT_EQ(scene.view->distance, 4.5);
+  EXPECT_EQ(scene.view->clip->offset, 0.1);
+  const app::ViewOptions options = view_options_of(scene);
+  EXPECT_EQ(options.color, app::ColorBy::kRegion);
+  EXPECT_EQ(options.theme, app::Theme::kLight);
+  EXPECT_EQ(options.skin_opacity, 0.25);
+  EXPECT_TRUE(options.shows_wireframe);
+  EXPECT_FALSE(parsed(least_scene()).view.has_value());
+}
+
+TEST(Scene, reads_the_exercise_and_its_ideal) {
+  const app::Scene scene = parsed(full_scene());
+  ASSERT_TRUE(scene.exercise.has_value());
+  const app::Exercise& exercise = *scene.exercise;
+  EXPECT_EQ(exercise.instructions, "Cut along the line.");
+  EXPECT_EQ(exercise.target.size(), 2U);
+  EXPECT_EQ(exercise.tolerances.angle, 15);
+  EXPECT_EQ(exercise.strokes, 2U);
+  ASSERT_EQ(exercise.ideal.size(), 1U);
+  EXPECT_EQ(exercise.ideal[0].stroke.times.back(), 0.5);
+  EXPECT_EQ(exercise.ideal[0].direction, Vec3(0, 1, 0));
+  Json json = full_scene();
+  json["exercise"]["ideal"] = 1;
+  json["exercise"].erase("tolerances");
+  const app::Exercise other = *parsed(json).exercise;
+  EXPECT_EQ(other.ideal[0].stroke.edges, scene.strokes[1].stroke.edges);
+  EXPECT_DOUBLE_EQ(other.tolerances.line, 0.05 * 0.8);
+  EXPECT_EQ(other.tolerances.depth, 0.125);
+}
+
+TEST(Scene, without_view_and_exercise_is_written_without_them) {
+  const Json written = Json::parse(app::to_json(parsed(least_scene())));
+  EXPECT_FALSE(written.contains("view") || written.contains("exercise"));
+  Json json = least_scene();
+  json["view"] = Json::object();
+  const std::string text = app::to_json(parsed(json));
+  EXPECT_EQ(Json::parse(text)["view"].size(), 5U);  // what has a default
+  EXPECT_EQ(app::to_json(parsed(Json::parse(text))), text);
+}
+
+TEST(SceneView, frames_the_body_from_where_the_scene_says) {
+  const Box body{Vec3::Zero(), Vec3(4, 2, 1)};
+  const app::Viewport viewport;
+  Json json = least_scene();
+  const app::Camera plain = camera_of(parsed(json), body, viewport);
+  EXPECT_EQ(plain.up, Vec3(0, 0, 1));
+  EXPECT_TRUE(plain.target.isApprox(Vec3(2, 1, 0.5), 1e-12));
+  json["view"] = {{"from", {3, 0, 4}}, {"zoom", 2}};
+  const app::Camera seen = camera_of(parsed(json), body, viewport);
+  EXPECT_TRUE(seen.backward().isApprox(Vec3(0.6, 0, 0.8), 1e-12));
+  app::Camera all = seen;
+  frame_all(all, viewport, body);
+  EXPECT_DOUBLE_EQ(2 * seen.distance, all.distance);
+  json["view"] = {{"target", {1, 0, 0}}, {"distance", 6}, {"up", {0, 3, 0}}};
+  const app::Camera placed = camera_of(parsed(json), Box(), viewport);
+  EXPECT_EQ(placed.target, Vec3(1, 0, 0));
+  EXPECT_EQ(placed.distance, 6);
+  EXPECT_EQ(placed.up, Vec3(0, 1, 0));
+}
+
+TEST(SceneView, has_up_against_gravity) {
+  Json json = least_scene();
+  json["gravity"] = {0, 9.81, 0};
+  EXPECT_EQ(camera_of(parsed(json), Box(), {}).up, Vec3(0, -1, 0));
+  json["gravity"] = {0, 0, 0};
+  EXPECT_EQ(camera_of(parsed(json), Box(), {}).up, Vec3(0, 0, 1));
+}
+
+TEST(Scene, written_and_read_again_is_the_same_bit_for_bit) {
+  for (const Json& json : {least_scene(), full_scene()}) {
+    const app::Scene scene = parsed(json);
+    const std::string text = app::to_json(scene);
+    const Result<app::Scene> again = app::parse_scene(text, "again.json");
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    EXPECT_EQ(app::to_json(*again), text);
+    for (std::uint64_t frame = 0; frame < scene.frames; ++frame) {
+      const FrameInput a = scene_input(scene, frame);
+      const FrameInput b = scene_input(*again, frame);
+      ASSERT_EQ(a.blade.has_value(), b.blade.has_value());
+      if (a.blade) {
+        EXPECT_EQ(a.blade->edge, b.blade->edge);
+      }
+      EXPECT_EQ(a.tools.size(), b.tools.size());
+    }
+  }
+}
+
+TEST(Scene, refuses_numbers_out_of_range_and_says_where) {
+  expect_refused("/length_unit", 0, "length_unit is 0; it must be above 0");
+  expect_refused("/damping", -1, "damping is -1; it must be at least 0");
+  expect_refused("/frame_seconds", 2, "frame_seconds is 2; it must be above 0 and at most 1");
+  expect_refused("/materials/default/poisson", 0.5, "materials.default.poisson is 0.5");
+  expect_refused("/materials/regions/0/young", 0, "materials.regions[0].young is 0");
+  expect_refused("/model/box/cells/1", 0, "model.box.cells[1] must be a whole number above 0");
+  expect_refused("/model/box/cells", {4000, 4000, 4000}, "more than 2^28 tets");
+  expect_refused("/model/box/size", {1, 0, 1}, "model.box.size must be above 0");
+  expect_refused("/model/box/jitter", 0.2, "model.box.jitter is 0.2");
+  expect_refused("/model/regions/0/below", {0, 0, 0, 1}, "needs a normal that is not zero");
+  expect_refused("/attachments/1/stiffness", 0, "attachments[1].stiffness is 0");
+  expect_refused("/attachments/1/box/low/0", 3, "low corner that is not below");
+  expect_refused("/tools/1/ball/radius", 0, "tools[1].ball.radius is 0");
+  expect_refused("/hooks/0/path/1/t", 0.05, "hooks[0].path[1].t must be later");
+  expect_refused("/solver/substeps", 0, "solver.substeps is 0; it must be from 1 to 1000");
+  expect_refused("/solver/relaxation", "magic", "solver.relaxation must be \"block-descent\"");
+  expect_refused("/solver", Json{{"relaxation", "magic"}}, "solver.relaxation must be");
+  expect_refused("/cut/snap", 0.5, "cut.snap is 0.5");
+  expect_refused("/cut/profile", "best", "cut.profile must be");
+  expect_refused("/settle", Json::object(), "lacks the key \"frames\"");
+  expect_refused("/seed", -1, "seed must be a whole number");
+}
+
+TEST(Scene, refuses_views_that_cannot_be_seen) {
+  expect_refused("/view/from", {0, 0, 0}, "view.from is zero; give a direction");
+  expect_refused("/view/up", {0, 0}, "view.up must be an array of 3");
+  expect_refused("/view/distance", 0, "view.distance is 0; it must be above 0");
+  expect_refused("/view/zoom", -1, "view.zoom is -1");
+  expect_refused("/view/opacity", 0, "view.opacity is 0; it must be above 0 and at most 1");
+  expect_refused("/view/color", "blue", "view.color must be one of tissue, region, stroke, quality");
+  expect_refused("/view/theme", "blue", "view.theme must be one of dark, light");
+  expect_refused("/view/clip", {0, 0, 0, 1}, "view.clip needs a normal that is not zero");
+}
+
+TEST(Scene, refuses_exercises_that_cannot_be_done) {
+  expect_refused("/exercise/target", Json::array({{0, 0, 0}}), "exercise.target");
+  expect_refused("/exercise/target/1", {0.45, 0.1, 1}, "exercise.target[1] must be apart from the point before it");
+  expect_refused("/exercise/depth", 0, "exercise.depth is 0; it must be above 0");
+  expect_refused("/exercise/angle", 90, "exercise.angle is 90");
+  expect_refused("/exercise/tolerances/line", 0, "exercise.tolerances.line is 0");
+  expect_refused("/exercise/tolerances/angle", 91, "exercise.tolerances.angle is 91");
+  expect_refused("/exercise/tolerances/force", -1, "exercise.tolerances.force is -1");
+  expect_refused("/exercise/max_force", -1, "exercise.max_force is -1");
+  expect_refused("/exercise/strokes", 0, "exercise.strokes is 0; it must be from 1");
+  expect_refused("/exercise/ideal", 2, "exercise.ideal must be the number of one of the scene's strokes");
+  expect_refused("/exercise/ideal", "none.json", "exercise.ideal must be the number");
+  expect_refused("/exercise/ideal/stretch", 0.001, "exercise.ideal lasts less than a frame");
+  expect_refused("/exercise", Json{{"depth", 1}}, "lacks the key \"target\"");
+  expect_refused("/exercise", Json{{"target", {{0, 0, 0}, {1, 0, 0}}}}, "lacks the key \"depth\"");
+}
+
+TEST(Scene, refuses_what_contradicts_itself) {
+  expect_refused("/frames", 5, "has both \"frames\" and \"duration\"");
+  expect_refused("/model/file", "cube.mesh", "needs either the key \"file\" or the key \"box\"");
+  expect_refused("/attachments/0/ball", {{"centre", {0, 0, 0}}, {"radius", 1}},
+                 "needs one of the keys box, ball, below");
+  expect_refused("/tools/1/plane", {0, 0, 1, 0}, "needs one of the keys plane, ball, rod");
+  expect_refused("/tools/2/ball/centre", {0, 0, 0}, "needs one of the keys centre, path");
+  expect_refused("/tools/4/rod/to", {0, 0, 0}, "put it into the path");
+  expect_refused("/materials/regions/1", {{"region", 3}}, "materials.regions[1].region is named before");
+}
+
+TEST(Scene, refuses_strokes_that_do_not_fit_in_time) {
+  expect_refused("/strokes/0/start", 0.4, "strokes[1] begins at 0.5 s, but the stroke before it ends at 0.6 s");
+  expect_refused("/strokes/0/stretch", 0.01, "strokes[0] lasts less than a frame");
+  Json early = full_scene();
+  early["strokes"][0]["blade"][0]["edges"][0]["t"] = -0.5;
+  EXPECT_NE(error_of(early).find("strokes[0] begins before 0 s"), std::string::npos) << error_of(early);
+  Json still = full_scene();
+  still["strokes"][0]["blade"][0]["edges"].erase(1);
+  EXPECT_NE(error_of(still).find("give it two times"), std::string::npos) << error_of(still);
+}
+
+TEST(Scene, puts_the_strokes_of_a_blade_one_after_the_other) {
+  const Folder folder;
+  const Json blade = {{"format", "incise-blade"},
+                      {"version", 1},
+                      {"strokes", {blade_stroke(0, 0.4), blade_stroke(0, 0.4), blade_stroke(2, 2.5)}}};
+  folder.write("b.json", blade.dump());
+  Json scene = least_scene();
+  scene["strokes"] = {{{"blade", "b.json"}, {"start", 0.25}, {"stretch", 2}, {"pause", 0.5}}};
+  const Result<app::Scene> read = app::read_scene(folder.write("s.json", scene.dump()));
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  ASSERT_EQ(read->strokes.size(), 3U);
+  EXPECT_DOUBLE_EQ(read->strokes[0].stroke.times.front(), 0.25);
+  EXPECT_DOUBLE_EQ(read->strokes[0].stroke.times.back(), 1.05);
+  EXPECT_DOUBLE_EQ(read->strokes[1].stroke.times.front(), 1.55);
+  EXPECT_DOUBLE_EQ(read->strokes[1].stroke.times.back(), 2.35);
+  EXPECT_DOUBLE_EQ(read->strokes[2].stroke.times.front(), 4.25);
+}
+
+TEST(Scene, names_what_is_wrong_with_a_blade_file) {
+  const Folder folder;
+  Json scene = least_scene();
+  scene["strokes"] = {{{"blade", "none.json"}}};
+  const std::string path = folder.write("s.json", scene.dump());
+  EXPECT_NE(app::read_scene(path).error().message.find("none.json: no such file"), std::string::npos);
+  folder.write("none.json", "{\"format\":\"incise-blade\",\n\"version\":7,\"strokes\":[]}");
+  EXPECT_NE(app::read_scene(path).error().message.find("none.json:2: version is 7"), std::string::npos);
+}
+
+TEST(Scene, goes_on_half_a_second_after_the_last_key_time_unless_told_otherwise) {
+  Json scene = full_scene();
+  scene.erase("duration");
+  EXPECT_EQ(parsed(scene).frames, 60U);  // the last stroke ends at 0.7 s
+}
+
+// --- what the hands do
+
+TEST(SceneInput, moves_the_blade_from_its_first_to_its_last_key) {
+  Json json = least_scene();
+  json["frame_seconds"] = 0.1;
+  json["strokes"] = {{{"blade", {blade_stroke(0.25, 0.65)}}, {"direction", {0, 1, 0}}}};
+  const app::Scene scene = parsed(json);
+  EXPECT_FALSE(scene_input(scene, 1).blade.has_value());  // ends at 0.2
+  const auto y = [&](std::uint64_t frame) { return scene_input(scene, frame).blade->edge[1].y(); };
+  EXPECT_EQ(y(2), -0.2);  // the stroke begins within it
+  EXPECT_NEAR(y(3), -0.2 + 1.4 * (0.15 / 0.4), 1e-12);
+  EXPECT_NEAR(y(5), -0.2 + 1.4 * (0.35 / 0.4), 1e-12);
+  EXPECT_EQ(y(6), 1.2);
+  EXPECT_FALSE(scene_input(scene, 7).blade.has_value());
+  EXPECT_EQ(scene_input(scene, 3).blade->direction, Vec3(0, 1, 0));
+}
+
+TEST(SceneInput, of_a_stroke_that_begins_at_once_has_its_first_key_in_one_frame_alone) {
+  Json json = least_scene();
+  json["frame_seconds"] = 0.1;
+  json["strokes"] = {{{"blade", {blade_stroke(0, 0.4)}}}};
+  const app::Scene scene = parsed(json);
+  EXPECT_EQ(scene_input(scene, 0).blade->edge[0].y(), -0.2);
+  EXPECT_GT(scene_input(scene, 1).blade->edge[0].y(), -0.2);
+  EXPECT_EQ(scene_input(scene, 3).blade->edge[0].y(), 1.2);
+  EXPECT_FALSE(scene_input(scene, 4).blade.has_value());
+}
+
+TEST(SceneInput, lifts_the_blade_between_strokes) {
+  const app::Scene scene = parsed(full_scene());
+  int strokes = 0;
+  bool was_there = false;
+  for (std::uint64_t frame = 0; frame < scene.frames; ++frame) {
+    const bool is_there = scene_input(scene, frame).blade.has_value();
+    strokes += is_there && !was_there ? 1 : 0;
+    was_there = is_there;
+  }
+  EXPECT_EQ(strokes, 2);
+}
+
+TEST(SceneInput, has_tools_and_hooks_while_they_are_there) {
+  const app::Scene scene = parsed(full_scene());  // 0.02 s a frame
+  const FrameInput before = scene_input(scene, 1);
+  EXPECT_EQ(before.tools.size(), 3U);  // a plane, a ball and a rod that stay
+  EXPECT_TRUE(before.hooks.empty());
+  const FrameInput now = scene_input(scene, 6);  // ends at 0.14
+  ASSERT_EQ(now.tools.size(), 5U);
+  EXPECT_TRUE(std::get<BallTool>(now.tools[2]).centre.isApprox(Vec3(0, 0, 1.6), 1e-12));
+  EXPECT_TRUE(std::get<RodTool>(now.tools[4]).to.isApprox(Vec3(1, 0, 1.8), 1e-12));
+  ASSERT_EQ(now.hooks.size(), 1U);
+  EXPECT_TRUE(now.hooks[0].position.isApprox(Vec3(1, 1.09, 1.135), 1e-12));
+  EXPECT_TRUE(scene_input(scene, 13).hooks.empty());
+}
+
+// --- the model
+
+TEST(SceneModel, is_painted_and_held_by_place) {
+  const app::Scene scene = parsed(full_scene());
+  const Result<io::LoadedMesh> loaded = app::load_model(scene);
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  const TetMesh& mesh = loaded->mesh;
+  EXPECT_EQ(mesh.tet_count(), 72U);
+  int painted = 0;
+  mesh.for_each_tet([&](TetId t) { painted += mesh.region(t) == 3 ? 1 : 0; });
+  EXPECT_GT(painted, 0);
+  EXPECT_LT(painted, 72);
+  EXPECT_EQ(find_attached(mesh, scene.attachments[0]).size(), 9U);  // the side x = 0
+  EXPECT_EQ(find_attached(mesh, scene.attachments[2]).size(), 1U);
+  const app::Attachment all{app::HalfSpace{Vec3(0, 0, 1), 9}, false};
+  const app::Attachment skin{app::HalfSpace{Vec3(0, 0, 1), 9}, true};
+  EXPECT_EQ(find_attached(mesh, all).size(), 36U);
+  EXPECT_EQ(find_attached(mesh, skin).size(), 34U);
+}
+
+TEST(SceneModel, says_which_attachment_holds_nothing) {
+  Json json = least_scene();
+  json["attachments"] = {{{"below", {0, 0, 1, 0.1}}}, {{"below", {0, 0, 1, -5}}}};
+  const app::Scene scene = parsed(json);
+  const auto made = make_simulation(scene, std::move(app::load_model(scene)->mesh));
+  ASSERT_FALSE(made.ok());
+  EXPECT_NE(made.error().message.find("attachments[1] holds no vertex"), std::string::npos);
+}
+
+TEST(SceneModel, is_looked_for_beside_the_scene) {
+  const Folder folder;
+  folder.write("cube.mesh", cube_mesh(1));
+  Json json = least_scene();
+  json["model"] = {{"file", "cube.mesh"}};
+  Result<app::Scene> scene = app::read_scene(folder.write("s.json", json.dump()));
+  ASSERT_TRUE(scene.ok());
+  EXPECT_EQ(app::load_model(*scene)->mesh.tet_count(), 6U);
+  scene->model.file = "none.mesh";
+  EXPECT_NE(app::load_model(*scene).error().message.find("none.mesh\": no such file"), std::string::npos);
+}
+
+// --- schema and reader
+
+Json schema() {
+  return Json::parse(app::read_text_file(INCISE_DOCS "/scene.schema.json", 1U << 20U).value());
+}
+
+std::set<std::string> keys_of(const Json& object) {
+  std::set<std::string> keys;
+  for (const auto& item : object.at("properties").items()) keys.insert(item.key());
+  return keys;
+}
+
+/// The keys that the reader names where it meets one that it does not know.
+std::set<std::string> known_at(const std::string& pointer) {
+  Json scene = full_scene();
+  Json& object = scene[Json::json_pointer(pointer)];
+  object["nonsense"] = 1;
+  const std::string error = error_of(scene);
+  const std::string mark = "has the unknown key \"nonsense\"; known here: ";
+  EXPECT_NE(error.find(mark), std::string::npos) << pointer << ": " << error;
+  std::set<std::string> keys;
+  std::istringstream list(error.substr(error.find(mark) + mark.size()));
+  for (std::string key; list >> key;) keys.insert(key.substr(0, key.find(',')));
+  return keys;
+}
+
+std::size_t count_objects(const Json& node) {
+  std::size_t count = node.is_object() && node.contains("properties") ? 1 : 0;
+  for (const Json& child : node) count += child.is_structured() ? count_objects(child) : 0;
+  return count;
+}
+
+TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
+  const std::vector<std::pair<std::string, std::string>> places = {
+      {"", ""},
+      {"/model", "/properties/model"},
+      {"/model/box", "/properties/model/properties/box"},
+      {"/model/regions/0", "/properties/model/properties/regions/items"},
+      {"/materials", "/properties/materials"},
+      {"/materials/default", "/properties/materials/properties/default"},
+      {"/materials/regions/0", "/properties/materials/properties/regions/items"},
+      {"/attachments/0", "/properties/attachments/items"},
+      {"/attachments/1/box", "/properties/attachments/items/properties/box"},
+      {"/attachments/2/ball", "/properties/attachments/items/properties/ball"},
+      {"/tools/0", "/properties/tools/items"},
+      {"/tools/1/ball", "/properties/tools/items/properties/ball"},
+      {"/tools/2/ball/path/0", "/properties/tools/items/properties/ball/properties/path/items"},
+      {"/tools/3/rod", "/properties/tools/items/properties/rod"},
+      {"/tools/4/rod/path/0", "/properties/tools/items/properties/rod/properties/path/items"},
+      {"/hooks/0", "/properties/hooks/items"},
+      {"/hooks/0/path/0", "/properties/hooks/items/properties/path/items"},
+      {"/strokes/0", "/$defs/scene_stroke"},
+      {"/view", "/properties/view"},
+      {"/exercise", "/properties/exercise"},
+      {"/exercise/tolerances", "/properties/exercise/properties/tolerances"},
+      {"/strokes/0/blade/0", "/$defs/stroke/oneOf/0"},
+      {"/strokes/0/blade/0/edges/0", "/$defs/stroke/oneOf/0/properties/edges/items"},
+      {"/strokes/1/blade/0", "/$defs/stroke/oneOf/1"},
+      {"/strokes/1/blade/0/poses/0", "/$defs/stroke/oneOf/1/properties/poses/items"},
+      {"/settle", "/properties/settle"},
+      {"/solver", "/properties/solver"},
+      {"/cut", "/properties/cut"},
+      {"/maintain", "/properties/maintain"},
+      {"/contact", "/properties/contact"},
+  };
+  const Json root = schema();
+  EXPECT_EQ(count_objects(root), places.size());
+  for (const auto& [scene, in_schema] : places) {
+    const Json& object = root.at(Json::json_pointer(in_schema));
+    EXPECT_EQ(object.at("additionalProperties"), false) << in_schema;
+    EXPECT_EQ(keys_of(object), known_at(scene)) << scene;
+  }
+}
+
+std::string page() {
+  return app::read_text_file(INCISE_DOCS "/scenes.md", 1U << 20U).value();
+}
+
+/// All keys of all objects of the schema.
+void add_keys(const Json& node, std::set<std::string>& keys) {
+  if (node.is_object() && node.contains("properties")) keys.merge(keys_of(node));
+  for (const Json& child : node) {
+    if (child.is_structured()) add_keys(child, keys);
+  }
+}
+
+TEST(SceneSchema, has_no_key_that_the_page_about_scenes_leaves_out) {
+  std::set<std::string> keys;
+  add_keys(schema(), keys);
+  keys.erase("orientation");  // of blade files, which have a page of their own
+  EXPECT_GE(keys.size(), 60U);
+  const std::string text = page();
+  for (const std::string& key : keys) {
+    const std::array<std::string, 4> ways = {"`" + key, "." + key + "`", "." + key + "[]", "\"" + key + "\""};
+    EXPECT_TRUE(std::any_of(ways.begin(), ways.end(), [&](const std::string& way) {
+      return text.find(way) != std::string::npos;
+    })) << key;
+  }
+}
+
+TEST(SceneSchema, the_example_of_the_page_about_scenes_is_a_scene) {
+  const std::string text = page();
+  const std::size_t begin = text.find("```json\n") + 8;
+  const auto scene = app::parse_scene(text.substr(begin, text.find("```", begin) - begin), "scenes.md");
+  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  EXPECT_TRUE(app::load_model(*scene).ok());
+  EXPECT_EQ(scene->frames, 180U);
+}
+
+/// Compares every default that an object of the schema names with what the reader puts there.
+int compare_defaults(const Json& object, const Json& found, const std::string& path) {
+  int compared = 0;
+  for (const auto& item : object.at("properties").items()) {
+    if (!found.contains(item.key())) continue;
+    const Json& value = found.at(item.key());
+    if (item.value().contains("default")) {
+      EXPECT_EQ(item.value().at("default"), value) << path << "/" << item.key();
+      ++compared;
+    } else if (item.value().contains("properties")) {
+      compared += compare_defaults(item.value(), value, path + "/" + item.key());
+    }
+  }
+  return compared;
+}
+
+TEST(SceneSchema, has_the_same_defaults_as_the_reader) {
+  const Json found = Json::parse(app::to_json(parsed(least_scene())));
+  EXPECT_GE(compare_defaults(schema(), found, ""), 20);
+}
+
+}  // namespace

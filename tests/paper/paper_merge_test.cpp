@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edge merging: Figure 6, the conditions below it, and what merging keeps.
+#include "paper/paper_merge.h"
+
+#include <algorithm>
+
+#include "incise/mesh/collapse.h"
+#include "incise/mesh/quality_stats.h"
+#include "paper/paper_quality.h"
+#include "paper/paper_region.h"
+#include "paper/paper_support.h"
+
+namespace incise::test {
+namespace {
+
+using paper::find_thin_shape;
+using paper::is_safe_at_face;
+using paper::is_safe_to_merge;
+using paper::ThinShape;
+using paper::ThinTet;
+
+MaintainStatistics merge(TetMesh& mesh, const std::vector<TetId>& tets) {
+  Transaction transaction(mesh, true);
+  const MaintainStatistics done = paper::merge_edges(transaction, tets);
+  transaction.commit();
+  return done;
+}
+
+MaintainStatistics merge(CutBody& body) {
+  return merge(body.mesh, paper::find_tets_at(body.mesh, paper::find_divided_vertices(body.mesh, body.journal, 0)));
+}
+
+// --- Figure 6
+// ----------------------------------------------------------------------------------------------------------------
+
+TetMesh one_tet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return build({{a, b, c, d}, {{0, 1, 2, 3}}, {}});
+}
+
+using Pair = std::array<std::uint32_t, 2>;
+
+std::vector<Pair> edges_of(const ThinTet& thin) {
+  std::vector<Pair> edges;
+  for (unsigned i = 0; i < thin.count; ++i) edges.push_back({thin.edges[i][0].value, thin.edges[i][1].value});
+  return edges;
+}
+
+TEST(ThinShape, a_is_one_short_edge) {
+  const TetMesh mesh = one_tet(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1, 0), Vec3(0.5, 1, 0.1));
+  const ThinTet thin = find_thin_shape(mesh, TetId(0), 3);
+  EXPECT_EQ(thin.shape, ThinShape::kShortEdge);
+  EXPECT_EQ(edges_of(thin), (std::vector<Pair>{{2, 3}}));
+}
+
+TEST(ThinShape, b_is_two_opposite_short_edges_the_shorter_first) {
+  const TetMesh mesh = one_tet(Vec3(0, 0, 0), Vec3(0.2, 0, 0), Vec3(0.1, 1, -0.05), Vec3(0.1, 1, 0.05));
+  const ThinTet thin = find_thin_shape(mesh, TetId(0), 3);
+  EXPECT_EQ(thin.shape, ThinShape::kTwoShortEdges);
+  EXPECT_EQ(edges_of(thin), (std::vector<Pair>{{2, 3}, {0, 1}}));
+}
+
+TEST(ThinShape, c_is_a_short_face_with_its_three_edges) {
+  const TetMesh mesh = one_tet(Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0, 0.12, 0), Vec3(0, 0, 1));
+  const ThinTet thin = find_thin_shape(mesh, TetId(0), 3);
+  EXPECT_EQ(thin.shape, ThinShape::kShortFace);
+  EXPECT_EQ(edges_of(thin), (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}}));
+}
+
+TEST(ThinShape, c_may_have_a_third_edge_that_is_not_short) {
+  const TetMesh mesh = one_tet(Vec3(0, 0, 0), Vec3(0.3, 0, 0), Vec3(-0.3, 0.01, 0), Vec3(0, 0, 1));
+  const ThinTet thin = find_thin_shape(mesh, TetId(0), 3);
+  EXPECT_EQ(thin.shape, ThinShape::kShortFace);
+  EXPECT_EQ(edges_of(thin), (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}}));
+}
+
+TEST(ThinShape, is_none_where_all_edges_are_alike) {
+  const TetMesh mesh = build(kuhn_cube(1));
+  mesh.for_each_tet([&](TetId tet) { EXPECT_EQ(find_thin_shape(mesh, tet, 3).shape, ThinShape::kNone); });
+  // A flat tet without a short edge is none of Figure 6's.
+  const TetMesh flat = one_tet(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0.001));
+  EXPECT_EQ(find_thin_shape(flat, TetId(0), 3).shape, ThinShape::kNone);
+}
+
+TEST(ThinShape, of_any_tet_is_one_of_the_three_or_none) {
+  Random random(1);
+  TetSoup soup;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    // Corners that cluster at random: offsets over four orders of magnitude.
+    for (unsigned c = 0; c < 4; ++c) {
+      double scale = 1.0;
+      for (std::int64_t k = random.integer(0, 4); k > 0; --k) scale *= 0.2;
+      soup.points.emplace_back(scale * random.point(-1, 1));
+    }
+    const Vec3* p = &soup.points[4 * std::size_t{i}];
+    const bool is_turned = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]) < 0;
+    soup.tets.push_back({4 * i, 4 * i + 1, 4 * i + (is_turned ? 3 : 2), 4 * i + (is_turned ? 2 : 3)});
+  }
+  const TetMesh mesh = build(std::move(soup));
+  std::array<unsigned, 4> found{};
+  mesh.for_each_tet([&](TetId tet) {
+    const ThinTet thin = find_thin_shape(mesh, tet, 3);
+    EXPECT_EQ(thin.count, static_cast<unsigned>(thin.shape));  // none, one, two or three edges
+    ++found[thin.count];
+  });
+  for (const unsigned count : found) EXPECT_GT(count, 100U);
+}
+
+// --- the conditions
+// ----------------------------------------------------------------------------------------------------------------
+
+TEST(SafeMerge, condition_1_one_of_ab_and_ac_is_inside) {
+  for (const bool ba : {false, true}) {
+    for (const bool ca : {false, true}) {
+      const bool expected = !(ba && ca);
+      EXPECT_EQ(is_safe_at_face(ba, ca, false, true, true), expected);
+      EXPECT_EQ(is_safe_at_face(ba, ca, false, false, false), expected);
+    }
+  }
+}
+
+TEST(SafeMerge, condition_2_the_face_is_on_the_surface_and_not_both_beside_it) {
+  EXPECT_TRUE(is_safe_at_face(true, true, true, false, false));
+  EXPECT_TRUE(is_safe_at_face(true, true, true, true, false));
+  EXPECT_TRUE(is_safe_at_face(true, true, true, false, true));
+  EXPECT_FALSE(is_safe_at_face(true, true, true, true, true));
+  EXPECT_FALSE(is_safe_at_face(true, true, false, false, false));
+}
+
+TEST(SafeMerge, refuses_a_tet_on_its_own) {
+  const TetMesh mesh = one_tet(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1));
+  for (const auto& [b, c] : kEdgeCorners) {
+    EXPECT_FALSE(is_safe_to_merge(mesh, TetId(0), VertexId(b), VertexId(c)));
+  }
+}
+
+TEST(SafeMerge, allows_an_edge_of_the_skin_unless_a_corner_would_hang_on_nothing) {
+  const TetMesh mesh = build(kuhn_cube(3));
+  const VertexId a = vertex_at(mesh, Vec3(1.0 / 3, 1.0 / 3, 0)), b = vertex_at(mesh, Vec3(2.0 / 3, 1.0 / 3, 0));
+  unsigned tets = 0;
+  mesh.for_each_tet([&](TetId tet) {
+    if (mesh.corner_of(tet, a) == 4 || mesh.corner_of(tet, b) == 4) return;
+    ++tets;
+    EXPECT_TRUE(is_safe_to_merge(mesh, tet, a, b));
+  });
+  EXPECT_GT(tets, 1U);
+}
+
+struct Verdicts {
+  unsigned both = 0, paper_only = 0, link_only = 0;
+};
+
+/// What the paper's conditions, asked of all tets around an edge, and the link condition say about the edges near a
+/// cut.
+Verdicts compare_verdicts(const CutBody& body) {
+  const TetMesh& mesh = body.mesh;
+  Verdicts verdicts;
+  CollapsePlanner planner;
+  CollapsePlan plan;
+  for (const TetId tet : paper::find_tets_at(mesh, paper::find_divided_vertices(mesh, body.journal, 0))) {
+    for (const auto& [i, j] : kEdgeCorners) {
+      const VertexId a = mesh.vertices(tet)[i], b = mesh.vertices(tet)[j];
+      planner.plan(mesh, a, b, plan);
+      const bool is_safe =
+          std::all_of(plan.ring.begin(), plan.ring.end(), [&](TetId t) { return is_safe_to_merge(mesh, t, a, b); });
+      verdicts.both += is_safe && plan ? 1U : 0U;
+      verdicts.paper_only += is_safe && !plan ? 1U : 0U;
+      verdicts.link_only += !is_safe && plan ? 1U : 0U;
+    }
+  }
+  return verdicts;
+}
+
+TEST(SafeMerge, is_necessary_for_the_link_condition_but_not_sufficient) {
+  Verdicts sum;
+  for (const auto& planes : std::vector<std::vector<std::pair<Vec3, double>>>{
+           {{Vec3(0.3, 0.5, 0.9), 0.8}},
+           {{Vec3(1, 0.2, 0.1), 0.6}, {Vec3(0.1, 1, 0.2), 0.6}, {Vec3(0.5, 0.5, 1), 0.9}}}) {
+    const Verdicts v = compare_verdicts(cut_as_paper(jittered_cube(5, 2), planes));
+    sum.both += v.both;
+    sum.paper_only += v.paper_only;
+    sum.link_only += v.link_only;
+  }
+  EXPECT_EQ(sum.link_only, 0U);
+  EXPECT_GT(sum.paper_only, 0U);
+  EXPECT_GT(sum.both, 4 * sum.paper_only);
+}
+
+// --- merging
+// ----------------------------------------------------------------------------------------------------------------
+
+TEST(Merge, takes_nothing_from_the_papers_straight_cut) {
+  CutBody body = cut_as_paper(kuhn_cube(5), {{Vec3(1, 0, 0), 0.5}});
+  EXPECT_EQ(body.mesh.tet_count(), 1300U);
+  EXPECT_EQ(merge(body).collapsed_edges, 0U);
+  EXPECT_EQ(body.mesh.tet_count(), 1300U);
+  expect_valid(body.mesh, 1.0);
+}
+
+/// A plane that passes all vertices of a layer closely leaves a carpet of thin tets of all three kinds.
+TEST(Merge, eliminates_thin_tets_of_all_three_kinds_beside_a_plane) {
+  CutBody body = cut_as_paper(kuhn_cube(5), {{Vec3(1, 0.004, 0.007), 0.612}});
+  std::array<unsigned, 4> before{}, after{};
+  const auto count = [&](std::array<unsigned, 4>& kinds) {
+    paper::QualityMeter meter(body.mesh);
+    body.mesh.for_each_tet([&](TetId tet) {
+      kinds[static_cast<std::size_t>(find_thin_shape(body.mesh, tet, 3).shape)] += meter.of(tet) > 15 ? 1U : 0U;
+    });
+  };
+  count(before);
+  const std::size_t tets = body.mesh.tet_count();
+  const MaintainStatistics done = merge(body);
+  count(after);
+  for (const std::size_t kind : {1U, 2U, 3U}) {
+    EXPECT_GT(before[kind], 0U);
+    EXPECT_LT(after[kind], before[kind] / 10 + 1) << kind;
+  }
+  EXPECT_GT(done.collapsed_edges, 50U);
+  EXPECT_GT(done.work_units, 0U);
+  EXPECT_LT(body.mesh.tet_count(), tets);
+  expect_valid(body.mesh, 1.0);
+}
+
+TEST(Merge, beside_flat_faces_keeps_pieces_volumes_walls_and_corners) {
+  CutBody body = cut_as_paper(kuhn_cube(5), {{Vec3(0.3, 0.5, 0.9), 0.8}, {Vec3(1, -0.3, 0.2), 0.4}});
+  const std::vector<double> volumes = piece_volumes(body.mesh);
+  const std::vector<int> characteristics = euler_characteristics(body.mesh);
+  const double first = wall_area(body.mesh, 1), second = wall_area(body.mesh, 2);
+  EXPECT_GT(merge(body).collapsed_edges, 50U);
+  expect_valid(body.mesh, 1.0);
+  expect_pieces(body.mesh, volumes, 1e-13);
+  EXPECT_EQ(euler_characteristics(body.mesh), characteristics);
+  EXPECT_NEAR(wall_area(body.mesh, 1), first, 1e-12);
+  EXPECT_NEAR(wall_area(body.mesh, 2), second, 1e-12);
+  for (const double x : {0.0, 1.0}) {
+    for (const double y : {0.0, 1.0}) {
+      vertex_at(body.mesh, Vec3(x, y, 0));
+      vertex_at(body.mesh, Vec3(x, y, 1));
+    }
+  }
+}
+
+TEST(Merge, makes_no_bad_shaped_tet_and_stops_where_nothing_can_go) {
+  CutBody body = cut_as_paper(ball(8), curved_stroke());
+  const QualityStats before = measure_quality(body.mesh);
+  merge(body);
+  const QualityStats after = measure_quality(body.mesh);
+  EXPECT_LE(after.lr_over_200_pct, before.lr_over_200_pct * 1.5);  // of fewer tets
+  EXPECT_LE(after.lr_max, std::max(200.0, before.lr_max));
+  const std::uint64_t hash = body.mesh.hash();
+  EXPECT_EQ(merge(body).collapsed_edges, 0U);
+  EXPECT_EQ(body.mesh.hash(), hash);
+}
+
+TEST(Merge, beside_a_curved_wall_changes_the_volume_by_little) {
+  CutBody body = cut_as_paper(jittered_cube(6, 3), curved_stroke());
+  const std::vector<int> characteristics = euler_characteristics(body.mesh);
+  EXPECT_GT(merge(body).collapsed_edges, 10U);
+  expect_valid(body.mesh, 1.0, 2e-3);
+  EXPECT_EQ(euler_characteristics(body.mesh), characteristics);
+}
+
+TEST(Merge, passes_over_dead_tets) {
+  CutBody body = cut_as_paper(kuhn_cube(3), {{Vec3(1, 0.004, 0.007), 0.7}});
+  std::vector<TetId> tets;
+  for (std::uint32_t slot = 0; slot < body.mesh.tet_slots(); ++slot) tets.emplace_back(slot);
+  EXPECT_GT(merge(body.mesh, tets).collapsed_edges, 0U);
+  expect_valid(body.mesh, 1.0);
+}
+
+}  // namespace
+}  // namespace incise::test
