@@ -146,7 +146,8 @@ build_packages=(
   libeigen3-dev libtbb-dev libhwy-dev libpugixml-dev zlib1g-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
   libgtest-dev libgmock-dev librapidcheck-dev
   libepoxy-dev libegl-dev libstb-dev libegl1 libgl1-mesa-dri libglfw3-dev libimgui-dev fonts-dejavu-core
-  xvfb xdotool
+  xvfb xdotool pkg-config
+  python3:python3 python3-numpy python3-pytest python3-meshio mypy python3-pip
 )
 # shellcheck disable=SC2034
 quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags python3:python3)

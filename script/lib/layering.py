@@ -17,6 +17,7 @@ MAY_INCLUDE = {
     "engine": LOWEST + ("cut", "improve", "paper", "sim", "io"),
     "app": LOWEST + ("cut", "improve", "paper", "sim", "io", "engine"),
     "render": LOWEST + ("app",),
+    "c": (),  # include/incise/c: C, and self-contained; bindings/c is a front end
 }
 # Modules that may use what is private to others: the paper's profile shares sweeps, templates and journal steps.
 MAY_LOOK_INTO = {"paper": ("cut", "improve")}

@@ -3,6 +3,7 @@
 
 #if defined(__linux__) && !defined(__EMSCRIPTEN__)
 #include <sys/mman.h>
+#include <sys/resource.h>
 #endif
 
 namespace incise {
@@ -12,6 +13,9 @@ namespace detail {
 #if defined(__linux__) && !defined(__EMSCRIPTEN__)
 
 void* reserve_address_space(std::size_t bytes) noexcept {
+  // Reserved space counts against a limit on virtual memory: what is left of it is for those who need it.
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return nullptr;
   void* start = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   return start == MAP_FAILED ? nullptr : start;
 }

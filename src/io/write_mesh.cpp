@@ -296,7 +296,7 @@ const char* find_fault(const MeshData& data) {
 
 Error unknown_extension(std::string_view extension) {
   return {ErrorCode::kBadArgument, "no mesh can be written as " + in_quotes(extension) +
-                                       "; use .mesh, .msh, .vtk, .vtu, .node, .ele, .veg or .inp"};
+                                       "; use .mesh, .msh, .msh2, .vtk, .vtu, .node, .ele, .veg or .inp"};
 }
 
 }  // namespace
@@ -331,6 +331,7 @@ Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData&
     if (const char* fault = find_fault(data)) return Error{ErrorCode::kBadArgument, fault};
     if (extension == ".mesh") return write_medit(data);
     if (extension == ".msh") return write_msh(data, msh);
+    if (extension == ".msh2") return write_msh(data, MshVariant::k22);
     if (extension == ".vtk") return write_vtk(data);
     if (extension == ".node") return write_node(data);
     if (extension == ".ele") return write_ele(data);

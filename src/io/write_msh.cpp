@@ -141,7 +141,8 @@ class Msh41Writer {
       : data_(data),
         out_(binary),
         surfaces_(entities_of(data.triangles, data.triangle_stroke, data.soup.points)),
-        volumes_(entities_of(data.soup.tets, data.soup.regions, data.soup.points)) {}
+        volumes_(entities_of(data.soup.tets, data.soup.regions, data.soup.points)),
+        has_groups_(has_label(surfaces_) || has_label(volumes_)) {}
 
   std::string run() {
     add_format();
@@ -157,6 +158,10 @@ class Msh41Writer {
  private:
   using Entities = std::map<std::int32_t, Entity>;
 
+  static bool has_label(const Entities& entities) {
+    return entities.size() > 1 || (entities.size() == 1 && entities.begin()->first != 0);
+  }
+
   void add_format() {
     out_.begin_section("MeshFormat");
     out_.text(out_.is_binary() ? "4.1 1 8\n" : "4.1 0 8\n");
@@ -164,7 +169,7 @@ class Msh41Writer {
     out_.end_section("MeshFormat");
   }
 
-  // Groups of positive labels: Gmsh takes the sign for an orientation, and 0 for no group.
+  // Names for groups of positive labels: Gmsh takes the sign for an orientation.
   void add_names() {
     std::string lines;
     std::size_t count = 0;
@@ -182,14 +187,15 @@ class Msh41Writer {
     out_.text("$PhysicalNames\n").text(std::to_string(count)).text("\n").text(lines).text("$EndPhysicalNames\n");
   }
 
+  // Either every entity has a physical group or none: meshio reads no other files.
   void add_entities() {
     out_.begin_section("Entities");
     out_.size(0).size(0).size(surfaces_.size()).size(volumes_.size()).end_row();
     for (const Entities* entities : {&surfaces_, &volumes_}) {
       std::int32_t tag = 0;
       for (const auto& [label, entity] : *entities) {
-        out_.integer(++tag).point(entity.box.lo).point(entity.box.hi).size(label != 0 ? 1 : 0);
-        if (label != 0) out_.integer(label);
+        out_.integer(++tag).point(entity.box.lo).point(entity.box.hi).size(has_groups_ ? 1 : 0);
+        if (has_groups_) out_.integer(label);
         out_.size(0).end_row();  // no entities that bound it
       }
     }
@@ -239,6 +245,7 @@ class Msh41Writer {
   const MeshData& data_;
   MshText out_;
   Entities surfaces_, volumes_;
+  bool has_groups_;
   Order order_;
 };
 

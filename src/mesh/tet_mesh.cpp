@@ -479,6 +479,20 @@ std::uint64_t TetMesh::hash() const {
   return hash.value();
 }
 
+MeshArrays TetMesh::arrays() const {
+  const auto span_of = [](const auto& array) { return std::span(array.data(), array.size()); };
+  return {span_of(tet_vertices_), span_of(tet_links_), span_of(tet_region_),    span_of(tet_generation_),
+          span_of(rest_),         span_of(current_),   span_of(vertex_origin_), span_of(vertex_generation_),
+          span_of(vertex_shape_)};
+}
+
+bool TetMesh::has_stable_addresses() const {
+  return tet_vertices_.has_stable_address() && tet_links_.has_stable_address() && tet_region_.has_stable_address() &&
+         tet_generation_.has_stable_address() && rest_.has_stable_address() && current_.has_stable_address() &&
+         vertex_origin_.has_stable_address() && vertex_generation_.has_stable_address() &&
+         vertex_shape_.has_stable_address();
+}
+
 std::size_t TetMesh::memory_bytes() const {
   const std::size_t per_tet = sizeof(TetVertices) + sizeof(TetLinks) + sizeof(std::int32_t) + sizeof(std::uint32_t);
   const std::size_t per_vertex = 2 * sizeof(Vec3) + sizeof(TetId) + sizeof(VertexId) + sizeof(std::uint32_t) + 1;

@@ -69,7 +69,7 @@ TEST_P(WriteMesh, reads_back_bit_for_bit) {
   EXPECT_TRUE(same_bits(back->data.soup.points, data.soup.points));
   EXPECT_EQ(back->data.soup.tets, data.soup.tets);
   EXPECT_EQ(back->data.soup.regions, data.soup.regions);
-  const bool faces = kind == ".mesh" || kind == ".msh" || kind == ".vtk" || kind == ".vtu";
+  const bool faces = kind == ".mesh" || kind == ".msh" || kind == ".msh2" || kind == ".vtk" || kind == ".vtu";
   if (faces) {
     EXPECT_EQ(back->data.triangles, data.triangles);
   }
@@ -106,7 +106,7 @@ TEST_P(WriteMesh, leaves_out_what_is_not_given) {
 TEST_P(WriteMesh, foreign_labels_of_triangles_never_become_strokes) {
   const std::string extension = GetParam();
   const std::string kind = extension.substr(0, extension.find('.', 1));
-  if (kind != ".mesh" && kind != ".msh" && kind != ".vtk" && kind != ".vtu") return;
+  if (kind != ".mesh" && kind != ".msh" && kind != ".msh2" && kind != ".vtk" && kind != ".vtu") return;
   io::MeshData data = full_mesh();
   data.has_foreign_labels = true;
   for (int i = 0; i < 2; ++i) {
@@ -128,8 +128,32 @@ TEST_P(WriteMesh, the_same_mesh_gives_the_same_bytes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, WriteMesh,
-                         testing::Values(".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg", ".inp", ".mesh.gz",
-                                         ".msh.gz", ".vtk.gz", ".vtu.gz", ".node.gz", ".ele.gz", ".veg.gz", ".inp.gz"));
+                         testing::Values(".mesh", ".msh", ".msh2", ".vtk", ".vtu", ".node", ".ele", ".veg", ".inp",
+                                         ".mesh.gz", ".msh.gz", ".vtk.gz", ".vtu.gz", ".node.gz", ".ele.gz", ".veg.gz",
+                                         ".inp.gz"));
+
+TEST(WriteMsh, groups_by_region_and_keeps_the_order) {
+  io::MeshData data = test::two_tets();
+  const auto tets = data.soup.tets;
+  data.soup.tets = {tets[0], tets[1], tets[0], tets[1]};
+  data.soup.regions = {5, 2, 5, 0};
+  data.piece = {1, 2, 3, 4};
+  const auto bytes = io::write_mesh_bytes(".msh", data);
+  ASSERT_TRUE(bytes.ok());
+  EXPECT_NE(bytes->find("$MeshFormat\n4.1 0 8\n"), std::string::npos);
+  EXPECT_NE(bytes->find("3 3 4 2\n3 "), std::string::npos) << "the two tets of region 5 are one block";
+  const auto back = io::read_mesh_bytes(*bytes);
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(back->data.soup.tets, data.soup.tets);
+  EXPECT_EQ(back->data.soup.regions, data.soup.regions);
+  EXPECT_EQ(back->data.piece, data.piece);
+}
+
+TEST(WriteMsh, version_2_is_there_for_programs_that_read_no_other) {
+  const auto bytes = io::write_mesh_bytes(".msh2", test::two_tets());
+  ASSERT_TRUE(bytes.ok());
+  EXPECT_EQ(bytes->find("$MeshFormat\n2.2 0 8\n"), 0U);
+}
 
 class WriteMsh : public testing::TestWithParam<const char*> {};
 
@@ -168,6 +192,18 @@ TEST(WriteMsh, has_a_physical_group_for_each_region_and_each_stroke) {
                            "3 7 \"region_7\"\n", "$Entities\n0 0 3 2\n", " 1 7 0\n"}) {
     EXPECT_NE(bytes.find(part), std::string::npos) << part;
   }
+}
+
+TEST(WriteMsh, has_a_physical_group_everywhere_or_nowhere) {
+  io::MeshData data = full_mesh();
+  data.soup.regions = {0, 0};
+  const std::string groups = *io::write_mesh_bytes(".msh", data);
+  EXPECT_NE(groups.find(" 1 0 0\n$EndEntities"), std::string::npos) << "beside strokes, region 0 is a group, too";
+  data.triangles.clear();
+  data.triangle_stroke.clear();
+  const std::string none = *io::write_mesh_bytes(".msh", data);
+  EXPECT_NE(none.find(" 0 0\n$EndEntities"), std::string::npos);
+  EXPECT_EQ(none.find(" 1 0 0\n$EndEntities"), std::string::npos);
 }
 
 TEST(WriteOptions, are_named) {

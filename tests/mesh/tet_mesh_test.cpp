@@ -253,6 +253,18 @@ TEST(TetMesh, hash_depends_on_places_connectivity_and_regions) {
   EXPECT_NE(build(soup).hash(), base);
 }
 
+TEST(TetMesh, hands_out_its_arrays_by_slot) {
+  const TetMesh mesh = build(kuhn_cube(2));
+  const MeshArrays arrays = mesh.arrays();
+  EXPECT_EQ(arrays.tets.size(), mesh.tet_slots());
+  EXPECT_EQ(arrays.shapes.size(), mesh.vertex_slots());
+  mesh.for_each_tet([&](TetId tet) { EXPECT_EQ(&arrays.tets[tet.value], &mesh.vertices(tet)); });
+  mesh.for_each_vertex([&](VertexId v) { EXPECT_EQ(&arrays.rest[v.value], &mesh.rest(v)); });
+#if defined(__linux__)
+  EXPECT_TRUE(mesh.has_stable_addresses());
+#endif
+}
+
 TEST(StarWalker, finds_all_tets_of_every_vertex) {
   const TetMesh mesh = build(kuhn_cube(3));
   std::map<VertexId, std::set<TetId>> incident;

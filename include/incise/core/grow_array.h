@@ -34,6 +34,7 @@ class ReservedBlock {
 
   [[nodiscard]] T* data() const { return data_; }
   [[nodiscard]] std::size_t capacity() const { return capacity_; }
+  [[nodiscard]] bool is_mapped() const { return is_mapped_; }
 
   /// Makes room for `count` values; the first `kept` keep their bytes.
   void grow(std::size_t count, std::size_t kept) {
@@ -106,6 +107,8 @@ class GrowArray {
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
+  /// Whether the elements stay where they are while the array grows, to `kReservedCount` of them.
+  [[nodiscard]] bool has_stable_address() const { return block_.is_mapped(); }
   [[nodiscard]] T* data() { return block_.data(); }
   [[nodiscard]] const T* data() const { return block_.data(); }
   [[nodiscard]] T* begin() { return data(); }

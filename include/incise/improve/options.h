@@ -13,8 +13,9 @@ inline namespace v0 {
 /// Maintenance without a budget.
 inline constexpr std::uint64_t kUnlimitedWork = std::numeric_limits<std::uint64_t>::max();
 
-/// Asked between operations; true ends the maintenance for now. Where a clock decides, a recording keeps the units
-/// spent.
+/// Asked between operations; true ends the maintenance for now. It may be asked again after it said true, by what ends
+/// then or by a later call: whoever stops for an event (Ctrl-C) keeps it. Where a clock decides, a recording keeps the
+/// units spent.
 using ShouldStop = std::function<bool()>;
 
 /// Tets that a cut under way may make anew, or that have a vertex of such: maintenance leaves them alone. Empty: there

@@ -93,10 +93,10 @@ inline constexpr const char* kFormatNames = "mesh, msh41, msh41-binary, msh22, v
 
 /// Write a mesh in the format that the extension names, gzipped where `.gz` follows.
 ///
-/// `.mesh`, `.msh` (4.1 ASCII; see `MshVariant`), `.vtk` (4.2 ASCII), `.vtu`, `.node` or `.ele` (both are written),
-/// `.veg`, `.inp`. Numbers read back bit for bit. `region` goes everywhere; `piece` everywhere but `.mesh`; triangles
-/// with `stroke`, and `cut_front`, to `.mesh .msh .vtk .vtu`; `origin_vertex` to these and `.node`. Foreign face labels
-/// stay what they are: no reader takes them for strokes.
+/// `.mesh`, `.msh` (4.1 ASCII; see `MshVariant`), `.msh2` (2.2 ASCII), `.vtk` (4.2 ASCII), `.vtu`, `.node` or `.ele`
+/// (both are written), `.veg`, `.inp`. Numbers read back bit for bit. `region` goes everywhere; `piece` everywhere but
+/// `.mesh`; triangles with `stroke`, and `cut_front`, to `.mesh .msh .msh2 .vtk .vtu`; `origin_vertex` to these and
+/// `.node`. Foreign face labels stay what they are: no reader takes them for strokes.
 /// The file is written beside its place and renamed: no partial file is ever seen under its name. What a killed process
 /// left there of the same file is taken away. Pipes and devices are written in place.
 /// @param data  indices in range, finite points, arrays of the documented lengths.
@@ -110,7 +110,7 @@ inline constexpr const char* kFormatNames = "mesh, msh41, msh41-binary, msh22, v
 
 /// The bytes that `write_mesh` would put into the file of that extension (without `.gz`), for tests, pipes and the web.
 ///
-/// @param extension  ".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".
+/// @param extension  ".mesh", ".msh", ".msh2", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".
 [[nodiscard]] Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData& data,
                                                    MshVariant msh = MshVariant::k41);
 

@@ -68,6 +68,18 @@ inline constexpr std::uint8_t kDead = 128;   ///< the slot is free
 
 class Transaction;
 
+/// The arrays of a mesh by slot, free slots included: for those who hand them on without a copy.
+struct MeshArrays {
+  std::span<const TetVertices> tets;
+  std::span<const TetLinks> links;
+  std::span<const std::int32_t> regions;
+  std::span<const std::uint32_t> tet_generations;
+  std::span<const Vec3> rest, current;
+  std::span<const VertexId> origins;
+  std::span<const std::uint32_t> vertex_generations;
+  std::span<const std::uint8_t> shapes;
+};
+
 /// Bodies extend over lengths between these, in whatever unit, and no coordinate lies further from the origin: what is
 /// computed of edges goes up to their eighth powers, and must neither overflow nor vanish.
 inline constexpr double kLeastExtent = 1e-30, kGreatestExtent = 1e30;
@@ -196,6 +208,12 @@ class TetMesh {
   /// current positions stay out of it, so that undo restores it. Equal on every compiler and target. Cost: O(slots),
   /// about 20 ns per tet.
   [[nodiscard]] std::uint64_t hash() const;
+
+  /// Valid until the next commit, undo or redo; where `has_stable_addresses`, the memory stays as long as the mesh.
+  [[nodiscard]] MeshArrays arrays() const;
+  /// Whether the arrays stay in their places while they grow. False where no address space can be reserved: under a
+  /// limit on virtual memory, on systems without overcommitment, and in WebAssembly.
+  [[nodiscard]] bool has_stable_addresses() const;
 
   /// Bytes held by the arrays, as used (not as reserved).
   [[nodiscard]] std::size_t memory_bytes() const;

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kMeshes = {".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg", ".inp"};
+constexpr std::array<std::string_view, 9> kMeshes = {".mesh", ".msh", ".msh2", ".vtk", ".vtu",
+                                                     ".node", ".ele", ".veg",  ".inp"};
 constexpr std::array<std::string_view, 4> kSurfaces = {".obj", ".stl", ".ply", ".off"};
 
 std::string extension_of(const fs::path& path) {

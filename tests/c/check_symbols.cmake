@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+# LIBRARY shows the symbols of the list SYMBOLS, all of them and nothing else. A call that was removed or renamed breaks
+# programs: the list is committed, and grows alone (bindings/generate.py writes it).
+execute_process(COMMAND ${NM} -D --defined-only ${LIBRARY} OUTPUT_VARIABLE printed RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${NM} failed on ${LIBRARY}")
+endif()
+string(REGEX MATCHALL "[^\n]+" lines "${printed}")
+set(found "")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "^[0-9a-f]* *([A-Za-z]) ([^@\n]+).*$" "\\2" symbol "${line}")
+  if(NOT symbol STREQUAL "INCISE_0")  # the version itself
+    list(APPEND found ${symbol})
+  endif()
+endforeach()
+list(SORT found COMPARE STRING)
+file(STRINGS ${SYMBOLS} wanted)
+list(SORT wanted COMPARE STRING)
+list(LENGTH found count)
+if(NOT found STREQUAL wanted)
+  set(more ${found})
+  list(REMOVE_ITEM more ${wanted})
+  list(REMOVE_ITEM wanted ${found})
+  message(FATAL_ERROR "the library shows, beyond the list: ${more}\nand lacks: ${wanted}")
+endif()
+message(STATUS "${count} symbols, as listed")
