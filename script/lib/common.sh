@@ -111,7 +111,7 @@ build_packages=(
   xvfb xdotool
 )
 # shellcheck disable=SC2034
-quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags python3:python3)
+quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags python3:python3 python3-nibabel)
 # shellcheck disable=SC2034
 model_packages=(tetgen python3:python3)
 # shellcheck disable=SC2034

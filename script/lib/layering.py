@@ -13,8 +13,9 @@ MAY_INCLUDE = {
     "improve": LOWEST,
     "sim": LOWEST,
     "io": LOWEST,
+    "image": LOWEST + ("improve", "io"),
     "engine": LOWEST + ("cut", "improve", "sim", "io"),
-    "app": LOWEST + ("cut", "improve", "sim", "io", "engine"),
+    "app": LOWEST + ("cut", "improve", "sim", "io", "image", "engine"),
     "render": LOWEST + ("app",),
 }
 FRONT_ENDS = ("apps", "bindings", "bench", "examples")
@@ -26,7 +27,7 @@ PRIVATE_HEADERS = {
     "oneapi/": (),
     "hwy/": ("geom", "mesh", "cut", "improve", "sim"),
     "pugixml.hpp": ("io",),
-    "zlib.h": ("io", "render"),
+    "zlib.h": ("io", "image", "render"),
     "nlohmann/": ("io", "app"),
     "fmt/": ("io", "app"),
     "spdlog/": ("app",),
