@@ -12,6 +12,7 @@
 #include "incise/app/cut_job.h"
 #include "incise/app/scene.h"
 #include "incise/version.h"
+#include "mesh_command.h"
 #include "terminal.h"
 
 namespace incise_cli {
@@ -24,6 +25,7 @@ struct Arguments {
   SimulateArguments simulate;
   ReplayArguments replay;
   ConvertArguments convert;
+  MeshArguments mesh;
 };
 
 constexpr const char* kExitCodes =
@@ -244,6 +246,7 @@ int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
   if (root.got_subcommand("simulate")) return run_simulate(a.simulate, terminal);
   if (root.got_subcommand("replay")) return run_replay(a.replay, terminal);
   if (root.got_subcommand("convert")) return run_convert(a.convert, terminal);
+  if (root.got_subcommand("mesh")) return run_mesh(a.mesh, terminal);
   a.cut.has_snap = root.get_subcommand("cut")->count("--snap") > 0;
   return run_cut(a.cut, terminal);
 }
@@ -266,6 +269,7 @@ int run(int argc, char** argv) {
   add_simulate(root, arguments);
   add_replay(root, arguments);
   add_convert(root, arguments);
+  add_mesh(root, arguments.mesh);
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   take_help(words);
   if (const std::string unknown = unknown_command(root, words); !unknown.empty()) {

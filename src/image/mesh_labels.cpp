@@ -12,6 +12,7 @@
 #include "image/interface_fit.h"
 #include "image/lattice.h"
 #include "image/mend_manifold.h"
+#include "image/peel_flat.h"
 #include "image/tet_labels.h"
 #include "incise/geom/quality.h"
 #include "incise/improve/maintainer.h"
@@ -21,8 +22,9 @@ namespace image {
 namespace {
 
 constexpr double kMostTets = 1e8, kTetsPerCube = 12, kMostCubes = 1 << 15;
-/// Rounds of moving points: those that spread them, then those that only bring them nearer.
-constexpr int kSpreadRounds = 12, kFinalRounds = 6;
+/// Rounds of moving points: those that spread them, in each pass between which flat tets are peeled off the skin, and
+/// at the end those that only bring them nearer.
+constexpr int kPasses = 3, kSpreadRounds = 6, kFinalRounds = 6;
 
 Error bad_option(const std::string& what) {
   return {ErrorCode::kBadArgument, what};
@@ -85,7 +87,7 @@ class LabelMesher {
   }
 
  private:
-  static constexpr std::size_t kStages = 5 + kSpreadRounds + kFinalRounds;
+  static constexpr std::size_t kStages = 5 + kPasses * kSpreadRounds + kFinalRounds;
 
   void progress() {
     if (options_.progress) options_.progress(++stage_, kStages);
@@ -116,16 +118,20 @@ class LabelMesher {
     std::vector<double> wanted;
     for (const std::uint64_t n : volume_.count_voxels())
       wanted.push_back(static_cast<double>(n) * s.x() * s.y() * s.z());
-    InterfaceFit fit(field_, wanted, {}, options_.threads, tets_);
-    for (int round = 0; round < kSpreadRounds; ++round) {
-      fit.move_points(0.5);
-      if (round >= 3) fit.match_volumes();
-      progress();
-    }
-    for (int round = 0; round < kFinalRounds; ++round) {
-      fit.move_points(0);
-      if (round + 2 < kFinalRounds) fit.match_volumes();
-      progress();
+    for (int pass = 0; pass < kPasses; ++pass) {
+      const bool is_last = pass + 1 == kPasses;
+      if (pass > 0 && peel_flat_tets(tets_) == 0 && !is_last) continue;
+      InterfaceFit fit(field_, wanted, {}, options_.threads, tets_);
+      for (int round = 0; round < kSpreadRounds; ++round) {
+        fit.move_points(0.5);
+        if (round >= 2) fit.match_volumes();
+        progress();
+      }
+      for (int round = 0; is_last && round < kFinalRounds; ++round) {
+        fit.move_points(0);
+        if (round + 2 < kFinalRounds) fit.match_volumes();
+        progress();
+      }
     }
   }
 
