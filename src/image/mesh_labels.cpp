@@ -24,7 +24,7 @@ namespace {
 constexpr double kMostTets = 1e8, kTetsPerCube = 12, kMostCubes = 1 << 15;
 /// Rounds of moving points: those that spread them, in each pass between which flat tets are peeled off the skin, and
 /// at the end those that only bring them nearer.
-constexpr int kPasses = 3, kSpreadRounds = 6, kFinalRounds = 6;
+constexpr int kPasses = 6, kSpreadRounds = 4, kFinalRounds = 6;
 
 Error bad_option(const std::string& what) {
   return {ErrorCode::kBadArgument, what};

@@ -26,7 +26,7 @@ void expect_good(const MadeImage& made, const MeshLabelsOptions& options) {
   SCOPED_TRACE(made.name);
   const Result<LabelMesh> mesh = mesh_labels(to_image(made), options);
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
-  const OrganFigures figures = judge(made, *mesh);
+  const OrganFigures figures = judge(made, mesh->mesh);
   EXPECT_TRUE(figures.is_valid);
   EXPECT_GE(figures.quality.dihedral_min_deg, 8);
   EXPECT_LE(figures.quality.lr_max, 30);

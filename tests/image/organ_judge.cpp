@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "incise/geom/quality.h"
 #include "incise/mesh/defects.h"
 #include "incise/mesh/validate.h"
 
@@ -105,19 +106,23 @@ std::uint64_t count_surfaces(const TetMesh& mesh) {
 
 }  // namespace
 
-OrganFigures judge(const MadeImage& made, const image::LabelMesh& result) {
+OrganFigures judge(const MadeImage& made, const TetMesh& mesh) {
   OrganFigures out;
-  out.quality = measure_quality(result.mesh);
+  out.quality = measure_quality(mesh);
   const std::vector<double> volumes = true_volumes(made);
   for (std::size_t l = 0; l < made.labels.size(); ++l) {
     double volume = 0;
-    for (const image::LabelOutcome& label : result.labels) volume += label.label == made.labels[l] ? label.volume : 0;
+    for (std::uint32_t t = 0; t < mesh.tet_slots(); ++t) {
+      if (!mesh.is_live(TetId(t)) || mesh.region(TetId(t)) != made.labels[l]) continue;
+      const TetVertices& v = mesh.vertices(TetId(t));
+      volume += signed_volume(mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3]));
+    }
     out.volume_error.push_back(volume / volumes[l] - 1);
   }
-  measure_interfaces(made, result.mesh, out);
-  count_defects(made, result.mesh, out);
-  out.surfaces = count_surfaces(result.mesh);
-  out.is_valid = validate(result.mesh, ValidateLevel::kGeometry).ok;
+  measure_interfaces(made, mesh, out);
+  count_defects(made, mesh, out);
+  out.surfaces = count_surfaces(mesh);
+  out.is_valid = validate(mesh, ValidateLevel::kGeometry).ok;
   return out;
 }
 

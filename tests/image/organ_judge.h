@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "image/made_images.h"
-#include "incise/image/mesh_labels.h"
 #include "incise/mesh/quality_stats.h"
+#include "incise/mesh/tet_mesh.h"
 
 namespace incise_test {
 
@@ -22,6 +22,7 @@ struct OrganFigures {
   bool is_valid = false;       ///< by the full level of `validate`
 };
 
-OrganFigures judge(const MadeImage& made, const incise::image::LabelMesh& mesh);
+/// `mesh`: in the coordinates of the truth, regions are its labels.
+OrganFigures judge(const MadeImage& made, const incise::TetMesh& mesh);
 
 }  // namespace incise_test
