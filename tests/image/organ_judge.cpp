@@ -15,13 +15,23 @@ namespace {
 using namespace incise;
 
 /// How far away the truth changes its label, along a line; at most `most`.
-double distance_to_change(const Truth& truth, const Vec3& p, const Vec3& normal, double most) {
+double distance_along(const Truth& truth, const Vec3& p, const Vec3& direction, double most) {
   const std::int32_t here = truth(p);
   constexpr double kStep = 0.04;
   for (double t = kStep; t < most; t += kStep) {
-    if (truth(p + t * normal) != here || truth(p - t * normal) != here) return t - kStep / 2;
+    if (truth(p + t * direction) != here || truth(p - t * direction) != here) return t - kStep / 2;
   }
   return most;
+}
+
+/// The same along the normal; where that is far, along lines in all directions, of which the shortest counts.
+double distance_to_change(const Truth& truth, const Vec3& p, const Vec3& normal, double far) {
+  double least = distance_along(truth, p, normal, 8);
+  for (int d = 0; d < 27 && least > far; ++d) {
+    const Vec3 direction(d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1);
+    if (d != 13) least = distance_along(truth, p, direction.normalized(), least);
+  }
+  return least;
 }
 
 /// Calls back for each face between regions, and of the skin.
@@ -47,7 +57,7 @@ void measure_interfaces(const MadeImage& made, const TetMesh& mesh, OrganFigures
     const Vec3 normal = (b - a).cross(c - a).normalized();
     for (const Vec3& at :
          {Vec3((a + b + c) / 3), Vec3((4 * a + b + c) / 6), Vec3((a + 4 * b + c) / 6), Vec3((a + b + 4 * c) / 6)}) {
-      errors.push_back(distance_to_change(made.truth, at, normal, 8) / voxel);
+      errors.push_back(distance_to_change(made.truth, at, normal, 0.5 * voxel) / voxel);
       sum += errors.back();
     }
   });
