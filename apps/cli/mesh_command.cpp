@@ -13,7 +13,9 @@
 #include "incise/app/text_file.h"
 #include "incise/image/image_file.h"
 #include "incise/image/mesh_labels.h"
+#include "incise/image/surface_labels.h"
 #include "incise/io/mesh_file.h"
+#include "incise/io/surface_file.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
 #include "label_names.h"
@@ -64,6 +66,35 @@ std::string output_problem(const MeshArguments& a) {
     if (!has_folder(file)) return file + ": its folder does not exist; create it first";
   }
   return {};
+}
+
+bool is_surface(const std::string& file) {
+  std::string name = CLI::detail::to_lower(file);
+  if (name.size() > 3 && name.compare(name.size() - 3, 3, ".gz") == 0) name.resize(name.size() - 3);
+  const std::string extension = fs::path(name).extension().string();
+  return extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off";
+}
+
+/// What a surface encloses, as labels, and the volumes of these.
+Result<image::ImageFile> read_surface_labels(const MeshArguments& a, std::vector<double>& volumes) {
+  constexpr double kVoxelShare = 1.0 / 3;  // of the tets' size
+  Result<io::SurfaceSoup> surface = io::read_surface(a.input);
+  if (!surface.ok()) return surface.error();
+  const std::size_t triangles = surface->triangles.size();
+  Result<image::SurfaceLabels> labels =
+      image::label_surface(std::move(surface).value(), kVoxelShare * a.size, a.threads);
+  if (!labels.ok()) return Error{labels.error().code, a.input + ": " + labels.error().message};
+  image::ImageFile file;
+  file.image = std::move(labels->image);
+  file.format_name = "surface of " + std::to_string(triangles) + " triangles, sampled by winding numbers";
+  file.placed_by = "its own coordinates";
+  file.notes = std::move(labels->notes);
+  if (a.merges.empty() && a.labels.empty()) volumes = std::move(labels->volumes);
+  return file;
+}
+
+Result<image::ImageFile> read_input(const MeshArguments& a, std::vector<double>& volumes) {
+  return is_surface(a.input) ? read_surface_labels(a, volumes) : image::read_labels(a.input);
 }
 
 /// Merges labels, then keeps those that are asked for. Says which is not there.
@@ -144,14 +175,18 @@ class Watch {
 }  // namespace
 
 void add_mesh(CLI::App& root, MeshArguments& a) {
-  CLI::App* mesh =
-      root.add_subcommand("mesh", "Make tets of a segmented scan, a region for each label (docs/organs.md)");
+  CLI::App* mesh = root.add_subcommand(
+      "mesh", "Make tets of a segmented scan or a surface, a region for each label or closed part (docs/organs.md)");
   mesh->fallthrough();
   mesh->footer(
       "Examples:\n  incise mesh liver.nii.gz -o liver.mesh --size 4\n"
       "  incise mesh spine.nrrd -o spine.vtu --size 2 --labels 20,21 --report spine.json\n"
-      "  incise mesh organ.mha -o organ.msh --size 3 --merge 2=1 --names names.txt --picture organ.png");
-  mesh->add_option("LABELS", a.input, "Label image: NIfTI (.nii, .nii.gz, .hdr/.img), NRRD, MetaImage or INRIMAGE")
+      "  incise mesh organ.mha -o organ.msh --size 3 --merge 2=1 --names names.txt --picture organ.png\n"
+      "  incise mesh femur.stl -o femur.mesh --size 5");
+  mesh->add_option("LABELS", a.input,
+                   "Label image: NIfTI (.nii, .nii.gz, .hdr/.img), NRRD, MetaImage or INRIMAGE; or a triangle surface: "
+                   ".stl .obj "
+                   ".ply .off, nearly closed")
       ->required();
   mesh->add_option("-o,--output", a.output, "Write the mesh, in RAS millimetres; the extension names the format")
       ->required();
@@ -183,15 +218,19 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   if (!names.ok()) return fail(terminal, names.error(), kBadInput);
   report.names = std::move(names).value();
   Watch watch;
-  Result<image::ImageFile> file = image::read_labels(arguments.input);
+  std::vector<double> volumes;
+  Result<image::ImageFile> file = read_input(arguments, volumes);
   if (!file.ok()) return fail(terminal, file.error(), kBadInput);
   report.file = &*file;
+  report.is_scan = !is_surface(arguments.input);
   report.read_ms = watch.lap();
   print_notes(file->notes, arguments.input, terminal);
   if (const Status status = choose_labels(arguments, file->image); !status.ok()) {
     return fail(terminal, status.error(), kBadInput);
   }
-  const Result<image::LabelMesh> made = image::mesh_labels(file->image, options_of(arguments, terminal));
+  image::MeshLabelsOptions options = options_of(arguments, terminal);
+  options.volumes = std::move(volumes);
+  const Result<image::LabelMesh> made = image::mesh_labels(file->image, options);
   if (!made.ok()) {
     return fail(terminal, made.error(), made.error().code == ErrorCode::kBadArgument ? kUsage : exit_of(made.error()));
   }

@@ -78,7 +78,7 @@ std::string to_json(const MeshReport& report) {
                  {"labels", a.labels},
                  {"merge", a.merges},
                  {"threads", a.threads}}},
-               {"coordinates", "RAS, mm"},
+               {"coordinates", report.is_scan ? "RAS, mm" : "of the surface"},
                {"mesh",
                 {{"vertices", mesh.vertex_count()},
                  {"tets", mesh.tet_count()},
@@ -100,17 +100,16 @@ std::string to_text(const MeshReport& report) {
   const QualityStats q = measure_quality(made.mesh);
   const image::LabelImage& image = report.file->image;
   const Vec3 spacing = image.spacing();
-  std::string out = fmt::format("{}: {} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g} mm, placed by {}\n",
+  std::string out = fmt::format("{}: {} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g}{}, placed by {}\n",
                                 report.file->format_name, image.size[0], image.size[1], image.size[2], spacing.x(),
-                                spacing.y(), spacing.z(), report.file->placed_by);
-  out +=
-      fmt::format("{}: {} tets, {} vertices, in RAS mm; dihedral angles {:.1f} to {:.1f} degrees, worst L/r {:.1f}\n",
-                  report.arguments->output, made.mesh.tet_count(), made.mesh.vertex_count(), q.dihedral_min_deg,
-                  q.dihedral_max_deg, q.lr_max);
+                                spacing.y(), spacing.z(), report.is_scan ? " mm" : "", report.file->placed_by);
+  out += fmt::format("{}: {} tets, {} vertices{}; dihedral angles {:.1f} to {:.1f} degrees, worst L/r {:.1f}\n",
+                     report.arguments->output, made.mesh.tet_count(), made.mesh.vertex_count(),
+                     report.is_scan ? ", in RAS mm" : "", q.dihedral_min_deg, q.dihedral_max_deg, q.lr_max);
   for (const image::LabelOutcome& l : made.labels) {
     const std::string name = name_of(report, l.label);
-    out += fmt::format("  {}{}{}: {} tets, {:.5g} mm3, {:+.2f} % of its voxels\n", l.label, name.empty() ? "" : " ",
-                       name, l.tets, l.volume, 100 * relative_error(l));
+    out += fmt::format("  {}{}{}: {} tets, volume {:.5g}{}, {:+.2f} % off\n", l.label, name.empty() ? "" : " ", name,
+                       l.tets, l.volume, report.is_scan ? " mm3" : "", 100 * relative_error(l));
   }
   return out;
 }

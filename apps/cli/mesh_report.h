@@ -16,6 +16,7 @@ struct MeshReport {
   const incise::image::ImageFile* file = nullptr;
   const incise::image::LabelMesh* made = nullptr;
   LabelNames names;
+  bool is_scan = true;  ///< not a surface
   bool is_valid = false;
   double read_ms = 0, mesh_ms = 0;
 };

@@ -39,6 +39,9 @@ Status check_options(const MeshLabelsOptions& o) {
     return bad_option("the size may be halved 0 to " + std::to_string(kMostHalvings) + " times; mend it");
   }
   if (!(o.least_island >= 0)) return bad_option("the volume of islands must be at least 0 mm³; mend it");
+  for (const double volume : o.volumes) {
+    if (!(volume >= 0) || !std::isfinite(volume)) return bad_option("volumes of labels must be at least 0; mend them");
+  }
   return o.threads >= 1 && o.threads <= 256 ? Status() : bad_option("1 to 256 threads may be used; mend it");
 }
 
@@ -113,11 +116,20 @@ class LabelMesher {
     progress();
   }
 
-  void fit_interfaces() {
-    const Vec3& s = volume_.spacing();
+  /// The volumes that the labels shall have, along the image's axes.
+  [[nodiscard]] std::vector<double> wanted_volumes() const {
+    const double box = volume_.spacing().prod();  // of a voxel, were its axes upright
     std::vector<double> wanted;
-    for (const std::uint64_t n : volume_.count_voxels())
-      wanted.push_back(static_cast<double>(n) * s.x() * s.y() * s.z());
+    for (const std::uint64_t n : volume_.count_voxels()) wanted.push_back(static_cast<double>(n) * box);
+    for (std::size_t l = 1; l < wanted.size() && !options_.volumes.empty(); ++l) {
+      const double told = options_.volumes[image_.find_label(volume_.labels()[l])];
+      if (told > 0) wanted[l] = told * box / image_.voxel_volume();
+    }
+    return wanted;
+  }
+
+  void fit_interfaces() {
+    const std::vector<double> wanted = wanted_volumes();
     for (int pass = 0; pass < kPasses; ++pass) {
       const bool is_last = pass + 1 == kPasses;
       if (pass > 0 && peel_flat_tets(tets_) == 0 && !is_last) continue;
@@ -162,9 +174,10 @@ class LabelMesher {
 
   void measure() {
     const std::vector<std::uint64_t> counts = volume_.count_voxels();
-    const double voxel = image_.voxel_volume();
+    const std::vector<double> wanted = wanted_volumes();
+    const double upright = image_.voxel_volume() / volume_.spacing().prod();
     for (std::size_t l = 1; l < volume_.labels().size(); ++l) {
-      out_.labels.push_back({volume_.labels()[l], counts[l], static_cast<double>(counts[l]) * voxel, 0, 0});
+      out_.labels.push_back({volume_.labels()[l], counts[l], wanted[l] * upright, 0, 0});
     }
     const TetMesh& mesh = out_.mesh;
     for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
@@ -191,6 +204,9 @@ class LabelMesher {
 
 Result<LabelMesh> mesh_labels(const LabelImage& image, const MeshLabelsOptions& options) {
   if (const Status status = check_options(options); !status.ok()) return status.error();
+  if (!options.volumes.empty() && options.volumes.size() != image.labels.size()) {
+    return bad_option("as many volumes as labels must be given, or none; mend them");
+  }
 #if defined(__cpp_exceptions)
   try {
     return LabelMesher(image, options).run();

@@ -70,6 +70,19 @@ TEST(CliMesh, the_mesh_can_be_cut) {
   EXPECT_EQ(json::parse(cut.out)["mesh"]["after"]["components"], 2);
 }
 
+TEST(CliMesh, makes_a_mesh_of_a_surface) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.obj",
+                                        "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 0 0 9\nv 9 0 9\nv 9 9 9\nv 0 9 9\n"
+                                        "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const Outcome mesh = run({"mesh", cube, "-o", folder / "cube.mesh", "--size", "2", "--report", "-"});
+  ASSERT_EQ(mesh.code, 0) << mesh.err;
+  const json report = json::parse(mesh.out);
+  EXPECT_EQ(report["coordinates"], "of the surface");
+  EXPECT_NEAR(report["labels"][0]["volume_mm3"].get<double>() / 729, 1, 0.05);
+  EXPECT_EQ(run({"mesh", cube, "-o", folder / "b.mesh", "--size", "200"}).code, 3);
+}
+
 TEST(CliMesh, says_what_is_wrong_and_writes_nothing) {
   const Folder folder;
   const std::string image = folder.write("balls.mha", balls()), out = folder / "a.mesh";

@@ -23,6 +23,8 @@ struct MeshLabelsOptions {
   double least_island = 0;  ///< islands of less volume join what is around them, mm³; 0: an eighth of size³
   bool improve = true;      ///< maintain the mesh at the end, see `Maintainer`
   unsigned threads = 1;     ///< in [1, 256]; the result does not depend on it
+  /// Volumes that the labels shall have, mm³, beside `LabelImage::labels`; 0, or empty: those of their voxels.
+  std::vector<double> volumes = {};
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< called between stages; may be empty
 };
 
@@ -30,7 +32,7 @@ struct MeshLabelsOptions {
 struct LabelOutcome {
   std::int32_t label = 0;
   std::uint64_t voxels = 0;  ///< that were to be meshed, after islands were joined
-  double image_volume = 0;   ///< of these, mm³
+  double image_volume = 0;   ///< of these, or as told, mm³
   std::uint64_t tets = 0;
   double volume = 0;  ///< of these, mm³
 };
