@@ -68,7 +68,7 @@ TEST(MeshLabels, without_grading_and_maintenance) {
 }
 
 TEST(MeshLabels, threads_do_not_change_bits) {
-  MeshLabelsOptions options = of_size(3);
+  MeshLabelsOptions options = of_size(5);
   const image::LabelImage image = to_image(triple_junctions());
   const Result<LabelMesh> one = mesh_labels(image, options);
   options.threads = 3;
