@@ -162,6 +162,39 @@ void add_convert(CLI::App& root, Arguments& a) {
   add_json(*convert, a.convert.as_json);
 }
 
+void add_mesh(CLI::App& root, Arguments& arguments) {
+  MeshArguments& a = arguments.mesh;
+  CLI::App* mesh =
+      add_command(root, "mesh",
+                  "Make tets of a segmented scan or a surface, a region for each label or closed part (docs/organs.md)",
+                  "  incise mesh liver.nii.gz -o liver.mesh --size 4\n"
+                  "  incise mesh spine.nrrd -o spine.vtu --size 2 --labels 20,21 --report spine.json\n"
+                  "  incise mesh organ.mha -o organ.msh --size 3 --merge 2=1 --names names.txt --picture organ.png\n"
+                  "  incise mesh femur.stl -o femur.mesh --size 5");
+  mesh->add_option("LABELS", a.input,
+                   "Label image: NIfTI (.nii, .nii.gz, .hdr/.img), NRRD, MetaImage or INRIMAGE; or a triangle surface: "
+                   ".stl .obj .ply .off, nearly closed")
+      ->required();
+  mesh->add_option("-o,--output", a.output.file,
+                   "Write the mesh, in RAS millimetres; the extension names the format; - for stdout, with --format")
+      ->required();
+  add_format(*mesh, a.output.format);
+  mesh->add_option("--size", a.size, "Size of the tets where labels meet, mm; finer where a label is thin")->required();
+  mesh->add_option("--labels", a.labels, "Mesh these labels alone: 1,3")->delimiter(',');
+  mesh->add_option("--merge", a.merges, "A=B: give label A's voxels to label B first; 2=1,3=1 for several")
+      ->delimiter(',');
+  mesh->add_option("--names", a.names, "Text file: a label and its name on each line");
+  mesh->add_option("--smooth", a.smooth, "Smoothing of the voxels' steps, voxels, 0.4 to 10 (default 0.7)");
+  mesh->add_option("--grade", a.grade,
+                   "How much larger tets are with each mm away from where labels meet, 0 to 10 (default 0.5)");
+  mesh->add_option("--halvings", a.halvings,
+                   "How often the size may be halved where a label is thin, 0 to 4 (default 2); never below a voxel");
+  add_report(*mesh, a.report, a.as_json);
+  mesh->add_option("--picture", a.picture, "Draw the mesh to this PNG; needs OpenGL, and no display");
+  mesh->add_option("--threads", a.threads, "Worker threads, 1 to 256; the result does not depend on it")
+      ->check(CLI::Range(1, 256));
+}
+
 void add_completion(CLI::App& root, Arguments& a) {
   CLI::App* completion =
       add_command(root, "completion", "Print a script that completes commands and options in a shell",
@@ -190,6 +223,7 @@ void add_commands(CLI::App& root, Arguments& arguments) {
   add_simulate(root, arguments);
   add_replay(root, arguments);
   add_convert(root, arguments);
+  add_mesh(root, arguments);
   add_completion(root, arguments);
   add_man(root, arguments);
 }

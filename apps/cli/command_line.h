@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.h"
+#include "mesh_command.h"
 
 namespace incise_cli {
 
@@ -15,6 +16,7 @@ struct Arguments {
   SimulateArguments simulate;
   ReplayArguments replay;
   ConvertArguments convert;
+  MeshArguments mesh;
   std::string shell;   // that is to be completed
   std::string manual;  // the command whose page is asked for; empty: the program's
 };

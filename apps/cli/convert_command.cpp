@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/model/convert.h"
 #include "command_support.h"
 #include "commands.h"
-#include "app/model/convert.h"
 #include "incise/io/mesh_loader.h"
 #include "input_kind.h"
 #include "mesh_output.h"

@@ -38,6 +38,7 @@ int dispatch(const CLI::App& root, Arguments& a, const Terminal& terminal) {
   if (root.got_subcommand("convert")) return run_convert(a.convert, terminal);
   if (root.got_subcommand("completion")) return print_completion(root, a.shell, terminal);
   if (root.got_subcommand("man")) return print_manual(root, a.manual, terminal);
+  if (root.got_subcommand("mesh")) return run_mesh(a.mesh, terminal);
   a.cut.has_snap = root.get_subcommand("cut")->count("--snap") > 0;
   return run_cut(a.cut, terminal);
 }

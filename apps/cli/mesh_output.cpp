@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "command_support.h"
 #include "app/model/convert.h"
+#include "command_support.h"
 
 namespace incise_cli {
 namespace {

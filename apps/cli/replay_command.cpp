@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
+#include "app/jobs/replay_job.h"
 #include "command_support.h"
 #include "commands.h"
-#include "app/jobs/replay_job.h"
 #include "input_kind.h"
 #include "mesh_output.h"
 

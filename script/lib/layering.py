@@ -14,8 +14,9 @@ MAY_INCLUDE = {
     "paper": LOWEST + ("cut", "improve"),
     "sim": LOWEST,
     "io": LOWEST,
+    "image": LOWEST + ("improve", "io"),
     "engine": LOWEST + ("cut", "improve", "paper", "sim", "io"),
-    "app": LOWEST + ("cut", "improve", "paper", "sim", "io", "engine"),
+    "app": LOWEST + ("cut", "improve", "paper", "sim", "io", "image", "engine"),
     "render": LOWEST + ("app",),
     "c": (),  # include/incise/c: C, and self-contained; bindings/c is a front end
 }
@@ -38,7 +39,7 @@ PRIVATE_HEADERS = {
     "oneapi/": (),
     "hwy/": ("geom", "mesh", "cut", "improve", "sim"),
     "pugixml.hpp": ("io",),
-    "zlib.h": ("io", "render"),
+    "zlib.h": ("io", "image", "render"),
     "nlohmann/": ("io", "app"),
     "fmt/": ("io", "app"),
     "spdlog/": ("app",),

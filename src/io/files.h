@@ -11,14 +11,12 @@
 #include <vector>
 
 #include "incise/core/result.h"
+#include "incise/io/load_file.h"
 #include "incise/io/mesh_file.h"
 
 namespace incise {
 inline namespace v0 {
 namespace io {
-
-/// All bytes of a file, as they are.
-[[nodiscard]] Result<std::string> load_file(const std::filesystem::path& path, const ReadLimits& limits);
 
 /// The bytes of `path`, or of `path` with ".gz"; gunzipped.
 [[nodiscard]] Result<std::string> load_either(const std::filesystem::path& path, const ReadLimits& limits);

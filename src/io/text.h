@@ -7,18 +7,11 @@
 #include <string_view>
 
 #include "incise/core/result.h"
+#include "incise/io/numbers.h"
 
 namespace incise {
 inline namespace v0 {
 namespace io {
-
-/// Parse all of `token` as a decimal number, correctly rounded, in any locale.
-///
-/// Takes Fortran's `D` exponents; refuses hexadecimal, infinity and NaN. Underflow gives zero.
-[[nodiscard]] bool parse_double(std::string_view token, double& out);
-
-/// Parse all of `token` as a decimal integer.
-[[nodiscard]] bool parse_int(std::string_view token, std::int64_t& out);
 
 /// Append the shortest decimal number (at most 17 digits) that reads back to the same bits.
 void append_double(std::string& out, double value);

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/scene_cases.h"
 #include "cli/program.h"
 #include "incise/io/mesh_file.h"
+#include "support/scene_cases.h"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <map>
 
 #include "cut/flagged_body.h"
-#include "support/star_separation.h"
 #include "support/bodies.h"
 #include "support/engines.h"
 #include "support/random_strokes.h"
+#include "support/star_separation.h"
 
 namespace incise::test {
 namespace {

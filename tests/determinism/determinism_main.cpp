@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints one line "name hash" per scene: the state of the mesh after its strokes, and after some are taken back; then
 // the same strokes step by step, in a body at rest and in one that sways; then the scenes maintained, at once and in
-// portions, and a whole mesh maintained without a cut; then bodies that are cut while they deform.
+// portions, and a whole mesh maintained without a cut; then bodies that are cut while they deform; then a label image.
 // The lines are equal for every compiler, optimisation level and target (tests/determinism/golden.txt).
 // usage: incise_determinism [--threads N]     the result does not depend on N
 #include <array>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "incise/engine/engine.h"
+#include "incise/image/mesh_labels.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/validate.h"
 #include "simulated.h"
@@ -191,6 +192,28 @@ bool run_all_maintained(unsigned threads) {
   return is_sound;
 }
 
+/// A ball in two halves, a thin plate in one of them.
+image::LabelImage halves() {
+  image::LabelImage image;
+  image.size = {30, 28, 26};
+  image.step = {Vec3(-1, 0.1, 0), Vec3(0.1, 1, 0), Vec3(0, 0, 1.25)};
+  image.labels = {0, 1, 2, 5};
+  for (int v = 0; v < 30 * 28 * 26; ++v) {
+    const double x = v % 30 - 14.4, y = v / 30 % 28 - 13.7, z = 1.25 * (v / 840 - 12.6);
+    const std::uint16_t half = x + 0.3 * y > 0.2 ? 1 : (y > 3 && y < 5.5 ? 3 : 2);
+    image.voxels.push_back(x * x + y * y + z * z < 144 ? half : std::uint16_t{0});
+  }
+  return image;
+}
+
+bool run_label_image(unsigned threads) {
+  image::MeshLabelsOptions options;
+  options.size = 3;
+  options.threads = threads;
+  const Result<image::LabelMesh> mesh = image::mesh_labels(halves(), options);
+  return mesh.ok() && print("halves", "image", "meshed", mesh->mesh);
+}
+
 }  // namespace
 }  // namespace incise::test
 
@@ -211,5 +234,6 @@ int main(int argc, char** argv) {
   is_sound &= run_all_steps(threads);
   is_sound &= run_all_maintained(threads);
   is_sound &= run_all_simulated(threads);
+  is_sound &= run_label_image(threads);
   return is_sound ? 0 : 1;
 }

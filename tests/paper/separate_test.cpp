@@ -10,13 +10,13 @@
 #include <set>
 
 #include "cut/pinched_edges.h"
-#include "support/star_separation.h"
 #include "paper/contact.h"
 #include "paper/crossing.h"
 #include "paper/dividable.h"
 #include "paper/subdivide.h"
 #include "support/bodies.h"
 #include "support/engines.h"
+#include "support/star_separation.h"
 #include "support/strokes.h"
 
 namespace incise::test {

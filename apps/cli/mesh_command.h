@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command `incise mesh`: a segmented scan becomes tets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "commands.h"
+
+namespace incise_cli {
+
+struct MeshArguments {
+  std::string input, names, report, picture;
+  MeshOutput output;
+  bool as_json = false;
+  double size = 0, smooth = 0.7, grade = 0.5;
+  std::vector<int> labels;
+  std::vector<std::string> merges;
+  int halvings = 2;
+  unsigned threads = 1;
+
+  [[nodiscard]] bool has_report_on_stdout() const { return as_json || report == "-"; }
+};
+
+/// Returns the command's exit code.
+int run_mesh(const MeshArguments& arguments, const Terminal& terminal);
+
+}  // namespace incise_cli

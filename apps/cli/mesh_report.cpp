@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "incise/mesh/bounds.h"
+#include "incise/mesh/components.h"
+#include "incise/mesh/quality_stats.h"
+#include "incise/version.h"
+
+namespace incise_cli {
+namespace {
+
+using namespace incise;
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+std::string name_of(const MeshReport& report, std::int32_t label) {
+  const auto found = report.names.find(label);
+  return found == report.names.end() ? "" : found->second;
+}
+
+double relative_error(const image::LabelOutcome& label) {
+  return label.image_volume > 0 ? label.volume / label.image_volume - 1 : 0;
+}
+
+Json input_of(const MeshReport& report) {
+  const image::LabelImage& image = report.file->image;
+  return {{"file", report.arguments->input},        {"format", report.file->format_name},
+          {"placed_by", report.file->placed_by},    {"voxels", {image.size[0], image.size[1], image.size[2]}},
+          {"spacing_mm", to_json(image.spacing())}, {"notes", report.file->notes}};
+}
+
+Json labels_of(const MeshReport& report) {
+  Json labels = Json::array();
+  for (const image::LabelOutcome& l : report.made->labels) {
+    labels.push_back({{"label", l.label},
+                      {"name", name_of(report, l.label)},
+                      {"voxels", l.voxels},
+                      {"image_volume_mm3", l.image_volume},
+                      {"tets", l.tets},
+                      {"volume_mm3", l.volume},
+                      {"relative_error", relative_error(l)}});
+  }
+  return labels;
+}
+
+Json quality_of(const QualityStats& q) {
+  return {{"lr_min", q.lr_min},
+          {"lr_mean", q.lr_mean},
+          {"lr_p99", q.lr_p99},
+          {"lr_max", q.lr_max},
+          {"dihedral_min_deg", q.dihedral_min_deg},
+          {"dihedral_max_deg", q.dihedral_max_deg}};
+}
+
+}  // namespace
+
+std::string to_json(const MeshReport& report) {
+  const MeshArguments& a = *report.arguments;
+  const image::LabelMesh& made = *report.made;
+  const TetMesh& mesh = made.mesh;
+  const Box box = rest_bounds(mesh);
+  Json json = {{"format", "incise-mesh-report"},
+               {"version", 1},
+               {"program", "incise " INCISE_VERSION},
+               {"input", input_of(report)},
+               {"options",
+                {{"size", a.size},
+                 {"smooth", a.smooth},
+                 {"grade", a.grade},
+                 {"halvings", a.halvings},
+                 {"labels", a.labels},
+                 {"merge", a.merges},
+                 {"threads", a.threads}}},
+               {"coordinates", report.is_scan ? "RAS, mm" : "of the surface"},
+               {"mesh",
+                {{"vertices", mesh.vertex_count()},
+                 {"tets", mesh.tet_count()},
+                 {"components", find_components(mesh).count()},
+                 {"bounds", {to_json(box.lo), to_json(box.hi)}}}},
+               {"labels", labels_of(report)},
+               {"island_voxels", made.island_voxels},
+               {"relabelled_tets", made.relabelled_tets},
+               {"pinched_points", made.pinched_points},
+               {"quality", quality_of(measure_quality(mesh))},
+               {"validity", {{"ok", report.is_valid}}},
+               {"time_ms", {{"read", report.read_ms}, {"mesh", report.mesh_ms}}},
+               {"hash", fmt::format("{:016x}", mesh.hash())}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_text(const MeshReport& report) {
+  const image::LabelMesh& made = *report.made;
+  const QualityStats q = measure_quality(made.mesh);
+  const image::LabelImage& image = report.file->image;
+  const MeshOutput& output = report.arguments->output;
+  const Vec3 spacing = image.spacing();
+  std::string out = fmt::format("{}: {} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g}{}, placed by {}\n",
+                                report.file->format_name, image.size[0], image.size[1], image.size[2], spacing.x(),
+                                spacing.y(), spacing.z(), report.is_scan ? " mm" : "", report.file->placed_by);
+  out += fmt::format("{}: {} tets, {} vertices{}; dihedral angles {:.1f} to {:.1f} degrees, worst L/r {:.1f}\n",
+                     output.is_stdout() ? "stdout" : output.file, made.mesh.tet_count(), made.mesh.vertex_count(),
+                     report.is_scan ? ", in RAS mm" : "", q.dihedral_min_deg, q.dihedral_max_deg, q.lr_max);
+  for (const image::LabelOutcome& l : made.labels) {
+    const std::string name = name_of(report, l.label);
+    out += fmt::format("  {}{}{}: {} tets, volume {:.5g}{}, {:+.2f} % off\n", l.label, name.empty() ? "" : " ", name,
+                       l.tets, l.volume, report.is_scan ? " mm3" : "", 100 * relative_error(l));
+  }
+  return out;
+}
+
+}  // namespace incise_cli

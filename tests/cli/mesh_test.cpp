@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// `incise mesh`: from a label image to a mesh that can be cut.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "incise/io/mesh_file.h"
+
+namespace {
+
+using namespace incise_test;
+using nlohmann::json;
+
+/// A MetaImage of 24³ voxels of 1 mm: a ball of label 1 with a ball of label 2 in it.
+std::string balls() {
+  std::string bytes =
+      "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nTransformMatrix = 1 0 0 0 1 0 "
+      "0 0 "
+      "1\nOffset = 5 -6 7\nElementSpacing = 1 1 1\nDimSize = 24 24 24\nElementType = MET_UCHAR\nElementDataFile = "
+      "LOCAL\n";
+  for (int v = 0; v < 24 * 24 * 24; ++v) {
+    const double x = v % 24 - 11.6, y = v / 24 % 24 - 11.7, z = v / 576 - 11.4;
+    const double r2 = x * x + y * y + z * z;
+    bytes += r2 < 16 ? '\2' : (r2 < 81 ? '\1' : '\0');
+  }
+  return bytes;
+}
+
+TEST(CliMesh, makes_a_mesh_with_a_region_for_each_label) {
+  const Folder folder;
+  const std::string image = folder.write("balls.mha", balls()), out = folder / "balls.mesh";
+  const std::string names = folder.write("names.txt", "# label name\n1 = liver\n2 255 0 0 1 1 1 \"a tumour\"\n");
+  const Outcome mesh = run({"mesh", image, "-o", out, "--size", "2", "--names", names, "--report", "-"});
+  ASSERT_EQ(mesh.code, 0) << mesh.err;
+  const json report = json::parse(mesh.out);
+  EXPECT_EQ(report["coordinates"], "RAS, mm");
+  EXPECT_EQ(report["validity"]["ok"], true);
+  EXPECT_GE(report["quality"]["dihedral_min_deg"], 8.0);
+  ASSERT_EQ(report["labels"].size(), 2U);
+  EXPECT_EQ(report["labels"][0]["name"], "liver");
+  EXPECT_EQ(report["labels"][1]["name"], "a tumour");
+  EXPECT_NEAR(report["labels"][0]["relative_error"].get<double>(), 0, 0.02);
+  EXPECT_NEAR(report["mesh"]["bounds"][0][0].get<double>(), -5 - 11.6 - 9, 0.6);  // MetaImage is LPS
+  const Outcome check = run({"check", out, "--json"});
+  EXPECT_EQ(check.code, 0) << check.out;
+  const auto file = incise::io::read_mesh(out);
+  ASSERT_TRUE(file.ok());
+  EXPECT_EQ(file->file_tets, report["mesh"]["tets"]);
+}
+
+TEST(CliMesh, says_what_it_wrote_or_writes_to_stdout) {
+  const Folder folder;
+  const std::string image = folder.write("balls.mha", balls()), out = folder / "a.msh", report = folder / "a.json";
+  const Outcome file = run({"mesh", image, "-o", out, "--size", "3", "--report", report, "--json"});
+  ASSERT_EQ(file.code, 0) << file.err;
+  EXPECT_NE(file.err.find("wrote " + out + " ("), std::string::npos) << file.err;
+  EXPECT_NE(file.err.find("wrote " + report + " (report)"), std::string::npos) << file.err;
+  EXPECT_EQ(json::parse(file.out)["format"], "incise-mesh-report");
+  const Outcome piped = run({"mesh", image, "-o", "-", "--format", "msh41", "--size", "3"});
+  ASSERT_EQ(piped.code, 0) << piped.err;
+  EXPECT_EQ(piped.out.rfind("$MeshFormat\n4.1 0 8\n", 0), 0U);
+  EXPECT_EQ(run({"mesh", image, "-o", "-", "--format", "msh41", "--size", "3", "--json"}).code, 2);
+  EXPECT_EQ(run({"mesh", image, "-o", out, "--format", "vtu", "--size", "3"}).code, 2);
+}
+
+TEST(CliMesh, meshes_some_labels_and_merges_others) {
+  const Folder folder;
+  const std::string image = folder.write("balls.mha", balls()), out = folder / "a.vtu";
+  const Outcome one = run({"mesh", image, "-o", out, "--size", "2", "--labels", "2", "--report", "-"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(json::parse(one.out)["labels"].size(), 1U);
+  const Outcome merged = run({"mesh", image, "-o", out, "--size", "3", "--merge", "2=1,1=8", "--report", "-"});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(json::parse(merged.out)["labels"][0]["label"], 8);
+  EXPECT_EQ(json::parse(merged.out)["labels"].size(), 1U);
+}
+
+TEST(CliMesh, the_mesh_can_be_cut) {
+  const Folder folder;
+  const std::string image = folder.write("balls.mha", balls()), out = folder / "a.mesh";
+  ASSERT_EQ(run({"mesh", image, "-o", out, "--size", "2.5"}).code, 0);
+  const Outcome cut = run({"cut", out, "--plane=1,0.2,0.1,-14", "--report", "-"});
+  ASSERT_EQ(cut.code, 0) << cut.err;
+  EXPECT_EQ(json::parse(cut.out)["mesh"]["after"]["components"], 2);
+}
+
+TEST(CliMesh, makes_a_mesh_of_a_surface) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.obj",
+                                        "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 0 0 9\nv 9 0 9\nv 9 9 9\nv 0 9 9\n"
+                                        "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const Outcome mesh = run({"mesh", cube, "-o", folder / "cube.mesh", "--size", "2", "--report", "-"});
+  ASSERT_EQ(mesh.code, 0) << mesh.err;
+  const json report = json::parse(mesh.out);
+  EXPECT_EQ(report["coordinates"], "of the surface");
+  EXPECT_NEAR(report["labels"][0]["volume_mm3"].get<double>() / 729, 1, 0.05);
+  EXPECT_EQ(run({"mesh", cube, "-o", folder / "b.mesh", "--size", "200"}).code, 3);
+}
+
+TEST(CliMesh, says_what_is_wrong_and_writes_nothing) {
+  const Folder folder;
+  const std::string image = folder.write("balls.mha", balls()), out = folder / "a.mesh";
+  const auto expect = [&](int code, const std::string& part, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"mesh", image, "-o", out, "--size", "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome mesh = run(arguments);
+    EXPECT_EQ(mesh.code, code) << mesh.err;
+    EXPECT_NE(mesh.err.find(part), std::string::npos) << mesh.err;
+  };
+  expect(3, "has no label 5; there are 1 2", {"--labels", "1,5"});
+  expect(3, "has no label 9", {"--merge", "9=1"});
+  expect(2, "two labels are needed", {"--merge", "9"});
+  expect(2, "smoothing must lie in", {"--smooth", "0.1"});
+  expect(2, "0 to 4 times", {"--halvings", "9"});
+  expect(2, "two files of this command", {"--report", out});
+  expect(3, "names.txt:1: a label and its name are needed", {"--names", folder.write("names.txt", "liver 1\n")});
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"balls.mha", "names.txt"}));
+  EXPECT_NE(run({"mesh", image, "-o", out, "--size", "0"}).err.find("larger one"), std::string::npos);
+  EXPECT_EQ(run({"mesh", image, "-o", folder / "a.xyz", "--size", "2"}).code, 2);
+  EXPECT_EQ(run({"mesh", folder.write("a.nii", "none"), "-o", out, "--size", "2"}).code, 3);
+}
+
+}  // namespace

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "incise/image/surface_labels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "image/winding_number.h"
+#include "incise/image/mesh_labels.h"
+#include "incise/mesh/validate.h"
+
+namespace incise {
+namespace {
+
+using image::label_surface;
+using image::WindingNumber;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Appends a sphere of 2·n·n triangles or so, turned outwards.
+void add_sphere(io::SurfaceSoup& soup, const Vec3& middle, double radius, std::uint32_t n) {
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t j = 0; j < 2 * n; ++j) {
+      const double a = kPi * i / n, b = kPi * j / n;
+      soup.points.push_back(middle + radius * Vec3(i % n == 0 ? 0 : std::sin(a) * std::cos(b),
+                                                   i % n == 0 ? 0 : std::sin(a) * std::sin(b), std::cos(a)));
+    }
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < 2 * n; ++j) {
+      const std::uint32_t a = first + i * 2 * n + j, b = first + i * 2 * n + (j + 1) % (2 * n);
+      if (i > 0) soup.triangles.push_back({a, a + 2 * n, b});
+      if (i + 1 < n) soup.triangles.push_back({b, a + 2 * n, b + 2 * n});
+    }
+  }
+}
+
+double share_of(const image::LabelImage& image, std::int32_t label) {
+  const std::size_t l = image.find_label(label);
+  return l == image.labels.size() ? 0 : static_cast<double>(image.count_voxels()[l]) * image.voxel_volume();
+}
+
+double ball(double radius) {
+  return 4.0 / 3 * kPi * radius * radius * radius;
+}
+
+TEST(WindingNumber, is_one_inside_and_nought_outside) {
+  io::SurfaceSoup soup;
+  add_sphere(soup, Vec3(1, 2, 3), 5, 40);
+  const WindingNumber winding(soup.points, soup.triangles);
+  EXPECT_NEAR(winding(Vec3(1, 2, 3)), 1, 0.03);
+  EXPECT_NEAR(winding(Vec3(4, 5, 5)), 1, 0.03);
+  EXPECT_NEAR(winding(Vec3(5, 5, 5)), 0, 0.03);
+  EXPECT_NEAR(winding(Vec3(100, 5, 5)), 0, 0.03);
+}
+
+TEST(WindingNumber, angles_need_no_libm) {
+  for (int i = 0; i < 400; ++i) {
+    const double a = -kPi + 2 * kPi * (i + 0.5) / 400;
+    EXPECT_NEAR(image::angle_of(3 * std::sin(a), 3 * std::cos(a)), a, 1e-9);
+  }
+  EXPECT_EQ(image::angle_of(0, 0), 0);
+}
+
+TEST(SurfaceLabels, nested_spheres_become_labels_by_size) {
+  io::SurfaceSoup soup;
+  add_sphere(soup, Vec3(3, 0, 0), 4, 30);
+  add_sphere(soup, Vec3(0, 0, 0), 12, 40);
+  add_sphere(soup, Vec3(-6, 0, 0), 3, 30);
+  const auto labels = label_surface(soup, 0.5);
+  ASSERT_TRUE(labels.ok()) << labels.error().message;
+  EXPECT_EQ(labels->parts, 3U);
+  EXPECT_EQ(labels->open_edges, 0U);
+  EXPECT_TRUE(labels->notes.empty());
+  ASSERT_EQ(labels->volumes.size(), 4U);
+  EXPECT_NEAR(labels->volumes[3] / ball(3), 1, 0.02);
+  EXPECT_NEAR(labels->volumes[2] / ball(4), 1, 0.02);
+  EXPECT_NEAR(labels->volumes[1] / (ball(12) - ball(4) - ball(3)), 1, 0.02);
+  EXPECT_NEAR(share_of(labels->image, 3) / ball(3), 1, 0.03);
+  EXPECT_NEAR(share_of(labels->image, 2) / ball(4), 1, 0.03);
+  EXPECT_NEAR(share_of(labels->image, 1) / (ball(12) - ball(4) - ball(3)), 1, 0.03);
+}
+
+TEST(SurfaceLabels, holes_are_bridged) {
+  io::SurfaceSoup soup;
+  add_sphere(soup, Vec3(0, 0, 0), 10, 40);
+  soup.triangles.erase(soup.triangles.begin() + 1000, soup.triangles.begin() + 1040);
+  const auto labels = label_surface(soup, 0.5);
+  ASSERT_TRUE(labels.ok()) << labels.error().message;
+  EXPECT_GT(labels->open_edges, 0U);
+  EXPECT_EQ(labels->notes.size(), 1U);
+  EXPECT_NEAR(share_of(labels->image, 1) / ball(10), 1, 0.03);
+}
+
+TEST(SurfaceLabels, surfaces_that_pass_through_themselves_are_survived) {
+  io::SurfaceSoup soup;
+  add_sphere(soup, Vec3(0, 0, 0), 8, 40);
+  for (Vec3& p : soup.points) {
+    if (p.x() > 4) p.x() = 8 - p.x();  // a dent that comes out where it went in
+  }
+  const auto labels = label_surface(soup, 0.5);
+  ASSERT_TRUE(labels.ok()) << labels.error().message;
+  EXPECT_GT(share_of(labels->image, 1), 0.5 * ball(8));
+}
+
+TEST(SurfaceLabels, triangles_of_any_turn) {
+  io::SurfaceSoup soup;
+  add_sphere(soup, Vec3(0, 0, 0), 8, 30);
+  for (auto& t : soup.triangles) std::swap(t[0], t[1]);
+  EXPECT_NEAR(share_of(label_surface(soup, 0.5)->image, 1) / ball(8), 1, 0.03);
+}
+
+TEST(SurfaceLabels, what_is_meshed_has_the_surfaces_volume) {
+  io::SurfaceSoup soup;
+  add_sphere(soup, Vec3(5, 5, 5), 12, 40);
+  const auto labels = label_surface(soup, 0.8, 2);
+  ASSERT_TRUE(labels.ok());
+  image::MeshLabelsOptions options;
+  options.size = 2.4;
+  options.volumes = labels->volumes;
+  const auto mesh = image::mesh_labels(labels->image, options);
+  ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+  EXPECT_TRUE(validate(mesh->mesh, ValidateLevel::kGeometry).ok);
+  EXPECT_NEAR(mesh->labels[0].volume / ball(12), 1, 0.01);
+}
+
+TEST(SurfaceLabels, says_what_is_wrong) {
+  io::SurfaceSoup soup;
+  EXPECT_NE(label_surface(soup, 1).error().message.find("encloses nothing"), std::string::npos);
+  add_sphere(soup, Vec3(0, 0, 0), 1, 10);
+  EXPECT_NE(label_surface(soup, 0).error().message.find("larger size"), std::string::npos);
+  EXPECT_NE(label_surface(soup, 1e-4).error().message.find("too many voxels"), std::string::npos);
+  EXPECT_NE(label_surface(soup, 10).error().message.find("encloses nothing"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace incise
