@@ -19,6 +19,10 @@ int fail(const Terminal& terminal, const std::string& message, ExitCode code) {
   return code;
 }
 
+int finish(const Terminal& terminal, const Status& status) {
+  return status.ok() ? int{kDone} : fail(terminal, status.error(), kFailure);
+}
+
 ExitCode exit_of(const Error& error) {
   switch (error.code) {
     case ErrorCode::kBadArgument:

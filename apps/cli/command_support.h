@@ -15,6 +15,9 @@ namespace incise_cli {
 int fail(const Terminal& terminal, const incise::Error& error, ExitCode code);
 int fail(const Terminal& terminal, const std::string& message, ExitCode code);
 
+/// The exit code of a command whose last step this was; an error is told.
+int finish(const Terminal& terminal, const incise::Status& status);
+
 /// How an error of a stage that reads and writes files ends the program.
 ExitCode exit_of(const incise::Error& error);
 

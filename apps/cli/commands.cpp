@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "app/jobs/cut_job.h"
@@ -17,6 +18,8 @@
 #include "app/text/text_file.h"
 #include "command_support.h"
 #include "incise/mesh/bounds.h"
+#include "input_kind.h"
+#include "mesh_output.h"
 #include "picture.h"
 
 namespace incise_cli {
@@ -50,7 +53,7 @@ std::optional<Plane> parse_plane(const std::string& text) {
 
 /// Whether the recording would take the place of something else that the command reads or writes.
 bool takes_a_place(const CutArguments& a) {
-  for (const std::string& other : {a.mesh, a.blade, a.output, a.report, a.picture}) {
+  for (const std::string& other : {a.mesh, a.blade, a.output.file, a.report, a.picture}) {
     if (!a.record.empty() && !other.empty() && is_same_file(a.record, other)) return true;
   }
   return false;
@@ -58,7 +61,7 @@ bool takes_a_place(const CutArguments& a) {
 
 /// Likewise for the picture.
 bool draws_over(const CutArguments& a) {
-  for (const std::string& other : {a.mesh, a.blade, a.output, a.report}) {
+  for (const std::string& other : {a.mesh, a.blade, a.output.file, a.report}) {
     if (!a.picture.empty() && !other.empty() && is_same_file(a.picture, other)) return true;
   }
   return false;
@@ -71,6 +74,9 @@ std::string usage_problem(const CutArguments& a) {
     return "--plane " + a.plane + ": four finite numbers nx,ny,nz,d are needed, the first three not all zero";
   }
   if (!std::isfinite(a.snap) || a.snap < 0 || a.snap > 0.4) return "--snap must lie between 0 and 0.4";
+  if (a.mesh == "-" && a.blade == "-") return "mesh and blade cannot both come from stdin; name one of them";
+  if (a.mesh == "-" && !a.record.empty()) return "--record needs the mesh as a file, which a replay can read again";
+  if (a.record == "-" || a.picture == "-") return "recordings and pictures do not go to stdout; name a file";
   if (takes_a_place(a)) return "--record " + a.record + " is another file of this command; give it a name of its own";
   if (draws_over(a)) return "--picture " + a.picture + " is another file of this command; give it a name of its own";
   if (!a.picture.empty() && fs::path(a.picture).extension() != ".png") {
@@ -80,20 +86,21 @@ std::string usage_problem(const CutArguments& a) {
 }
 
 /// Whether outputs can be written, as far as their names tell; else says why and gives the exit code.
-std::optional<ExitCode> refuse_outputs(const std::string& mesh, const std::vector<std::string>& others,
-                                       const Terminal& terminal) {
-  if (!mesh.empty() && !app::is_mesh_extension(mesh)) {
-    terminal.error(mesh + ": unknown extension; use " + app::kMeshExtensions);
-    return kUsage;
+std::optional<ExitCode> refuse_outputs(const MeshOutput& mesh, bool has_json_on_stdout,
+                                       const std::vector<std::string>& others, const Terminal& terminal) {
+  std::optional<OutputProblem> problem = problem_of(mesh);
+  if (!problem && mesh.is_stdout() && has_json_on_stdout) {
+    problem =
+        OutputProblem{"-o - writes the mesh to stdout, where the figures would go too; give either a file", kUsage};
   }
-  std::vector<std::string> files = others;
-  files.push_back(mesh);
-  for (const std::string& file : files) {
-    if (has_folder(file)) continue;
-    terminal.error(file + ": its folder does not exist; create it first");
-    return kFailure;
+  for (const std::string& file : others) {
+    if (!problem && !has_folder(file)) {
+      problem = OutputProblem{file + ": its folder does not exist; create it first", kFailure};
+    }
   }
-  return std::nullopt;
+  if (!problem) return std::nullopt;
+  terminal.error(problem->text);
+  return problem->code;
 }
 
 /// Says which of the flags change nothing beside the others.
@@ -112,14 +119,18 @@ void note_idle_flags(const CutArguments& a, const Terminal& terminal) {
 }
 
 Result<std::vector<Stroke>> strokes_of(const CutArguments& a, const TetMesh& mesh) {
-  if (!a.blade.empty()) return app::read_blade(a.blade);
+  if (!a.blade.empty()) {
+    Result<std::vector<Stroke>> strokes = app::read_blade(input_of(a.blade));
+    if (!strokes.ok()) return explain_kind(strokes.error(), a.blade, FileKind::kBlade);
+    return strokes;
+  }
   const Plane plane = *parse_plane(a.plane);
   Result<Stroke> stroke = plane_stroke(rest_bounds(mesh), plane.normal, plane.offset);
   if (!stroke.ok()) return stroke.error();
   return std::vector<Stroke>{std::move(stroke).value()};
 }
 
-app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Terminal& terminal) {
+app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Terminal& terminal, ProgressBar& bar) {
   app::CutJob job;
   job.strokes = std::move(strokes);
   job.by_steps = !a.blade.empty();
@@ -135,22 +146,33 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
   job.options.seed = a.seed;
   job.options.blade = a.blade;
   job.options.plane = a.plane;
-  job.progress = [&terminal](std::size_t done, std::size_t total) { terminal.progress(done, total, "strokes"); };
+  job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
   return job;
 }
 
-Status write_results(const std::string& output, const std::string& report, const app::JobResult& result,
+/// Where a job's figures go.
+struct ReportOutput {
+  std::string file;  // "-": stdout; empty: nowhere
+  bool as_json = false;
+
+  [[nodiscard]] bool is_on_stdout() const { return as_json || file == "-"; }
+};
+
+Status write_report(const ReportOutput& output, const app::JobReport& report, const Terminal& terminal) {
+  if (!output.file.empty() && output.file != "-") {
+    if (Status status = app::write_text_file(output.file, app::to_json(report)); !status.ok()) return status;
+    terminal.wrote(output.file, "report");
+  }
+  return output.is_on_stdout() ? terminal.data(app::to_json(report)) : Status();
+}
+
+Status write_results(const MeshOutput& output, const ReportOutput& report, const app::JobResult& result,
                      const Terminal& terminal) {
   const WritingZone zone;
-  if (!output.empty() && (result.report.change.ok || result.report.broken)) {
-    if (const Status status = io::write_mesh(output, result.mesh); !status.ok()) return status;
+  if (output.is_wanted() && (result.report.change.ok || result.report.broken)) {
+    if (Status status = write_output(output, result.mesh, terminal); !status.ok()) return status;
   }
-  if (report == "-") {
-    terminal.data(app::to_json(result.report));
-  } else if (!report.empty()) {
-    return app::write_text_file(report, app::to_json(result.report));
-  }
-  return {};
+  return write_report(report, result.report, terminal);
 }
 
 /// What became of a mesh that a job left invalid; `work` names the job.
@@ -168,118 +190,118 @@ std::string broken_text(const std::string& output, const std::string& work, cons
 }
 
 /// Writes what a job gave and says how it went; `work` names it in messages.
-int finish_job(const std::string& output, const std::string& report, const std::string& work,
+int finish_job(const MeshOutput& output, const ReportOutput& report, const std::string& work,
                const app::JobResult& result, const Terminal& terminal) {
   if (const Status status = write_results(output, report, result, terminal); !status.ok()) {
     return fail(terminal, status.error(), status.error().code == ErrorCode::kBadArgument ? kUsage : kFailure);
   }
-  if (report != "-" && !terminal.is_quiet) terminal.data(app::to_text(result.report));
+  if (!report.is_on_stdout()) terminal.summary(app::to_text(result.report), output.is_stdout());
   if (result.report.change.ok) return kDone;
-  return fail(terminal, broken_text(output, work, result.report), kCheckFailed);
+  return fail(terminal, broken_text(output.file, work, result.report), kCheckFailed);
+}
+
+/// A number as people write it.
+std::string shown(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+/// Says which strokes met nothing, and where a plane would have.
+void warn_of_misses(const CutArguments& a, const app::CutJob& job, const app::JobReport& report, const Box& body,
+                    const Terminal& terminal) {
+  if (report.missed.empty()) return;
+  if (a.blade.empty()) {
+    const Vec3 normal = parse_plane(a.plane)->normal;
+    const Vec3 middle = (body.lo + body.hi) / 2, half = (body.hi - body.lo) / 2;
+    const double at = normal.dot(middle), reach = normal.cwiseAbs().dot(half);
+    return terminal.warning("the plane " + a.plane + " misses the mesh: nothing was cut; its box has d from " +
+                            shown(at - reach) + " to " + shown(at + reach) + " along that normal");
+  }
+  const std::size_t first = report.missed.front();
+  const std::string& name = job.strokes[first].name;
+  const std::string which = "stroke " + std::to_string(first) + (name.empty() ? "" : " \"" + name + "\"");
+  const std::size_t more = report.missed.size() - 1;
+  terminal.warning(a.blade + ": " + which + (more > 0 ? " and " + std::to_string(more) + " more" : "") +
+                   " cut nothing; does the blade meet the mesh? incise info tells its bounds");
+}
+
+/// Reads a mesh to work on, and says what was mended on the way.
+Result<io::LoadedMesh> load(const std::string& mesh, const Terminal& terminal) {
+  Result<io::LoadedMesh> loaded = io::load_mesh(input_of(mesh));
+  if (!loaded.ok()) return explain_kind(loaded.error(), mesh, FileKind::kMesh);
+  print_notes(loaded->source.notes, mesh, terminal);
+  return loaded;
 }
 
 }  // namespace
 
 int run_info(const InfoArguments& arguments, const Terminal& terminal) {
-  const Result<io::MeshFile> file = io::read_mesh(arguments.mesh);
-  if (!file.ok()) return fail(terminal, file.error(), kBadInput);
+  const Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
+  if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
   const app::MeshInfo info = app::inspect(*file, arguments.mesh);
-  terminal.data(arguments.as_json ? app::to_json(info) : app::to_text(info));
-  return kDone;
+  return finish(terminal, terminal.data(arguments.as_json ? app::to_json(info) : app::to_text(info)));
 }
 
 int run_check(const InfoArguments& arguments, const Terminal& terminal) {
-  Result<io::MeshFile> file = io::read_mesh(arguments.mesh);
-  if (!file.ok()) return fail(terminal, file.error(), kBadInput);
+  Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
+  if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
   const Result<app::MeshCheck> check = app::check_mesh(std::move(file).value(), arguments.mesh);
   if (!check.ok()) return fail(terminal, check.error(), kBadInput);
-  terminal.data(arguments.as_json ? app::to_json(*check) : app::to_text(*check));
-  return check->ok ? kDone : kCheckFailed;
+  const int code = finish(terminal, terminal.data(arguments.as_json ? app::to_json(*check) : app::to_text(*check)));
+  return code == kDone && !check->ok ? kCheckFailed : code;
 }
 
 int run_cut(const CutArguments& arguments, const Terminal& terminal) {
+  const ReportOutput report{arguments.report, arguments.as_json};
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
-  if (const auto code =
-          refuse_outputs(arguments.output, {arguments.report, arguments.record, arguments.picture}, terminal)) {
+  if (const auto code = refuse_outputs(arguments.output, report.is_on_stdout(),
+                                       {arguments.report, arguments.record, arguments.picture}, terminal)) {
     return *code;
   }
   if (!arguments.picture.empty()) {  // before anything is written
     if (const Status status = check_drawing(); !status.ok()) return fail(terminal, status.error(), kNoDisplay);
   }
   note_idle_flags(arguments, terminal);
-  Result<io::LoadedMesh> loaded = io::load_mesh(arguments.mesh);
+  Result<io::LoadedMesh> loaded = load(arguments.mesh, terminal);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
-  print_notes(loaded->source.notes, arguments.mesh, terminal);
   Result<std::vector<Stroke>> strokes = strokes_of(arguments, loaded->mesh);
   if (!strokes.ok()) return fail(terminal, strokes.error(), kBadInput);
-  app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal);
+  const Box body = rest_bounds(loaded->mesh);
+  std::optional<ProgressBar> bar(std::in_place, terminal, arguments.blade.empty() ? "cuts" : "steps");
+  app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal, *bar);
   Status drawn;
   if (!arguments.picture.empty()) job.look = [&](const Engine& end) { drawn = draw_cut(end, arguments.picture); };
-  const Result<app::JobResult> result = app::run_cut(std::move(loaded).value(), job, !arguments.output.empty());
+  const Result<app::JobResult> result = app::run_cut(std::move(loaded).value(), job, arguments.output.is_wanted());
+  bar.reset();
   if (!drawn.ok()) return fail(terminal, drawn.error(), kFailure);
-  if (result.ok()) return finish_job(arguments.output, arguments.report, "cut", *result, terminal);
-  return fail(terminal, result.error(), result.error().code == ErrorCode::kBadArgument ? kBadInput : kFailure);
+  if (!result.ok()) {
+    return fail(terminal, result.error(), result.error().code == ErrorCode::kBadArgument ? kBadInput : kFailure);
+  }
+  warn_of_misses(arguments, job, result->report, body, terminal);
+  if (!arguments.picture.empty()) terminal.wrote(arguments.picture, "picture");
+  if (!arguments.record.empty()) terminal.wrote(arguments.record, "recording");
+  return finish_job(arguments.output, report, "cut", *result, terminal);
 }
 
 int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
-  if (const auto code = refuse_outputs(arguments.output, {arguments.report}, terminal)) return *code;
+  const ReportOutput report{arguments.report, arguments.as_json};
+  if (const auto code = refuse_outputs(arguments.output, report.is_on_stdout(), {arguments.report}, terminal)) {
+    return *code;
+  }
   if (arguments.profile == "paper" && arguments.budget_us > 0) terminal.note(kNoBudgetAsPaper);
-  Result<io::LoadedMesh> loaded = io::load_mesh(arguments.mesh);
+  Result<io::LoadedMesh> loaded = load(arguments.mesh, terminal);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
-  print_notes(loaded->source.notes, arguments.mesh, terminal);
+  std::optional<ProgressBar> bar(std::in_place, terminal, "improving");
   app::ImproveJob job;
   job.engine.cut.profile = profile_of(arguments.profile);
   job.engine.log = terminal.log_sink();
   job.budget_us = arguments.budget_us;
-  const Result<app::JobResult> result = app::run_improve(std::move(loaded).value(), job, !arguments.output.empty());
+  job.tick = [&bar] { bar->show_time(); };
+  const Result<app::JobResult> result = app::run_improve(std::move(loaded).value(), job, arguments.output.is_wanted());
+  bar.reset();
   if (!result.ok()) return fail(terminal, result.error(), kFailure);
-  return finish_job(arguments.output, arguments.report, "improvement", *result, terminal);
-}
-
-namespace {
-
-/// Says where a replay ended, if not where it should.
-void note_end(const app::ReplayResult& result, const std::string& recording, const Terminal& terminal) {
-  const std::string after = recording + ": after " + std::to_string(result.calls) + " calls ";
-  if (result.is_cut_off) terminal.note(after + "the recording is cut off; what was whole has been replayed");
-  if (result.is_in_stroke) terminal.note(after + "a stroke is still under way; the mesh is as its last step left it");
-}
-
-int report_difference(const app::ReplayDifference& d, const std::string& recording, const Terminal& terminal) {
-  return fail(terminal,
-              recording + ":" + std::to_string(d.line) + ": the call \"" + d.call +
-                  "\" came out differently: expected " + d.expected + ", found " + d.found +
-                  "; no mesh was written. Was it another version that recorded?",
-              kCheckFailed);
-}
-
-}  // namespace
-
-int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
-  if (const auto code = refuse_outputs(arguments.output, {}, terminal)) return *code;
-  const app::ReplayJob job{arguments.recording, arguments.verify, !arguments.output.empty(), terminal.log_sink()};
-  const Result<app::ReplayResult> result = app::run_replay(job);
-  if (!result.ok()) return fail(terminal, result.error(), exit_of(result.error()));
-  note_end(*result, arguments.recording, terminal);
-  if (result->difference) return report_difference(*result->difference, arguments.recording, terminal);
-  const WritingZone zone;
-  if (!arguments.output.empty()) {
-    const Status status = io::write_mesh(arguments.output, result->mesh);
-    if (!status.ok()) return fail(terminal, status.error(), kFailure);
-  }
-  if (!terminal.is_quiet) terminal.data(app::to_text(*result));
-  return kDone;
-}
-
-int run_convert(const ConvertArguments& arguments, const Terminal& terminal) {
-  if (!has_folder(arguments.out)) {
-    return fail(terminal, arguments.out + ": its folder does not exist; create it first", kFailure);
-  }
-  const WritingZone zone;
-  const Result<app::Conversion> done = app::convert(arguments.in, arguments.out);
-  if (!done.ok()) return fail(terminal, done.error(), exit_of(done.error()));
-  print_notes(done->notes, arguments.in, terminal);
-  return kDone;
+  return finish_job(arguments.output, report, "improvement", *result, terminal);
 }
 
 }  // namespace incise_cli

@@ -14,8 +14,19 @@ struct InfoArguments {
   bool as_json = false;
 };
 
+/// Where a mesh is written, and as what.
+struct MeshOutput {
+  std::string file;    ///< "-": stdout; empty: nowhere
+  std::string format;  ///< a name of `io::write_options_named`; empty: what the extension says
+
+  [[nodiscard]] bool is_wanted() const { return !file.empty(); }
+  [[nodiscard]] bool is_stdout() const { return file == "-"; }
+};
+
 struct CutArguments {
-  std::string mesh, blade, plane, output, report, record, picture;
+  std::string mesh, blade, plane, report, record, picture;
+  MeshOutput output;
+  bool as_json = false;
   std::string profile = "incise";
   double snap = 0.2;
   bool has_snap = false;
@@ -26,14 +37,18 @@ struct CutArguments {
 };
 
 struct ImproveArguments {
-  std::string mesh, output, report;
+  std::string mesh, report;
+  MeshOutput output;
+  bool as_json = false;
   std::string profile = "incise";
   std::uint64_t budget_us = 0;  // 0: none
 };
 
 struct ReplayArguments {
-  std::string recording, output;
+  std::string recording;
+  MeshOutput output;
   bool verify = false;
+  bool as_json = false;
 };
 
 struct SimulateArguments {
@@ -44,11 +59,14 @@ struct SimulateArguments {
   std::uint64_t budget_us = 0;        // 0: the scene's work units
   std::optional<std::uint64_t> seed;  // unset: the scene's
   unsigned threads = 1;
+  bool as_json = false;
   bool is_ideal = false;  // the exercise's ideal strokes instead of the scene's
 };
 
 struct ConvertArguments {
-  std::string in, out;
+  std::string in;
+  MeshOutput out;
+  bool as_json = false;
 };
 
 /// Each runs one command and returns its exit code.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "app/jobs/simulate_job.h"
@@ -7,11 +8,14 @@
 #include "app/text/text_file.h"
 #include "command_support.h"
 #include "commands.h"
+#include "input_kind.h"
 
 namespace incise_cli {
 namespace {
 
 using namespace incise;
+
+constexpr std::size_t kMostSceneBytes = std::size_t{64} << 20U;
 
 /// Whether the recording would take the place of something else that the command reads or writes.
 bool takes_a_place(const SimulateArguments& a, const std::string& model) {
@@ -26,8 +30,21 @@ std::string usage_problem(const SimulateArguments& a) {
   if (!a.output.empty() && std::filesystem::path(a.output).extension() != ".pvd") {
     return a.output + ": unknown extension; a simulation is written as .pvd, with a folder of .vtu files beside";
   }
+  if (a.record == "-") return "--record needs a file, not stdout";
   if (a.every > 0 && a.output.empty()) return "--every is about the files of -o OUT.pvd; give both";
   return {};
+}
+
+/// The scene that is asked for. One from stdin names its files from the folder that the command runs in.
+Result<app::Scene> read_scene(const SimulateArguments& a) {
+  if (a.scene == "-") {
+    const Result<std::string> text = app::read_text_file(input_of(a.scene), kMostSceneBytes);
+    if (!text.ok()) return text.error();
+    return app::parse_scene(*text, "stdin", std::filesystem::current_path());
+  }
+  Result<app::Scene> scene = app::read_scene(a.scene);
+  if (!scene.ok()) return explain_kind(scene.error(), a.scene, FileKind::kScene);
+  return scene;
 }
 
 /// The scene with what the arguments ask for instead.
@@ -41,7 +58,7 @@ app::Scene overridden(app::Scene scene, const SimulateArguments& a) {
   return scene;
 }
 
-app::SimulateJob job_of(const SimulateArguments& a, const Terminal& terminal) {
+app::SimulateJob job_of(const SimulateArguments& a, const Terminal& terminal, ProgressBar& bar) {
   app::SimulateJob job;
   job.scene_file = a.scene;
   job.run.threads = a.threads;
@@ -50,26 +67,28 @@ app::SimulateJob job_of(const SimulateArguments& a, const Terminal& terminal) {
   job.output = a.output;
   job.every = a.every;
   job.budget_us = a.budget_us;
-  job.progress = [&terminal](std::size_t done, std::size_t total) { terminal.progress(done, total, "frames"); };
+  job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
   job.should_stop = interrupt_waits;
   return job;
 }
 
-Status write_report(const std::string& file, const app::SimulationReport& report, const Terminal& terminal) {
-  if (file == "-") {
-    terminal.data(app::to_json(report));
-  } else if (!file.empty()) {
-    return app::write_text_file(file, app::to_json(report));
+Status write_report(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
+  if (!a.report.empty() && a.report != "-") {
+    if (Status status = app::write_text_file(a.report, app::to_json(report)); !status.ok()) return status;
+    terminal.wrote(a.report, "report");
   }
+  if (a.as_json || a.report == "-") return terminal.data(app::to_json(report));
+  terminal.summary(app::to_text(report), false);
   return {};
 }
 
-int finish(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
+int finish_run(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
   print_notes(report.job.notes, report.job.input, terminal);
-  if (const Status status = write_report(a.report, report, terminal); !status.ok()) {
+  if (!a.output.empty() && report.job.change.ok) terminal.wrote(a.output, "series, with its folder");
+  if (!a.record.empty()) terminal.wrote(a.record, "recording");
+  if (const Status status = write_report(a, report, terminal); !status.ok()) {
     return fail(terminal, status.error(), kFailure);
   }
-  if (a.report != "-" && !terminal.is_quiet) terminal.data(app::to_text(report));
   if (report.job.change.ok) return kDone;
   return fail(terminal,
               "the simulation broke the validity contract, so no series was written; see `validity` in the report "
@@ -90,7 +109,7 @@ std::string output_problem(const SimulateArguments& a) {
 int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
   if (const std::string problem = output_problem(arguments); !problem.empty()) return fail(terminal, problem, kFailure);
-  Result<app::Scene> read = app::read_scene(arguments.scene);
+  Result<app::Scene> read = read_scene(arguments);
   if (!read.ok()) return fail(terminal, read.error(), kBadInput);
   if (arguments.is_ideal && (!read->exercise || read->exercise->ideal.empty())) {
     return fail(terminal, arguments.scene + ": --ideal shows how an exercise is done; this scene has no exercise.ideal",
@@ -104,12 +123,14 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
                 "--record " + arguments.record + " is another file of this command; give it a name of its own", kUsage);
   }
   const WritingZone zone;  // an interrupt ends the run between two frames, and leaves no part of a series
-  const Result<app::SimulateResult> result = app::run_simulate(scene, job_of(arguments, terminal));
+  std::optional<ProgressBar> bar(std::in_place, terminal, "frames");
+  const Result<app::SimulateResult> result = app::run_simulate(scene, job_of(arguments, terminal, *bar));
+  bar.reset();
   if (!result.ok()) {
     const bool is_bad = result.error().code == ErrorCode::kBadArgument;
     return fail(terminal, result.error(), is_bad ? kBadInput : exit_of(result.error()));
   }
-  return result->was_stopped ? int{kInterrupted} : finish(arguments, result->report, terminal);
+  return result->was_stopped ? int{kInterrupted} : finish_run(arguments, result->report, terminal);
 }
 
 }  // namespace incise_cli

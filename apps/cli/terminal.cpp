@@ -8,6 +8,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
+
+#include "shared/message_text.h"
 
 namespace incise_cli {
 namespace {
@@ -37,24 +40,6 @@ void print(std::FILE* file, std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), file);
 }
 
-/// No message is longer; one that would be keeps its beginning and, with the remedy, its end.
-constexpr std::size_t kLongest = 480, kEnd = 160;
-
-/// One line of readable characters.
-std::string shortened(std::string_view text) {
-  std::string line(text);
-  if (line.size() > kLongest) {
-    const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
-    std::size_t head = kLongest - kEnd - 5, tail = text.size() - kEnd;  // not within a character of several bytes
-    while (head > 0 && is_inside(head)) --head;
-    while (tail < text.size() && is_inside(tail)) ++tail;
-    line = std::string(text.substr(0, head)) + " ... " + std::string(text.substr(tail));
-  }
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
-  std::replace_if(line.begin(), line.end(), is_control, ' ');
-  return line;
-}
-
 void print_line(std::string_view label, std::string_view colour, std::string_view text) {
   std::string line = "incise: ";
   if (!label.empty()) {
@@ -64,13 +49,21 @@ void print_line(std::string_view label, std::string_view colour, std::string_vie
     if (is_coloured) line += "\033[0m";
     line += ": ";
   }
-  print(stderr, line.append(shortened(text)).append("\n"));
+  print(stderr, line.append(incise_apps::one_line(text)).append("\n"));
 }
 
 }  // namespace
 
 void Terminal::note(std::string_view text) const {
   if (!is_quiet) print_line("note", "\033[36m", text);
+}
+
+void Terminal::warning(std::string_view text) const {
+  if (!is_quiet) print_line("warning", "\033[1;33m", text);
+}
+
+void Terminal::wrote(std::string_view file, std::string_view what) const {
+  if (!is_quiet) print_line("", "", "wrote " + std::string(file) + " (" + std::string(what) + ")");
 }
 
 void Terminal::detail(std::string_view text) const {
@@ -81,21 +74,14 @@ void Terminal::error(std::string_view text) const {
   print_line("error", "\033[1;31m", text);
 }
 
-void Terminal::data(std::string_view text) const {
-  print(stdout, text);
+incise::Status Terminal::data(std::string_view text) const {
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (is_written) return {};
+  return incise::Error{incise::ErrorCode::kIo, "stdout: writing failed; is the disk full?", {}};
 }
 
-void Terminal::progress(std::size_t done, std::size_t total, std::string_view unit) const {
-  if (is_quiet || total == 0 || !is_terminal(stderr)) return;
-  if (done == total) {
-    print(stderr, "\r\033[K");
-    return;
-  }
-  constexpr std::size_t kWidth = 30;
-  const std::size_t filled = done * kWidth / total;
-  std::string bar = "\r\033[K[" + std::string(filled, '#') + std::string(kWidth - filled, ' ') + "] ";
-  bar += std::to_string(done) + " of " + std::to_string(total) + " ";
-  print(stderr, bar.append(unit));
+void Terminal::summary(std::string_view text, bool is_stdout_taken) const {
+  if (!is_quiet) print(is_stdout_taken ? stderr : stdout, text);
 }
 
 incise::LogSink Terminal::log_sink() const {
@@ -106,6 +92,30 @@ incise::LogSink Terminal::log_sink() const {
       detail(text);
     }
   };
+}
+
+ProgressBar::ProgressBar(const Terminal& terminal, std::string unit)
+    : is_on_(!terminal.is_quiet && is_terminal(stderr)), unit_(std::move(unit)), began_(Clock::now()) {}
+
+ProgressBar::~ProgressBar() {
+  if (is_drawn_) print(stderr, "\r\033[K");
+}
+
+void ProgressBar::show(std::size_t done, std::size_t total) {
+  if (total == 0) return;
+  draw([&](double seconds) { return incise_apps::progress_text(std::min(done, total), total, unit_, seconds); });
+}
+
+void ProgressBar::show_time() {
+  draw([&](double seconds) { return unit_ + ", " + incise_apps::clock_text(seconds); });
+}
+
+void ProgressBar::draw(const std::function<std::string(double seconds)>& text) {
+  const Clock::time_point now = Clock::now();
+  if (!is_on_ || (is_drawn_ && now - drawn_ < std::chrono::milliseconds(100))) return;
+  drawn_ = now;
+  is_drawn_ = true;
+  print(stderr, "\r\033[K" + text(std::chrono::duration<double>(now - began_).count()));
 }
 
 void catch_interrupts() {

@@ -2,7 +2,10 @@
 // What the command says, and how it stops. Data goes to stdout, everything else to stderr.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include "incise/core/log.h"
@@ -26,13 +29,41 @@ class Terminal {
   bool is_quiet = false;
   bool is_verbose = false;
 
-  void note(std::string_view text) const;    ///< silent under -q
+  void note(std::string_view text) const;     ///< silent under -q
+  void warning(std::string_view text) const;  ///< likewise
+  /// "wrote FILE (what it is)"; silent under -q.
+  void wrote(std::string_view file, std::string_view what) const;
   void detail(std::string_view text) const;  ///< only under -v
   void error(std::string_view text) const;
-  void data(std::string_view text) const;  ///< to stdout
-  /// A bar on stderr, where that is a terminal; `done == total` takes it away.
-  void progress(std::size_t done, std::size_t total, std::string_view unit) const;
+  /// To stdout. Errors: kIo where that cannot take it.
+  [[nodiscard]] incise::Status data(std::string_view text) const;
+  /// What people read of a result: to stdout, or to stderr where stdout carries a file. Silent under -q.
+  void summary(std::string_view text, bool is_stdout_taken) const;
   [[nodiscard]] incise::LogSink log_sink() const;
+};
+
+/// A bar on stderr with the time that is left, where that is a terminal and nobody asked for quiet. It goes with its
+/// work.
+class ProgressBar {
+ public:
+  ProgressBar(const Terminal& terminal, std::string unit);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// `done` of `total`; drawn ten times a second at most.
+  void show(std::size_t done, std::size_t total);
+  /// Of work of which nobody knows how much is left: for how long it has been going on.
+  void show_time();
+
+ private:
+  void draw(const std::function<std::string(double seconds)>& text);
+
+  using Clock = std::chrono::steady_clock;
+
+  bool is_on_, is_drawn_ = false;
+  std::string unit_;
+  Clock::time_point began_, drawn_;
 };
 
 /// From now on Ctrl-C and SIGTERM end the program with 130 or 143: at once while nothing is being written, else after

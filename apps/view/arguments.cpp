@@ -11,6 +11,7 @@
 #include "exit_code.h"
 #include "incise/mesh/bounds.h"
 #include "incise/version.h"
+#include "shared/command_words.h"
 
 namespace incise_view {
 namespace {
@@ -46,6 +47,8 @@ void add_input(CLI::App& root, Arguments& a) {
   root.add_option_function<std::string>(
       "--replay", [&a](const std::string& file) { a.file = file; }, "The recording to play: the same as FILE");
   root.add_option("--record", a.record, "Record the session from its start to this file (JSON lines)");
+  root.add_option("--keep-undo", a.keep_undo,
+                  "Strokes that undo can take back, so that memory does not grow for ever (default 100); 0: all");
   root.add_option("--device", a.device,
                   "What moves the blade: mouse (pens are mice), none, or a blade file that is the hand");
   root.add_option("--up", a.up, "Of a mesh without a scene: the axis against gravity")
@@ -139,6 +142,7 @@ void add_camera(CLI::App& root, Arguments& a) {
 }
 
 void add_headless(CLI::App& root, Arguments& a) {
+  root.add_flag("-q,--quiet", a.is_quiet, "Headless: print errors only");
   root.add_flag("--headless", a.is_headless, "No window, and no X server: only pictures");
   root.add_option_function<std::uint64_t>(
       "--frame",
@@ -187,6 +191,7 @@ app::SessionOptions Arguments::session_options() const {
   app::SessionOptions options;
   options.threads = threads;
   options.record = record;
+  options.keep_undo = keep_undo;
   options.up = up == "x" ? Vec3::UnitX() : (up == "y" ? Vec3::UnitY() : Vec3::UnitZ());
   return options;
 }
@@ -204,7 +209,8 @@ std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return root.exit(error) == 0 ? kDone : kUsage;
+    if (error.get_exit_code() == 0) return root.exit(error);
+    return fail(kUsage, incise_apps::explain(root, std::vector<std::string>(argv + 1, argv + argc), error));
   }
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(kUsage, problem);
   return std::nullopt;

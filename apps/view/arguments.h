@@ -14,8 +14,9 @@ namespace incise_view {
 struct Arguments {
   std::string file;  ///< scene, mesh or recording; empty: a cube
   unsigned threads = 1;
-  std::string record;            ///< from the start
-  std::string device = "mouse";  ///< "mouse", "none", or a blade file that is the hand
+  std::string record;                                 ///< from the start
+  std::size_t keep_undo = incise::app::kKeptStrokes;  ///< strokes; 0: all
+  std::string device = "mouse";                       ///< "mouse", "none", or a blade file that is the hand
   std::string up = "z";
   bool is_paused = false;
   double speed = 1;
@@ -31,6 +32,7 @@ struct Arguments {
 
   // Without a window.
   bool is_headless = false;
+  bool is_quiet = false;
   std::uint64_t frame = 0;
   bool has_frame = false;
   std::string screenshot;

@@ -5,10 +5,12 @@
 
 #include <cstdio>
 
+#include "shared/message_text.h"
+
 namespace incise_view {
 
 int fail(ExitCode code, std::string_view message) {
-  fmt::print(stderr, "incise-view: {}\n", message);
+  fmt::print(stderr, "incise-view: error: {}\n", incise_apps::one_line(message));
   return code;
 }
 

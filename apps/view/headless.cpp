@@ -2,7 +2,10 @@
 #include "headless.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
@@ -15,6 +18,7 @@
 #include "render/image.h"
 #include "render/offscreen_target.h"
 #include "render/renderer.h"
+#include "shared/message_text.h"
 
 namespace incise_view {
 namespace {
@@ -95,9 +99,43 @@ std::uint64_t last_frame(const Arguments& a, const app::Session& session) {
   return a.frame;
 }
 
+/// How far the work is, on a terminal's stderr, with the time that is left.
+class Progress {
+ public:
+  explicit Progress(bool is_quiet) : is_on_(!is_quiet && isatty(fileno(stderr)) != 0), began_(Clock::now()) {}
+  ~Progress() {
+    if (is_on_) fmt::print(stderr, "\r\033[K");
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(std::uint64_t frame, std::uint64_t last) {
+    const auto now = Clock::now();
+    if (!is_on_ || last == 0 || now - drawn_ < std::chrono::milliseconds(100)) return;
+    drawn_ = now;
+    const double seconds = std::chrono::duration<double>(now - began_).count();
+    fmt::print(stderr, "\r\033[K{}", incise_apps::progress_text(frame, last, "frames", seconds));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_on_;
+  Clock::time_point began_, drawn_;
+};
+
+void say_written(const Arguments& a, std::uint64_t pictures) {
+  if (a.is_quiet) return;
+  const std::string size = fmt::format("{} x {} pixels", a.size.width, a.size.height);
+  if (!a.sequence.empty()) fmt::print(stderr, "incise-view: wrote {} ({} pictures, {})\n", a.sequence, pictures, size);
+  if (!a.screenshot.empty()) fmt::print(stderr, "incise-view: wrote {} (picture, {})\n", a.screenshot, size);
+}
+
 Status run(const Arguments& a, app::Session& session, Photographer& photographer) {
   const std::uint64_t last = last_frame(a, session);
+  Progress progress(a.is_quiet);
   for (std::uint64_t frame = 0; frame <= last; ++frame) {
+    progress.show(frame, last);
     if (frame > 0) {
       if (Status status = session.frame(); !status.ok()) return status;
     }
@@ -133,8 +171,11 @@ int run_headless(const Arguments& arguments) {
   if (!arguments.sequence.empty()) std::filesystem::create_directories(arguments.sequence, code);
   Photographer photographer(arguments, *session, std::move(trajectory).value(), std::move(renderer).value(),
                             std::move(target).value());
-  const Status status = run(arguments, *session, photographer);
-  return status.ok() ? kDone : fail(exit_of(status.error()), status.error().message);
+  if (const Status status = run(arguments, *session, photographer); !status.ok()) {
+    return fail(exit_of(status.error()), status.error().message);
+  }
+  say_written(arguments, last_frame(arguments, *session) / arguments.every + 1);
+  return kDone;
 }
 
 }  // namespace incise_view

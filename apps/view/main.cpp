@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -11,6 +12,7 @@
 int main(int argc, char** argv) {
   // Where the processor draws, one thread of it: the other cores are the simulation's.
   setenv("LP_NUM_THREADS", "1", 0);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is answered like a full disk
   try {
     incise_view::Arguments arguments;
     if (const std::optional<int> ended = parse(argc, argv, arguments)) return *ended;

@@ -81,13 +81,51 @@ quietly() {
   rm -f "$log"
 }
 
-# build_preset PRESET [CMAKE-ARGUMENT...]: configures and builds, quiet where nothing has to be done.
+# with_progress COMMAND...: runs a build by Ninja. On a terminal Ninja keeps one line up to date; elsewhere about twenty
+# lines tell how far it is and how long it takes yet, beside whatever the compiler has to say.
+with_progress() {
+  export NINJA_STATUS='[%f/%t, %e s] '
+  if [ -t 2 ]; then
+    "$@" >&2
+    return
+  fi
+  "$@" 2>&1 | awk '
+    match($0, /^\[[0-9]+\/[0-9]+, [0-9.]+ s\] /) {
+      split(substr($0, 2), part, /[\/, ]+/)
+      done = part[1]; total = part[2]; seconds = part[3]
+      if (done * 20 >= (shown + 1) * total || done == total) {
+        shown = int(done * 20 / total)
+        printf "built %d of %d, %d s, about %d s left\n", done, total, seconds, seconds * (total - done) / done
+        fflush()
+      }
+      next
+    }
+    /^ninja: no work to do/ {next}
+    {print; fflush()}' >&2
+}
+
+# build_preset PRESET [CMAKE-ARGUMENT...]: configures, and builds the array `targets`, or all where there is none.
 build_preset() {
   local preset=$1
   shift
   cd "$root"
   quietly "configuring the preset $preset" cmake --preset "$preset" "$@"
-  cmake --build --preset "$preset" -j "$jobs" -- --quiet >&2
+  with_progress cmake --build --preset "$preset" -j "$jobs" ${targets:+--target "${targets[@]}"}
+}
+
+# branch_point: the commit where this branch left origin/main; the last commit where there is none, or nothing since.
+branch_point() {
+  local base
+  base=$(git -C "$root" merge-base HEAD origin/main 2>/dev/null) || base=$(git -C "$root" rev-parse HEAD)
+  printf '%s\n' "$base"
+}
+
+# changed_files PATTERN...: files of the tree that differ from the branch point, those that git does not know included.
+changed_files() {
+  {
+    git -C "$root" diff --name-only --diff-filter=d "$(branch_point)" -- "$@"
+    git -C "$root" ls-files --others --exclude-standard -- "$@"
+  } | sort -u
 }
 
 # use_corpus: tells the programs where the real meshes are; leaves INCISE_CORPUS unset where there are none.

@@ -11,6 +11,7 @@ import re
 import shlex
 import subprocess
 import sys
+import time
 
 MOST_FILES = (40, 10, 2, 1)  # read together in the first round, the second, ...
 OURS = r"/(include/incise|src|tests|apps|bench|examples)/.*\.(h|cpp)$"
@@ -66,9 +67,15 @@ def main(root, jobs, paths):
     flags = read_flags(build)
     todo = {os.path.abspath(path) for path in paths} or set(flags)
     count, complaints = len(todo), set()
+    began = time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for most in MOST_FILES:
-            results = list(pool.map(lambda group: read(root, build, group, flags), groups_of(todo, flags, most)))
+            groups = groups_of(todo, flags, most)
+            results = []
+            for result in pool.map(lambda group: read(root, build, group, flags), groups):
+                results.append(result)
+                print("lint: %d of %d groups of at most %d files, %d s" %
+                      (len(results), len(groups), most, time.monotonic() - began), file=sys.stderr, flush=True)
             complaints.update(*(lines for lines, _ in results))
             todo = set().union(*(again for _, again in results))
     for line in sorted(complaints):

@@ -371,6 +371,10 @@ bool Simulation::redo() {
   return s.body.follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
 }
 
+Status Simulation::keep_undo(std::size_t operations) {
+  return state_->engine.keep_undo(operations);
+}
+
 const SimulationOptions& Simulation::options() const {
   return state_->options;
 }

@@ -54,6 +54,7 @@ class AbaqusReader {
       if (line.empty() || line.substr(0, 2) == "**" || line[0] != '*') continue;
       if (!card(parse_card(card_text(here)))) return false;
     }
+    left_out_.note(job_.out.notes);
     return resolve();
   }
 
@@ -109,7 +110,7 @@ class AbaqusReader {
     const bool quadratic = type == "c3d10" || type == "c3d10m" || type == "c3d10h" || type == "dc3d10" ||
                            type == "c3d10t" || type == "c3d10mh" || type == "c3d10hs";
     if (!linear && !quadratic) {
-      job_.out.notes.push_back("elements of type " + in_quotes(type) + " were left out");
+      leave_out(type);
       return true;
     }
     std::int32_t region = 0;
@@ -121,6 +122,18 @@ class AbaqusReader {
       if (!element(linear ? 4 : 10, region)) return false;
     }
     return true;
+  }
+
+  // Counts the rows of other elements; one that ends with a comma goes on in the next line.
+  void leave_out(const std::string& type) {
+    std::uint64_t n = 0;
+    bool goes_on = false;
+    while (next_row()) {
+      n += goes_on ? 0 : 1;
+      const std::string_view row = trim(in_.line());
+      goes_on = !row.empty() && row.back() == ',';
+    }
+    left_out_.add("elements of type " + in_quotes(type), n);
   }
 
   // One element; its row may go on over lines.
@@ -217,6 +230,7 @@ class AbaqusReader {
 
   Job& job_;
   Cursor in_;
+  LeftOut left_out_;
   IdMap node_ids_;
   IdMap tet_ids_;
   std::vector<std::int64_t> rows_;     // four node numbers per tet

@@ -75,6 +75,11 @@ bool ByteSource::read(char* out, std::size_t n) {
   return true;
 }
 
+bool ByteSource::is_at_end() const {
+  const std::string_view rest = text_.substr(pos_);
+  return held_ == 0 && std::all_of(rest.begin(), rest.end(), is_space);
+}
+
 void append_base64(std::string& out, std::string_view bytes) {
   const auto byte = [bytes](std::size_t i) {
     return i < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[i])} : 0U;

@@ -14,6 +14,45 @@ CellInt nodes_of(CellInt type) {
   return type == kVtkTriangle ? 3 : type == kVtkTet ? 4 : type == kVtkTet10 ? 10 : 0;
 }
 
+// What cells that are left out are called, after vtkCellType.h; empty for points and lines, which nobody misses.
+std::string kind_of(CellInt type) {
+  constexpr std::array<std::string_view, 28> kKinds = {"empty cells",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "triangles",
+                                                       "triangle strips",
+                                                       "polygons",
+                                                       "pixels",
+                                                       "quadrilaterals",
+                                                       "tets",
+                                                       "voxels",
+                                                       "hexahedra",
+                                                       "prisms",
+                                                       "pyramids",
+                                                       "pentagonal prisms",
+                                                       "hexagonal prisms",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "",
+                                                       "quadratic triangles",
+                                                       "quadratic quadrilaterals",
+                                                       "quadratic tets",
+                                                       "quadratic hexahedra",
+                                                       "quadratic prisms",
+                                                       "quadratic pyramids"};
+  if (type >= 0 && static_cast<std::size_t>(type) < kKinds.size() && (type < 17 || type > 20)) {
+    return std::string(kKinds[static_cast<std::size_t>(type)]);
+  }
+  if (type == 42) return "polyhedra";
+  if (type == 71) return "Lagrange tets";
+  if (type == 78) return "Bezier tets";
+  return "cells of type " + std::to_string(type);
+}
+
 }  // namespace
 
 bool CellSorter::fail_index(CellInt vertex, std::size_t n) {
@@ -67,7 +106,7 @@ bool CellSorter::add(const std::vector<CellInt>& types, const std::vector<CellIn
       }
     } else {
       slot_.push_back(0);
-      ++skipped_;
+      left_out_.add(kind_of(types[c]));
     }
   }
   return true;
@@ -126,8 +165,7 @@ void CellSorter::finish_notes() {
   pad(out.data.triangle_stroke, out.data.triangles.size());
   pad(out.data.origin_vertex, out.data.soup.points.size());
   pad(out.data.cut_front, out.data.soup.points.size());
-  if (skipped_ > 0)
-    out.notes.push_back(std::to_string(skipped_) + " cells that are neither tets nor triangles were left out");
+  left_out_.note(out.notes);
   if (fractions_ > 0) out.notes.push_back(std::to_string(fractions_) + " labels that are not integers became 0");
 }
 

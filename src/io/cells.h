@@ -59,7 +59,7 @@ class CellSorter {
   std::vector<CellInt> types_;
   int region_rank_ = 0;
   bool has_strokes_ = false;
-  std::uint64_t skipped_ = 0;
+  LeftOut left_out_;
   std::uint64_t fractions_ = 0;
 };
 

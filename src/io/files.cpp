@@ -10,6 +10,14 @@
 #include "io/gzip.h"
 #include "io/text.h"
 
+#if (defined(__unix__) || defined(__APPLE__)) && !defined(__EMSCRIPTEN__)
+#define INCISE_HAS_PROCESSES 1
+#include <signal.h>
+#include <unistd.h>
+#else
+#define INCISE_HAS_PROCESSES 0
+#endif
+
 namespace incise {
 inline namespace v0 {
 namespace io {
@@ -26,19 +34,73 @@ Error io_error(ErrorCode code, const fs::path& path, const std::string& what) {
   return {code, path.string() + ": " + what};
 }
 
+// What is being written beside its place is called NAME.PROCESS.NUMBER.incise-part.
+constexpr std::string_view kPart = ".incise-part";
+
+long process_number() {
+#if INCISE_HAS_PROCESSES
+  return static_cast<long>(getpid());
+#else
+  return 0;
+#endif
+}
+
+bool is_running([[maybe_unused]] std::int64_t process) {
+#if INCISE_HAS_PROCESSES
+  return kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
+#else
+  return true;
+#endif
+}
+
+// Whether a file was being written in the place of `path` by a process that is no more.
+bool is_stale(const std::string& name, const std::string& beside) {
+  if (name.size() <= beside.size() + kPart.size() || name.compare(0, beside.size(), beside) != 0) return false;
+  if (name.compare(name.size() - kPart.size(), kPart.size(), kPart) != 0) return false;
+  const std::string_view rest = std::string_view(name).substr(beside.size());
+  std::int64_t process = 0;
+  return parse_int(rest.substr(0, rest.find('.')), process) && process > 0 && process <= 0x7FFFFFFF &&
+         !is_running(process);
+}
+
+// Takes away what killed processes left of earlier attempts to write this file, as far as it is found among the first
+// names of its folder: a series of many files would look at all of them each time.
+void remove_stale(const fs::path& path) {
+  constexpr unsigned kNamesToLookAt = 1000;
+  std::error_code code;
+  unsigned looked_at = 0;
+  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  const std::string beside = path.filename().string() + ".";
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator at(folder, code), end; !code && at != end && looked_at < kNamesToLookAt;
+       at.increment(code), ++looked_at) {
+    if (is_stale(at->path().filename().string(), beside)) stale.push_back(at->path());
+  }
+  for (const fs::path& file : stale) fs::remove(file, code);
+}
+
 // A new file beside `path`, of a name that nobody has.
 File open_beside(const fs::path& path, fs::path& temporary) {
+  remove_stale(path);
   for (int i = 0; i < 1000; ++i) {
     temporary = path;
-    temporary += "." + std::to_string(i) + ".tmp";
+    temporary += "." + std::to_string(process_number()) + "." + std::to_string(i);
+    temporary += kPart;
     File file(std::fopen(temporary.string().c_str(), "wbx"));
     if (file || errno != EEXIST) return file;
   }
   return nullptr;
 }
 
+// Pipes and devices take the bytes themselves: nothing can be put in their place.
+bool is_written_in_place(const fs::path& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  return fs::is_fifo(status) || fs::is_character_file(status) || fs::is_socket(status);
+}
+
 Status write_all(const fs::path& path, std::string_view bytes, fs::path& temporary) {
-  File file = open_beside(path, temporary);
+  File file = is_written_in_place(path) ? File(std::fopen(path.string().c_str(), "wb")) : open_beside(path, temporary);
   if (!file) {
     const std::string why = std::strerror(errno);
     temporary.clear();
@@ -101,6 +163,7 @@ Status store_files(const std::vector<std::pair<fs::path, std::string_view>>& fil
   }
   for (std::size_t i = 0; i < files.size() && status.ok(); ++i) {
     std::error_code code;
+    if (temporary[i].empty()) continue;  // written in place
     fs::rename(temporary[i], files[i].first, code);
     if (code)
       status = io_error(ErrorCode::kIo, files[i].first, "cannot be replaced (" + code.message() + "); is it a folder?");

@@ -22,6 +22,7 @@ class MeditReader {
       if (same_word(keyword, "End")) break;
       if (!section(keyword)) return false;
     }
+    left_out_.note(job_.out.notes);
     return has_vertices_ || in_.fail("there is no Vertices section");
   }
 
@@ -33,6 +34,18 @@ class MeditReader {
     if (same_word(keyword, "TetrahedraP2")) return tets(10);
     if (same_word(keyword, "Triangles")) return triangles();
     if (same_word(keyword, "Corners") && is_ours_.front) return corners();
+    if (same_word(keyword, "Quadrilaterals")) return leave_out("quadrilaterals");
+    if (same_word(keyword, "Hexahedra")) return leave_out("hexahedra");
+    if (same_word(keyword, "Prisms")) return leave_out("prisms");
+    if (same_word(keyword, "Pyramids")) return leave_out("pyramids");
+    skip_numbers();
+    return true;
+  }
+
+  bool leave_out(std::string_view kind) {
+    std::int64_t n = 0;
+    if (!in_.count(n, 4, "number of elements")) return false;
+    left_out_.add(kind, static_cast<std::uint64_t>(n));
     skip_numbers();
     return true;
   }
@@ -153,6 +166,7 @@ class MeditReader {
   Job& job_;
   Cursor in_;
   bool has_vertices_ = false;
+  LeftOut left_out_;
   struct {
     bool stroke = false, origin = false, front = false;
   } is_ours_;  // which labels Incise wrote

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gmsh MSH 1.0, 2.x and 4.1, ASCII and binary, after the format chapter of the Gmsh reference manual.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <map>
 
 #include "incise/core/id.h"
 #include "io/reader.h"
+#include "io/writer.h"
 
 namespace incise {
 inline namespace v0 {
@@ -19,6 +21,40 @@ constexpr int kTet10 = 11;
 // Nodes per element type 0 to 31; 0 where the type does not exist.
 constexpr std::array<std::uint8_t, 32> kNodesOfType = {0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
                                                        8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
+
+// What elements that are left out are called; empty for points and lines, which nobody misses.
+constexpr std::array<std::string_view, 32> kKindOfType = {"",
+                                                          "",
+                                                          "",
+                                                          "quadrilaterals",
+                                                          "",
+                                                          "hexahedra",
+                                                          "prisms",
+                                                          "pyramids",
+                                                          "",
+                                                          "triangles6",
+                                                          "quadrilaterals9",
+                                                          "",
+                                                          "hexahedra27",
+                                                          "prisms18",
+                                                          "pyramids14",
+                                                          "",
+                                                          "quadrilaterals8",
+                                                          "hexahedra20",
+                                                          "prisms15",
+                                                          "pyramids13",
+                                                          "triangles9",
+                                                          "triangles10",
+                                                          "triangles12",
+                                                          "triangles15",
+                                                          "triangles15",
+                                                          "triangles21",
+                                                          "",
+                                                          "",
+                                                          "",
+                                                          "",
+                                                          "",
+                                                          ""};
 
 std::size_t nodes_of(std::int64_t type) {
   return type >= 0 && type < 32 ? kNodesOfType[static_cast<std::size_t>(type)] : 0;
@@ -96,8 +132,9 @@ class MshReader {
       if (section.empty() || section[0] != '$') return in_.text.fail("expected a section, found " + in_quotes(section));
       if (!read_section(section.substr(1))) return false;
     }
-    if (version_ == 0) return in_.text.fail("there is no $MeshFormat section; export it from Gmsh as MSH 2.2");
+    if (version_ == 0) return in_.text.fail("there is no $MeshFormat section; export it from Gmsh as MSH 4.1");
     if (!has_nodes_ || !has_elements_) return in_.text.fail("the sections of nodes and elements must both be there");
+    if (job_.mids.empty()) restore_order();
     return true;
   }
 
@@ -108,7 +145,7 @@ class MshReader {
     if (name == "NOD") return once(has_nodes_, "$NOD") && nodes_2() && end_section("ENDNOD");
     if (name == "ELM") return once(has_elements_, "$ELM") && elements_1() && end_section("ENDELM");
     if (version_ == 0 && (name == "Nodes" || name == "Elements" || name == "Entities")) {
-      return in_.text.fail("$" + std::string(name) + " comes before any $MeshFormat; export it from Gmsh as MSH 2.2");
+      return in_.text.fail("$" + std::string(name) + " comes before any $MeshFormat; export it from Gmsh as MSH 4.1");
     }
     if (name == "Nodes") {
       return once(has_nodes_, "$Nodes") && (version_ == 2 ? nodes_2() : nodes_4()) && end_section("EndNodes");
@@ -162,7 +199,7 @@ class MshReader {
       version_ = 4;
     } else {
       return job_.fail("MSH versions 1.0, 2.x and 4.1 can be read, but not " + std::to_string(version).substr(0, 3) +
-                           "; export it from Gmsh as MSH 2.2",
+                           "; export it from Gmsh as MSH 4.1",
                        ErrorCode::kUnsupported);
     }
     if ((type != 0 && type != 1) || (size != 4 && size != 8)) return text.fail("file type or data size is unknown");
@@ -243,16 +280,48 @@ class MshReader {
       data.triangles.push_back({row[0], row[1], row[2]});
       data.triangle_stroke.push_back(tag);
       data.has_foreign_labels = true;  // until $ElementData says that they are strokes
-    } else if (type > kTet && n > 0) {
-      ++skipped_;
+    } else {
+      left_out_.add(kKindOfType[static_cast<std::size_t>(type)]);
     }
     return true;
   }
 
   bool seal_elements() {
-    if (skipped_ > 0) job_.out.notes.push_back(std::to_string(skipped_) + " elements that are not tets were left out");
+    left_out_.note(job_.out.notes);
     if (tet_ids_.seal() && triangle_ids_.seal()) return true;
     return in_.fail("an element number is there twice");
+  }
+
+  // Of a file that Incise wrote: the blocks of entities took elements out of their order.
+  void restore_order() {
+    auto& data = job_.out.data;
+    const Order tets = sorted(tet_order_, data.soup.tets.size());
+    reorder(data.soup.tets, tets);
+    reorder(data.soup.regions, tets);
+    reorder(data.piece, tets);
+    const Order triangles = sorted(triangle_order_, data.triangles.size());
+    reorder(data.triangles, triangles);
+    reorder(data.triangle_stroke, triangles);
+  }
+
+  using Order = std::vector<std::size_t>;
+
+  // Where the element for each place stands; empty where no order is known.
+  static Order sorted(const std::vector<std::int32_t>& places, std::size_t n) {
+    Order from;
+    if (places.size() != n) return from;
+    for (std::size_t i = 0; i < n; ++i) from.push_back(i);
+    std::stable_sort(from.begin(), from.end(), [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+    return from;
+  }
+
+  template <class T>
+  static void reorder(std::vector<T>& values, const Order& from) {
+    if (values.size() != from.size()) return;
+    std::vector<T> old = std::move(values);
+    values.clear();
+    values.reserve(old.size());
+    for (const std::size_t i : from) values.push_back(old[i]);
   }
 
   bool elements_1() {
@@ -498,7 +567,8 @@ class MshReader {
   }
 
   static bool is_label_name(std::string_view name) {
-    return name == "region" || name == "piece" || name == "stroke" || name == "origin_vertex" || name == "cut_front";
+    return name == "region" || name == "piece" || name == "stroke" || name == "origin_vertex" || name == "cut_front" ||
+           name == kMshOrder;
   }
 
   // Triangles that the data leave out are skin, whatever their physical tag.
@@ -526,6 +596,9 @@ class MshReader {
       put(data.soup.regions, n_tets, tet_ids_.find(id), value);
     } else if (name == "piece") {
       put(data.piece, n_tets, tet_ids_.find(id), value);
+    } else if (name == kMshOrder) {
+      put(tet_order_, n_tets, tet_ids_.find(id), value);
+      put(triangle_order_, data.triangles.size(), triangle_ids_.find(id), value);
     } else if (name == "stroke") {
       put(data.triangle_stroke, data.triangles.size(), triangle_ids_.find(id), value);
     }
@@ -536,7 +609,8 @@ class MshReader {
   int version_ = 0;
   bool has_nodes_ = false;
   bool has_elements_ = false;
-  std::uint64_t skipped_ = 0;
+  LeftOut left_out_;
+  std::vector<std::int32_t> tet_order_, triangle_order_;
   IdMap node_ids_;
   IdMap tet_ids_;
   IdMap triangle_ids_;

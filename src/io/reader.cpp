@@ -118,6 +118,27 @@ std::uint32_t IdMap::find(std::int64_t id) const {
   return at != entries_.end() && at->id == id ? at->position : kInvalidIndex;
 }
 
+void LeftOut::add(std::string_view kind, std::uint64_t n) {
+  if (kind.empty() || n == 0) return;
+  const auto at = counts_.find(kind);
+  if (at != counts_.end()) {
+    at->second += n;
+  } else {
+    counts_.emplace(kind, n);
+  }
+}
+
+void LeftOut::note(std::vector<std::string>& notes) const {
+  std::string text;
+  std::size_t left = counts_.size();
+  for (const auto& [kind, count] : counts_) {
+    if (!text.empty()) text += left == 1 ? " and " : ", ";
+    text += std::to_string(count) + " " + kind;
+    --left;
+  }
+  if (!text.empty()) notes.push_back(text + " were left out; only tets are cut");
+}
+
 bool to_label(double value, std::int32_t& out) {
   if (!(std::abs(value) <= 2147483647.0) || std::floor(value) != value) return false;
   out = static_cast<std::int32_t>(value);

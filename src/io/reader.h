@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,6 +75,18 @@ class IdMap {
   std::size_t size_ = 0;
   std::vector<Entry> entries_;  // only once the numbers stop rising by one
   std::int64_t repeated_ = 0;
+};
+
+/// Counts, by what they are, the elements that a reader has no use for.
+class LeftOut {
+ public:
+  /// `kind` in the plural; nothing is counted where it is empty.
+  void add(std::string_view kind, std::uint64_t n = 1);
+  /// Adds a line such as "12 hexahedra and 3 prisms were left out"; nothing where all was taken.
+  void note(std::vector<std::string>& notes) const;
+
+ private:
+  std::map<std::string, std::uint64_t, std::less<>> counts_;
 };
 
 /// A number that counts from `base` as an index below `n`, where it is one.

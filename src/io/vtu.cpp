@@ -228,7 +228,7 @@ class VtuReader {
     if (format != "ascii")
       encoding_ = format == "appended" ? (appended_.base64 ? "appended base64" : "appended raw") : "base64";
     if (format == "ascii" || format.empty()) return read_ascii(array, text, n, out);
-    if (format == "binary") return read_binary(array, ByteSource(text, true), n, *type, out);
+    if (format == "binary") return read_binary(array, ByteSource(text, true), true, n, *type, out);
     if (format != "appended") return fail(array, "format " + in_quotes(format) + " of a DataArray is unknown");
     std::int64_t offset = 0;
     if (!parse_int(array.attribute("offset").value(), offset) || offset < 0 ||
@@ -236,7 +236,7 @@ class VtuReader {
       return fail(array, "offset lies outside the section AppendedData");
     }
     const auto rest = appended_.payload.substr(static_cast<std::size_t>(offset));
-    return read_binary(array, ByteSource(rest, appended_.base64), n, *type, out);
+    return read_binary(array, ByteSource(rest, appended_.base64), false, n, *type, out);
   }
 
   template <class T>
@@ -276,13 +276,14 @@ class VtuReader {
     return true;
   }
 
+  // `is_alone`: the text is this array's and nothing else's.
   template <class T>
-  bool read_binary(const pugi::xml_node& array, ByteSource source, std::size_t n, const ScalarType& type,
+  bool read_binary(const pugi::xml_node& array, ByteSource source, bool is_alone, std::size_t n, const ScalarType& type,
                    std::vector<T>& out) {
     std::string raw;
     const std::size_t bytes = n * type.bytes;
     const bool got = zlib_ ? read_blocks(source, bytes, raw) : read_plain(source, bytes, raw);
-    if (!got) return fail_size(array, n);
+    if (!got || (is_alone && !source.is_at_end())) return fail_size(array, n);
     out.resize(n);
     for (std::size_t i = 0; i < n; ++i) out[i] = decode<T>(raw.data() + i * type.bytes, type, big_);
     return true;

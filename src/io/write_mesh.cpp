@@ -1,66 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writers of all mesh formats. Each makes the whole text; `store_files` then writes it beside its place and renames.
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <map>
-#include <type_traits>
 
 #include "incise/io/base64.h"
 #include "incise/io/mesh_file.h"
 #include "io/cells.h"
 #include "io/files.h"
 #include "io/gzip.h"
-#include "io/text.h"
+#include "io/reader.h"
+#include "io/writer.h"
 
 namespace incise {
 inline namespace v0 {
 namespace io {
 namespace {
-
-using Labels = std::vector<std::int32_t>;
-
-std::int32_t label(const Labels& labels, std::size_t i) {
-  return labels.empty() ? 0 : labels[i];
-}
-
-// Text with numbers that read back exactly.
-class Text {
- public:
-  Text& operator<<(std::string_view text) {
-    out_ += text;
-    return *this;
-  }
-  Text& operator<<(char c) {
-    out_ += c;
-    return *this;
-  }
-  Text& operator<<(double value) {
-    append_double(out_, value);
-    return *this;
-  }
-  template <class Int>
-  requires std::is_integral_v<Int> Text& operator<<(Int value) {
-    append_int(out_, static_cast<std::int64_t>(value));
-    return *this;
-  }
-  Text& operator<<(const Vec3& p) { return *this << p.x() << ' ' << p.y() << ' ' << p.z(); }
-  // Vertex numbers that count from `base`.
-  template <std::size_t N>
-  Text& row(const std::array<std::uint32_t, N>& vertices, std::uint32_t base) {
-    for (std::size_t k = 0; k < N; ++k) *this << (k == 0 ? std::string_view() : " ") << vertices[k] + base;
-    return *this;
-  }
-
-  std::string take() { return std::move(out_); }
-
- private:
-  std::string out_;
-};
-
-bool has_strokes(const MeshData& data) {
-  return !data.triangle_stroke.empty() && !data.has_foreign_labels;
-}
 
 // Which labels are ours: without it a reader must take them for somebody else's.
 void medit_mark(Text& out, const MeshData& data) {
@@ -104,62 +59,6 @@ std::string write_medit(const MeshData& data) {
   return out.take();
 }
 
-// One array over all cells, tets first; the other kind has 0.
-Labels cell_array(const MeshData& data, const Labels& of_tets, const Labels& of_triangles) {
-  Labels all(of_tets);
-  all.resize(data.soup.tets.size(), 0);
-  all.insert(all.end(), of_triangles.begin(), of_triangles.end());
-  all.resize(data.soup.tets.size() + data.triangles.size(), 0);
-  return all;
-}
-
-struct NamedLabels {
-  std::string_view name;
-  Labels values;
-};
-
-std::vector<NamedLabels> point_arrays(const MeshData& data) {
-  std::vector<NamedLabels> arrays;
-  if (!data.origin_vertex.empty()) arrays.push_back({"origin_vertex", data.origin_vertex});
-  if (!data.cut_front.empty()) arrays.push_back({"cut_front", data.cut_front});
-  return arrays;
-}
-
-// $ElementData or $NodeData with one value for every element or node: readers such as meshio want no fewer.
-void msh_data(Text& out, std::string_view section, std::string_view name, const Labels& values) {
-  out << "$" << section << "\n1\n\"" << name << "\"\n1\n0\n3\n0\n1\n" << values.size() << '\n';
-  for (std::size_t i = 0; i < values.size(); ++i) out << i + 1 << ' ' << values[i] << '\n';
-  out << "$End" << section << '\n';
-}
-
-std::string write_msh(const MeshData& data) {
-  Text out;
-  const auto& soup = data.soup;
-  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << soup.points.size() << '\n';
-  for (std::size_t i = 0; i < soup.points.size(); ++i) out << i + 1 << ' ' << soup.points[i] << '\n';
-  out << "$EndNodes\n$Elements\n" << soup.tets.size() + data.triangles.size() << '\n';
-  const auto element = [&out](std::size_t number, int type, std::int32_t physical) -> Text& {
-    return out << number << ' ' << type << " 2 " << physical << ' ' << std::max(physical, 1) << ' ';
-  };
-  for (std::size_t i = 0; i < soup.tets.size(); ++i) {
-    element(i + 1, 4, label(soup.regions, i)).row(soup.tets[i], 1) << '\n';
-  }
-  for (std::size_t i = 0; i < data.triangles.size(); ++i) {
-    element(soup.tets.size() + i + 1, 2, label(data.triangle_stroke, i)).row(data.triangles[i], 1) << '\n';
-  }
-  out << "$EndElements\n";
-  const auto cell_data = [&](std::string_view name, const Labels& of_tets, const Labels& of_triangles) {
-    if (!of_tets.empty() || !of_triangles.empty()) {
-      msh_data(out, "ElementData", name, cell_array(data, of_tets, of_triangles));
-    }
-  };
-  cell_data("region", soup.regions, {});
-  cell_data("piece", data.piece, {});
-  if (has_strokes(data)) cell_data("stroke", {}, data.triangle_stroke);
-  for (const NamedLabels& array : point_arrays(data)) msh_data(out, "NodeData", array.name, array.values);
-  return out.take();
-}
-
 std::vector<NamedLabels> cell_arrays(const MeshData& data) {
   std::vector<NamedLabels> arrays;
   arrays.push_back({"region", cell_array(data, data.soup.regions, {})});
@@ -197,18 +96,6 @@ std::string write_vtk(const MeshData& data) {
 }
 
 #if INCISE_WITH_VTU
-
-// Little-endian bytes on every machine.
-template <class T>
-void append_bytes(std::string& out, T value) {
-  std::uint64_t bits = 0;
-  if constexpr (sizeof(T) == 8) {
-    std::memcpy(&bits, &value, sizeof value);
-  } else {
-    bits = static_cast<std::make_unsigned_t<T>>(value);
-  }
-  for (std::size_t i = 0; i < sizeof value; ++i) out += static_cast<char>((bits >> (8 * i)) & 255U);
-}
 
 // Inline base64, in zlib blocks where zlib is there: the one form that VTK, ParaView and meshio all read exactly.
 class VtuWriter {
@@ -414,11 +301,36 @@ Error unknown_extension(std::string_view extension) {
 
 }  // namespace
 
-Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData& data) {
+Labels cell_array(const MeshData& data, const Labels& of_tets, const Labels& of_triangles) {
+  Labels all(of_tets);
+  all.resize(data.soup.tets.size(), 0);
+  all.insert(all.end(), of_triangles.begin(), of_triangles.end());
+  all.resize(data.soup.tets.size() + data.triangles.size(), 0);
+  return all;
+}
+
+std::vector<NamedLabels> point_arrays(const MeshData& data) {
+  std::vector<NamedLabels> arrays;
+  if (!data.origin_vertex.empty()) arrays.push_back({"origin_vertex", data.origin_vertex});
+  if (!data.cut_front.empty()) arrays.push_back({"cut_front", data.cut_front});
+  return arrays;
+}
+
+std::optional<WriteOptions> write_options_named(std::string_view name) {
+  if (name == "msh" || name == "msh41") return WriteOptions{".msh", MshVariant::k41};
+  if (name == "msh41-binary") return WriteOptions{".msh", MshVariant::k41Binary};
+  if (name == "msh22") return WriteOptions{".msh", MshVariant::k22};
+  for (const std::string_view plain : {"mesh", "vtk", "vtu", "node", "veg", "inp"}) {
+    if (name == plain) return WriteOptions{"." + std::string(plain), MshVariant::k41};
+  }
+  return std::nullopt;
+}
+
+Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData& data, MshVariant msh) {
   return guarded<std::string>(std::string(extension), [&]() -> Result<std::string> {
     if (const char* fault = find_fault(data)) return Error{ErrorCode::kBadArgument, fault};
     if (extension == ".mesh") return write_medit(data);
-    if (extension == ".msh") return write_msh(data);
+    if (extension == ".msh") return write_msh(data, msh);
     if (extension == ".vtk") return write_vtk(data);
     if (extension == ".node") return write_node(data);
     if (extension == ".ele") return write_ele(data);
@@ -433,21 +345,31 @@ Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData&
   });
 }
 
-Status write_mesh(const std::filesystem::path& path, const MeshData& data) {
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path, const WriteOptions& options) {
   const Extension extension = extension_of(path);
-  const bool pair = extension.name == ".node" || extension.name == ".ele";
-  std::vector<std::string> names = {extension.name};
-  if (pair) names = {".node", ".ele"};
-  std::vector<std::filesystem::path> paths;
+  const std::string& name = options.extension.empty() ? extension.name : options.extension;
+  if (name != ".node" && name != ".ele") return {path};
+  std::vector<std::filesystem::path> files;
+  for (const char* half : {".node", ".ele"}) {
+    std::filesystem::path file = path;
+    if (extension.gzipped) file.replace_extension();
+    file.replace_extension(half);
+    if (extension.gzipped) file += ".gz";
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+Status write_mesh(const std::filesystem::path& path, const MeshData& data, const WriteOptions& options) {
+  const Extension extension = extension_of(path);
+  const std::vector<std::filesystem::path> paths = mesh_files(path, options);
   std::vector<std::string> bytes;
-  for (const std::string& name : names) {
-    Result<std::string> made = write_mesh_bytes(name, data);
+  for (const std::filesystem::path& file : paths) {
+    const bool is_half = paths.size() > 1;
+    const std::string name = is_half || options.extension.empty() ? extension_of(file).name : options.extension;
+    Result<std::string> made = write_mesh_bytes(name, data, options.msh);
     if (!made) return made.error();
     bytes.push_back(std::move(made).value());
-    std::filesystem::path target = path;
-    if (pair) target = (extension.gzipped ? target.replace_extension() : target).replace_extension(name);
-    if (pair && extension.gzipped) target += ".gz";
-    paths.push_back(target);
   }
   return store_packed(paths, std::move(bytes), extension.gzipped);
 }

@@ -11,7 +11,7 @@
 namespace incise_test {
 namespace {
 
-[[noreturn]] void become_program(const std::vector<std::string>& arguments, const std::string& out,
+[[noreturn]] void become_program(const std::vector<std::string>& arguments, int in, const std::string& out,
                                  const std::string& err) {
   std::vector<std::string> words = {INCISE_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -19,7 +19,7 @@ namespace {
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const int flags = O_WRONLY | O_CREAT | O_TRUNC;
-  dup2(open("/dev/null", O_RDONLY), 0);
+  dup2(in, 0);
   dup2(open(out.c_str(), flags, 0600), 1);
   dup2(open(err.c_str(), flags, 0600), 2);
   execv(argv[0], argv.data());
@@ -36,7 +36,7 @@ Outcome run_until(const std::vector<std::string>& arguments, int signal_number, 
   if (child == 0) {
     const rlimit limit{bytes, RLIM_INFINITY};
     setrlimit(RLIMIT_FSIZE, &limit);
-    become_program(arguments, out, err);
+    become_program(arguments, open("/dev/null", O_RDONLY), out, err);
   }
   if (signal_number != 0) {
     usleep(static_cast<useconds_t>(seconds * 1e6));
@@ -51,6 +51,39 @@ Outcome run_until(const std::vector<std::string>& arguments, int signal_number, 
 
 Outcome run(const std::vector<std::string>& arguments) {
   return run_until(arguments, 0, 0);
+}
+
+Outcome run_on(const std::string& input, const std::vector<std::string>& arguments) {
+  const Folder folder;
+  int ends[2] = {-1, -1};
+  if (pipe(ends) != 0) return {};
+  const pid_t child = fork();
+  if (child == 0) {
+    close(ends[1]);
+    become_program(arguments, ends[0], folder / "stdout", folder / "stderr");
+  }
+  close(ends[0]);
+  const auto old = std::signal(SIGPIPE, SIG_IGN);  // it may end before it has read all
+  for (std::size_t at = 0; at < input.size();) {
+    const ssize_t written = write(ends[1], input.data() + at, input.size() - at);
+    if (written <= 0) break;
+    at += static_cast<std::size_t>(written);
+  }
+  close(ends[1]);
+  std::signal(SIGPIPE, old);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(folder / "stdout"),
+          read(folder / "stderr")};
+}
+
+Outcome run_to(const std::string& out, const std::vector<std::string>& arguments) {
+  const Folder folder;
+  const pid_t child = fork();
+  if (child == 0) become_program(arguments, open("/dev/null", O_RDONLY), out, folder / "stderr");
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), "", read(folder / "stderr")};
 }
 
 Outcome run_interrupted(const std::vector<std::string>& arguments, double seconds) {

@@ -16,6 +16,10 @@ struct Outcome {
 
 /// Runs `incise` with these arguments, stdin empty.
 Outcome run(const std::vector<std::string>& arguments);
+/// The same with `input` on stdin, by a pipe.
+Outcome run_on(const std::string& input, const std::vector<std::string>& arguments);
+/// The same with stdout to a file or device.
+Outcome run_to(const std::string& out, const std::vector<std::string>& arguments);
 /// The same, and sends SIGINT after `seconds`.
 Outcome run_interrupted(const std::vector<std::string>& arguments, double seconds);
 /// The same with no file growing beyond `bytes`.

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "cut/flagged_body.h"
-#include "cut/star_separation.h"
+#include "support/star_separation.h"
 #include "support/bodies.h"
 #include "support/engines.h"
 #include "support/random_strokes.h"

@@ -384,6 +384,41 @@ TEST(ReadMesh, formats_of_text_that_are_not_read_are_named) {
   EXPECT_SAYS("$MeshFormat\n4.0 0 8\n$EndMeshFormat\n", "not 4.0");
 }
 
+std::string notes_of(const std::string& bytes, const std::string& name = "a.x") {
+  const auto file = read_mesh_bytes(bytes, name);
+  if (!file) return file.error().message;
+  std::string notes;
+  for (const std::string& note : file->notes) notes += note + "\n";
+  return notes;
+}
+
+TEST(ReadMesh, elements_that_are_left_out_are_counted_by_name) {
+  const std::string rest = " were left out; only tets are cut\n";
+  EXPECT_EQ(notes_of(replaced(bytes_of("medit.mesh"), "Edges\n1\n1 2 0\n",
+                              "Edges\n1\n1 2 0\nHexahedra\n1\n1 2 3 4 5 1 2 3 0\nQuadrilaterals\n2\n1 2 3 4 0\n1 2 3 4 "
+                              "0\nPrisms\n1\n1 2 3 4 5 1 0\n")),
+            "1 hexahedra, 1 prisms and 2 quadrilaterals" + rest);
+  EXPECT_EQ(notes_of(replaced(bytes_of("v2.msh"), "$Elements\n3\n",
+                              "$Elements\n5\n8 5 2 0 1 9 7 5 3 1 9 7 5\n9 3 2 0 1 9 7 5 3\n")),
+            "1 hexahedra and 1 quadrilaterals" + rest);
+  std::string vtk = replaced(bytes_of("ascii.vtk"), "CELLS 2 10\n", "CELLS 4 22\n5 0 1 2 3 4\n5 0 1 2 3 4\n");
+  vtk = replaced(replaced(vtk, "CELL_TYPES 2\n", "CELL_TYPES 4\n14 99 "), "CELL_DATA 2", "CELL_DATA 4");
+  EXPECT_EQ(notes_of(replaced(vtk, "default\n0 7", "default\n0 0 0 7")), "1 cells of type 99 and 1 pyramids" + rest);
+  EXPECT_EQ(notes_of(replaced(bytes_of("abaqus.inp"), "*ELSET,",
+                              "*ELEMENT, TYPE=C3D8R\n7, 1, 2, 3, 4,\n5, 1, 2, 3\n8, 1, 2, 3, 4, 5, 1, 2, 3\n*ELSET,")),
+            "2 elements of type 'c3d8r'" + rest);
+}
+
+TEST(ReadMesh, base64_of_the_wrong_length_is_refused) {
+  const auto bytes = io::write_mesh_bytes(".vtu", test::two_tets());
+  ASSERT_TRUE(bytes.ok());
+  const std::size_t end = bytes->find("\n</DataArray>");  // of the points
+  EXPECT_SAYS(std::string(*bytes).insert(end, "AAAA"), "must hold 15 numbers");
+  EXPECT_SAYS(std::string(*bytes).insert(end, "AA=="), "must hold 15 numbers");
+  EXPECT_SAYS(std::string(*bytes).erase(end - 4, 4), "must hold 15 numbers");
+  EXPECT_TRUE(read_mesh_bytes(std::string(*bytes).insert(end, " \n\t ")).ok());
+}
+
 const std::string kMeditHead = "MeshVersionFormatted 2\nDimension 3\n";
 const std::string kMeditRest =
     "Vertices\n4\n0 0 0 3\n1 0 0 0\n0 1 0 1\n0 0 1 9\nCorners\n2\n2\n3\nTriangles\n1\n1 2 3 5\nTetrahedra\n1\n1 2 3 4 "

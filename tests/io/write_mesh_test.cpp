@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "incise/io/mesh_file.h"
@@ -126,6 +130,108 @@ TEST_P(WriteMesh, the_same_mesh_gives_the_same_bytes) {
 INSTANTIATE_TEST_SUITE_P(Formats, WriteMesh,
                          testing::Values(".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg", ".inp", ".mesh.gz",
                                          ".msh.gz", ".vtk.gz", ".vtu.gz", ".node.gz", ".ele.gz", ".veg.gz", ".inp.gz"));
+
+class WriteMsh : public testing::TestWithParam<const char*> {};
+
+TEST_P(WriteMsh, reads_back_bit_for_bit_in_the_same_order) {
+  const io::WriteOptions options = *io::write_options_named(GetParam());
+  io::MeshData data = full_mesh();
+  data.soup.tets = {{0, 1, 2, 3}, {1, 2, 3, 4}, {0, 1, 2, 4}, {0, 1, 3, 4}};  // regions take turns
+  data.soup.regions = {3, -2, 3, 0};
+  data.piece = {1, 2, 1, 2};
+  for (const bool is_foreign : {false, true}) {
+    data.has_foreign_labels = is_foreign;
+    const auto bytes = io::write_mesh_bytes(options.extension, data, options.msh);
+    ASSERT_TRUE(bytes.ok());
+    const auto back = io::read_mesh_bytes(*bytes);
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    EXPECT_TRUE(same_bits(back->data.soup.points, data.soup.points));
+    EXPECT_EQ(back->data.soup.tets, data.soup.tets);
+    EXPECT_EQ(back->data.soup.regions, data.soup.regions);
+    EXPECT_EQ(back->data.piece, data.piece);
+    EXPECT_EQ(back->data.triangles, data.triangles);
+    EXPECT_EQ(back->data.triangle_stroke, data.triangle_stroke);
+    EXPECT_EQ(back->data.has_foreign_labels, is_foreign);
+    EXPECT_EQ(back->data.origin_vertex, data.origin_vertex);
+    EXPECT_EQ(back->data.cut_front, data.cut_front);
+    EXPECT_TRUE(back->notes.empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, WriteMsh, testing::Values("msh", "msh41", "msh41-binary", "msh22"));
+
+TEST(WriteMsh, has_a_physical_group_for_each_region_and_each_stroke) {
+  io::MeshData data = full_mesh();
+  data.soup.regions = {3, 7};
+  const std::string bytes = *io::write_mesh_bytes(".msh", data);
+  for (const char* part : {"4.1 0 8\n", "$PhysicalNames\n4\n2 1 \"stroke_1\"\n2 2 \"stroke_2\"\n3 3 \"region_3\"\n",
+                           "3 7 \"region_7\"\n", "$Entities\n0 0 3 2\n", " 1 7 0\n"}) {
+    EXPECT_NE(bytes.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(WriteOptions, are_named) {
+  EXPECT_EQ(io::write_options_named("msh")->msh, io::MshVariant::k41);
+  EXPECT_EQ(io::write_options_named("msh22")->msh, io::MshVariant::k22);
+  EXPECT_EQ(io::write_options_named("vtu")->extension, ".vtu");
+  EXPECT_FALSE(io::write_options_named("stl").has_value());
+  EXPECT_EQ(io::mesh_files("a.msh").size(), 1U);
+  EXPECT_EQ(io::mesh_files("b/a.node.gz"), (std::vector<fs::path>{"b/a.node.gz", "b/a.ele.gz"}));
+}
+
+/// A new folder of this test.
+fs::path fresh_folder(const std::string& name) {
+  const fs::path folder = fs::path(testing::TempDir()) / (name + "." + std::to_string(::getpid()));
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The number of a process that has ended.
+pid_t ended_process() {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  return child;
+}
+
+TEST(WriteMesh, takes_away_what_killed_processes_left_of_the_same_file) {
+  const fs::path folder = fresh_folder("incise_stale");
+  const std::string stale = "a.mesh." + std::to_string(ended_process()) + ".0.incise-part";
+  const std::string busy = "a.mesh." + std::to_string(::getppid()) + ".0.incise-part";
+  const std::vector<std::string> others = {"a.mesh.5.txt", "a.mesh.x.0.incise-part", "b" + stale, busy};
+  for (const std::string& name : others) std::ofstream(folder / name) << "kept";
+  std::ofstream(folder / stale) << "half a mesh";
+  ASSERT_TRUE(io::write_mesh(folder / "a.mesh", test::two_tets()).ok());
+  std::vector<std::string> expected = others;
+  expected.push_back("a.mesh");
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(names_in(folder), expected);
+  fs::remove_all(folder);
+}
+
+TEST(WriteMesh, writes_into_a_pipe_and_leaves_it_there) {
+  const fs::path folder = fresh_folder("incise_pipe");
+  const fs::path pipe = folder / "pipe.mesh";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const pid_t child = fork();
+  if (child == 0) _exit(io::write_mesh(pipe, test::two_tets()).ok() ? 0 : 1);
+  const auto back = io::read_mesh(pipe);
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(back->data.soup.tets, test::two_tets().soup.tets);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  fs::remove_all(folder);
+}
 
 TEST(WriteMeshErrors, bad_data_and_bad_places_are_refused_and_leave_nothing) {
   const fs::path folder = fs::path(testing::TempDir()) / "incise_write_errors";

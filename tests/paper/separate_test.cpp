@@ -10,7 +10,7 @@
 #include <set>
 
 #include "cut/pinched_edges.h"
-#include "cut/star_separation.h"
+#include "support/star_separation.h"
 #include "paper/contact.h"
 #include "paper/crossing.h"
 #include "paper/dividable.h"

@@ -28,19 +28,26 @@ end() {
 }
 trap end EXIT
 
-start_server() { # its number comes from Xvfb, which takes the first that is free
-  Xvfb -displayfd 3 -screen 0 1280x800x24 +extension GLX -nolisten tcp 3>display.txt >/dev/null 2>&1 &
+# A server of this test's own. Its number comes from Xvfb, which takes the first that is free. With -noreset it stays as
+# it is when a client leaves: by default it starts anew when the last one does, and whoever connects meanwhile is told
+# that the display cannot be opened.
+start_server() {
+  unset DISPLAY WAYLAND_DISPLAY XAUTHORITY
+  Xvfb -displayfd 3 -screen 0 1280x800x24 +extension GLX -nolisten tcp -noreset 3>display.txt >/dev/null 2>server.txt &
   server=$!
-  wait_for "Xvfb" test -s display.txt
+  wait_for "the number of Xvfb's display" grep -q '^[0-9][0-9]*$' display.txt
   DISPLAY=:$(cat display.txt)
   export DISPLAY
+  wait_for "an answer of Xvfb" answers
 }
+answers() { [ "$(xdotool getdisplaygeometry)" = "1280 800" ]; }
 wait_for() { # wait_for WHAT COMMAND...: until the command succeeds; a minute at most
   local what=$1 i
   shift
   for ((i = 0; i < 600; ++i)); do
     if "$@" >/dev/null 2>&1; then return 0; fi
     [ -z "$window" ] || kill -0 "$window" 2>/dev/null || fail "it ended while waiting for $what"
+    kill -0 "$server" 2>/dev/null || fail "Xvfb ended while waiting for $what: $(cat server.txt)"
     sleep 0.1
   done
   fail "waited in vain for $what"
@@ -51,13 +58,13 @@ open_window() { # open_window ARGUMENT...
   window=$!
   wait_for "the window" xdotool search --onlyvisible --pid "$window"
   # Its first picture tells that it takes keys.
-  wait_for "a first picture" take_picture first
+  wait_for "a first picture" take_picture first 10
 }
-take_picture() { # take_picture NAME: by the key for it, as NAME.png
-  local before after
+take_picture() { # take_picture NAME [TRIES]: by the key for it, as NAME.png; waits for a minute, or TRIES fifths of a second
+  local before after i
   before=$(find . -maxdepth 1 -name 'incise-[0-9]*.png' | wc -l)
   xdotool key s
-  for _ in 1 2 3 4 5 6 7 8 9 10; do
+  for ((i = 0; i < ${2:-300}; ++i)); do
     sleep 0.2
     after=$(find . -maxdepth 1 -name 'incise-[0-9]*.png' -size +0 | wc -l)
     [ "$after" -gt "$before" ] && break
@@ -134,7 +141,14 @@ status=0
 status=0
 env -u DISPLAY -u WAYLAND_DISPLAY "$bin/incise-view" >out.txt 2>&1 || status=$?
 [ "$status" = 5 ] && grep -q -- --headless out.txt || fail "without a display: exit $status, $(cat out.txt)"
-env -u DISPLAY "$bin/incise-view" --headless --replay session.jsonl --frame 40 --screenshot headless.png --size 640x360 ||
-  fail "headless, without a display"
+env -u DISPLAY "$bin/incise-view" --headless --replay session.jsonl --frame 40 --screenshot headless.png --size 640x360 \
+  2>out.txt || fail "headless, without a display"
 picked headless.png
+[ "$(cat out.txt)" = "incise-view: wrote headless.png (picture, 640 x 360 pixels)" ] || fail "it said $(cat out.txt)"
+"$bin/incise-view" --headless -q --screenshot quiet.png --size 64x48 2>out.txt || fail "quiet"
+[ ! -s out.txt ] || fail "-q said $(cat out.txt)"
+status=0
+"$bin/incise-view" --heedless 2>out.txt || status=$?
+[ "$status" = 2 ] && grep -q '^incise-view: error: .*(did you mean --headless?); see incise-view --help$' out.txt ||
+  fail "an unknown option: exit $status, $(cat out.txt)"
 echo "window_smoke: all steps passed"

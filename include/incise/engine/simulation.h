@@ -101,6 +101,9 @@ class Simulation {
   /// Returns false where there is none.
   bool undo();
   bool redo();
+  /// Keeps no more than the last `operations` strokes for undo; see `Engine::keep_undo`. The body and the blade follow
+  /// each frame and lose nothing. Errors: kBadArgument for 0.
+  Status keep_undo(std::size_t operations);
 
   [[nodiscard]] const SimulationOptions& options() const;
   [[nodiscard]] const Engine& engine() const;

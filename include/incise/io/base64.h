@@ -22,6 +22,8 @@ class ByteSource {
   }
   /// Read exactly `n` bytes; false where the text ends or holds foreign characters.
   [[nodiscard]] bool read(char* out, std::size_t n);
+  /// Whether nothing is left but white space.
+  [[nodiscard]] bool is_at_end() const;
 
  private:
   bool refill();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,21 +72,47 @@ using SiblingLoader = std::function<Result<std::string>(const std::string& name)
 [[nodiscard]] Result<MeshFile> read_mesh_bytes(std::string_view bytes, const std::string& name = "mesh",
                                                const SiblingLoader& sibling = {}, const ReadLimits& limits = {});
 
+/// The variants of Gmsh's format that can be written.
+enum class MshVariant : std::uint8_t {
+  k41,        ///< MSH 4.1 ASCII: each region and each stroke is an entity with a physical group
+  k41Binary,  ///< MSH 4.1 binary: half the size, and faster
+  k22,        ///< MSH 2.2 ASCII, for programs that read no later one
+};
+
+/// How a mesh is written, where the name of its file leaves that open.
+struct WriteOptions {
+  std::string extension = {};        ///< such as ".vtu", instead of the file's own; empty: the file's own
+  MshVariant msh = MshVariant::k41;  ///< of ".msh"
+};
+
+/// The options that a short name stands for: "mesh", "msh" or "msh41", "msh41-binary", "msh22", "vtk", "vtu", "node",
+/// "veg" or "inp"; nothing where it stands for none.
+[[nodiscard]] std::optional<WriteOptions> write_options_named(std::string_view name);
+/// The names that `write_options_named` knows, for messages.
+inline constexpr const char* kFormatNames = "mesh, msh41, msh41-binary, msh22, vtk, vtu, node, veg, inp";
+
 /// Write a mesh in the format that the extension names, gzipped where `.gz` follows.
 ///
-/// `.mesh`, `.msh` (2.2 ASCII), `.vtk` (4.2 ASCII), `.vtu`, `.node` or `.ele` (both are written), `.veg`, `.inp`.
-/// Numbers read back bit for bit. `region` goes everywhere; `piece` everywhere but `.mesh`; triangles with `stroke`,
-/// and `cut_front`, to `.mesh .msh .vtk .vtu`; `origin_vertex` to these and `.node`. Foreign face labels stay what
-/// they are: no reader takes them for strokes.
-/// The file is written beside its place and renamed: no partial file is ever seen under its name.
+/// `.mesh`, `.msh` (4.1 ASCII; see `MshVariant`), `.vtk` (4.2 ASCII), `.vtu`, `.node` or `.ele` (both are written),
+/// `.veg`, `.inp`. Numbers read back bit for bit. `region` goes everywhere; `piece` everywhere but `.mesh`; triangles
+/// with `stroke`, and `cut_front`, to `.mesh .msh .vtk .vtu`; `origin_vertex` to these and `.node`. Foreign face labels
+/// stay what they are: no reader takes them for strokes.
+/// The file is written beside its place and renamed: no partial file is ever seen under its name. What a killed process
+/// left there of the same file is taken away. Pipes and devices are written in place.
 /// @param data  indices in range, finite points, arrays of the documented lengths.
 /// Errors: `kBadArgument` for bad data or an unknown extension, `kIo`. Cost: O(n); holds the file's bytes.
-[[nodiscard]] Status write_mesh(const std::filesystem::path& path, const MeshData& data);
+[[nodiscard]] Status write_mesh(const std::filesystem::path& path, const MeshData& data,
+                                const WriteOptions& options = {});
 
-/// The bytes that `write_mesh` would put into the file of that extension (without `.gz`), for tests and the web.
+/// The files that `write_mesh` makes: the path itself, but for TetGen's pair. Cost: O(1).
+[[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path,
+                                                            const WriteOptions& options = {});
+
+/// The bytes that `write_mesh` would put into the file of that extension (without `.gz`), for tests, pipes and the web.
 ///
 /// @param extension  ".mesh", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg" or ".inp".
-[[nodiscard]] Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData& data);
+[[nodiscard]] Result<std::string> write_mesh_bytes(std::string_view extension, const MeshData& data,
+                                                   MshVariant msh = MshVariant::k41);
 
 }  // namespace io
 }  // namespace v0

@@ -19,12 +19,6 @@ Error in_stroke(Error error, const CutJob& job, std::size_t index) {
   return error;
 }
 
-Result<StrokeReport> cut_whole(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples) {
-  Result<StrokeReport> report = engine.cut(stroke);
-  if (report.ok()) samples.add(engine.last_ms(), report->times);
-  return report;
-}
-
 /// What a stroke took beyond its steps.
 StageTimes rest_of(const StageTimes& whole, const std::vector<StageTimes>& steps) {
   StageTimes rest = whole;
@@ -32,8 +26,23 @@ StageTimes rest_of(const StageTimes& whole, const std::vector<StageTimes>& steps
   return rest;
 }
 
+/// Tells how far a job is.
+class StepCount {
+ public:
+  explicit StepCount(const CutJob& job);
+
+  void step() {
+    if (job_.progress) job_.progress(++done_, total_);
+  }
+
+ private:
+  const CutJob& job_;
+  std::size_t done_ = 0, total_ = 0;
+};
+
 /// Moves the blade from time to time; the last step's sample has the stroke's beginning and end as well.
-Result<StrokeReport> cut_by_steps(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples) {
+Result<StrokeReport> cut_by_steps(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples,
+                                  StepCount& count) {
   const Result<std::uint32_t> begun = engine.begin_stroke({stroke.edges.front()});
   if (!begun.ok()) return begun.error();
   double ends_ms = engine.last_ms();
@@ -41,10 +50,19 @@ Result<StrokeReport> cut_by_steps(RecordedEngine& engine, const Stroke& stroke, 
     const Result<StepReport> step = engine.step({stroke.edges[i]});
     if (!step.ok()) return step.error();
     samples.add(engine.last_ms(), step->times);
+    count.step();
   }
   Result<StrokeReport> report = engine.end_stroke();
   ends_ms += engine.last_ms();
   if (report.ok()) samples.extend(ends_ms, rest_of(report->times, samples.stages));
+  return report;
+}
+
+Result<StrokeReport> cut_whole(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples,
+                               StepCount& count) {
+  Result<StrokeReport> report = engine.cut(stroke);
+  if (report.ok()) samples.add(engine.last_ms(), report->times);
+  count.step();
   return report;
 }
 
@@ -53,13 +71,19 @@ bool goes_by_steps(const CutJob& job) {
   return job.by_steps && job.engine.cut.profile != Profile::kPaper;
 }
 
+StepCount::StepCount(const CutJob& job) : job_(job) {
+  for (const Stroke& stroke : job.strokes) total_ += goes_by_steps(job) ? stroke.edges.size() - 1 : 1;
+  if (job.progress) job.progress(0, total_);
+}
+
 /// Cuts along one stroke and maintains what its steps have not; the last cut is measured in between, off the clock.
-Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, detail::Upkeep& upkeep,
+Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, StepCount& count, detail::Upkeep& upkeep,
                JobReport& report) {
   detail::StepSamples samples;
   const auto cut = goes_by_steps(job) ? cut_by_steps : cut_whole;
-  const Result<StrokeReport> stroke = cut(engine, job.strokes[index], samples);
+  const Result<StrokeReport> stroke = cut(engine, job.strokes[index], samples, count);
   if (!stroke.ok()) return in_stroke(stroke.error(), job, index);
+  if (stroke->cut.cut_tets == 0 && stroke->cut.incision_faces == 0) report.missed.push_back(index);
   report.cut += stroke->cut;
   if (index + 1 == job.strokes.size()) detail::measure_cut(engine.mesh(), report);
   MaintainReport maintained{stroke->maintain, {}};
@@ -72,11 +96,10 @@ Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, det
 
 Status cut_all(RecordedEngine& engine, const CutJob& job, JobReport& report) {
   detail::Upkeep upkeep(job.engine, job.budget_us);
+  StepCount count(job);
   for (std::size_t i = 0; i < job.strokes.size(); ++i) {
-    if (job.progress) job.progress(i, job.strokes.size());
-    if (const Status status = cut_one(engine, job, i, upkeep, report); !status.ok()) return status;
+    if (const Status status = cut_one(engine, job, i, count, upkeep, report); !status.ok()) return status;
   }
-  if (job.progress) job.progress(job.strokes.size(), job.strokes.size());
   return {};
 }
 

@@ -33,7 +33,8 @@ struct CutJob {
   /// Called once with the mesh at the end, after its maintenance; as it was last valid, where a stroke broke it. May be
   /// empty.
   std::function<void(const Engine& engine)> look;
-  /// Called before each stroke and after the last: strokes done, strokes in all. May be empty.
+  /// Called before each step of the blade and after the last: steps done, steps in all. A stroke that is cut as a whole
+  /// is one step. May be empty.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 

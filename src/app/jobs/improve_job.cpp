@@ -17,7 +17,7 @@ Status improve(RecordedEngine& engine, const ImproveJob& job, JobReport& report)
   if (!begun.ok()) return begun.error();
   MaintainReport maintained = *begun;
   const double begin_ms = engine.last_ms();
-  const Result<double> upkeep_ms = upkeep.run(engine, maintained);
+  const Result<double> upkeep_ms = upkeep.run(engine, maintained, job.tick);
   if (!upkeep_ms.ok()) return upkeep_ms.error();
   detail::StepSamples samples;
   samples.add(begin_ms + *upkeep_ms, maintained.times);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/jobs/job_internal.h"
 
+#include <system_error>
+
 #include "incise/io/mesh_export.h"
 
 namespace incise {
@@ -30,12 +32,17 @@ Upkeep::Upkeep(const EngineOptions& wanted, std::uint64_t budget_us)
       work_units_(wanted.maintain.work_units),
       budget_us_(static_cast<double>(budget_us)) {}
 
-Result<double> Upkeep::run(RecordedEngine& engine, MaintainReport& sum) {
+Result<double> Upkeep::run(RecordedEngine& engine, MaintainReport& sum, const std::function<void()>& tick) {
   if (!is_on_) return 0.0;
   const Stopwatch watch;
   left_us_ += budget_us_;
   ShouldStop should_stop;
-  if (has_clock_) should_stop = [&] { return 1e3 * watch.ms() >= left_us_; };
+  if (has_clock_ || tick) {
+    should_stop = [&] {
+      if (tick) tick();
+      return has_clock_ && 1e3 * watch.ms() >= left_us_;
+    };
+  }
   const Result<MaintainReport> report = engine.maintain(work_units_, should_stop);
   if (!report.ok()) return report.error();
   add(*report, sum);
@@ -122,6 +129,12 @@ bool keeps_contract(const TetMesh& mesh, double volume_tolerance, const JobRepor
   options.expected_volume = report.volume_before;
   options.volume_tolerance = volume_tolerance;
   return compare_with_input(report.validity_before, validate(mesh, ValidateLevel::kGeometry, options)).ok;
+}
+
+std::size_t kilobytes_of(const std::filesystem::path& file) {
+  std::error_code code;
+  const auto bytes = std::filesystem::file_size(file, code);
+  return code ? 0 : static_cast<std::size_t>(bytes >> 10U);
 }
 
 Result<std::uint32_t> take_back_until(RecordedEngine& engine, const std::function<bool(const TetMesh&)>& is_valid) {

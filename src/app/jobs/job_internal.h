@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 
 #include "app/jobs/cut_job.h"
@@ -26,7 +27,8 @@ class Upkeep {
 
   /// Maintains until nothing waits or the budget is spent, and adds what was done to `sum`. Returns its milliseconds.
   /// Errors: kIo where the recording fails.
-  Result<double> run(RecordedEngine& engine, MaintainReport& sum);
+  /// `tick` is called between two operations where it is given; the result is the same.
+  Result<double> run(RecordedEngine& engine, MaintainReport& sum, const std::function<void()>& tick = {});
 
  private:
   bool is_on_, has_clock_;
@@ -67,6 +69,9 @@ Components measure_end(const Engine& engine, JobReport& report);
 
 /// Whether a mesh is as good as what the job began with: the validity contract. Cost: as `validate`.
 [[nodiscard]] bool keeps_contract(const TetMesh& mesh, double volume_tolerance, const JobReport& report);
+
+/// How large a file is; 0 where that cannot be told.
+[[nodiscard]] std::size_t kilobytes_of(const std::filesystem::path& file);
 
 /// Takes strokes back, the last one in any case, until `is_valid` says so or there are none. Returns how many are left.
 /// Errors: kIo where the recording fails. Cost: their edits, and one question each.

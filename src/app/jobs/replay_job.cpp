@@ -115,17 +115,19 @@ Result<Engine> make_engine(TetMesh mesh, const RecordingHeader& header, const Re
 }
 
 /// Makes all calls up to the first difference.
-Status replay_all(Engine& engine, RecordingReader& reader, bool verify, ReplayResult& result) {
+Status replay_all(Engine& engine, RecordingReader& reader, const ReplayJob& job, ReplayResult& result) {
+  const std::size_t kilobytes = detail::kilobytes_of(job.recording);
   std::optional<RecordedCall> last;
   while (!result.difference) {
     Result<std::optional<RecordedCall>> call = reader.next();
     if (!call.ok()) return call.error();
     if (!call->has_value()) break;
     last = std::move(**call);
-    auto difference = replay_call(engine, *last, verify, reader.file_name());
+    auto difference = replay_call(engine, *last, job.verify, reader.file_name());
     if (!difference.ok()) return difference.error();
     result.difference = std::move(*difference);
     ++result.calls;
+    if (job.progress) job.progress(reader.bytes() >> 10U, kilobytes);
   }
   if (last && !result.difference) result.difference = compare_hashes(*last, engine.mesh());
   return {};
@@ -188,7 +190,7 @@ Result<ReplayResult> run_replay(const ReplayJob& job) {
   result.before = detail::counts_of(loaded->mesh, find_components(loaded->mesh));
   Result<Engine> engine = make_engine(std::move(loaded->mesh), reader->header(), job);
   if (!engine.ok()) return engine.error();
-  if (const Status status = replay_all(*engine, *reader, job.verify, result); !status.ok()) return status.error();
+  if (const Status status = replay_all(*engine, *reader, job, result); !status.ok()) return status.error();
   result.is_cut_off = reader->is_cut_off();
   finish(*engine, loaded->file_vertex, job.wants_mesh, result);
   return result;
@@ -199,6 +201,33 @@ std::string to_text(const ReplayResult& result) {
                      result.strokes, result.before.tets, result.after.tets, result.before.vertices,
                      result.after.vertices, result.before.components, result.after.components) +
          fmt::format("hash {}\n", hash_text(result.hash));
+}
+
+namespace {
+
+Json encode(const MeshCounts& counts) {
+  return {{"vertices", counts.vertices}, {"tets", counts.tets}, {"components", counts.components}};
+}
+
+Json encode(const ReplayDifference& d) {
+  return {{"line", d.line}, {"call", d.call}, {"expected", d.expected}, {"found", d.found}};
+}
+
+}  // namespace
+
+std::string to_json(const ReplayResult& result) {
+  Json root;
+  root["format"] = "incise-replay";
+  root["version"] = 1;
+  root["input"] = {{"file", result.source.file}, {"format", result.source.format}};
+  root["calls"] = result.calls;
+  root["strokes"] = result.strokes;
+  root["mesh"] = {{"before", encode(result.before)}, {"after", encode(result.after)}};
+  root["hash"] = hash_text(result.hash);
+  root["is_cut_off"] = result.is_cut_off;
+  root["is_in_stroke"] = result.is_in_stroke;
+  root["difference"] = result.difference ? encode(*result.difference) : Json();
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace app

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,8 @@ struct ReplayJob {
   bool wants_mesh = false;
   LogSink log = {};      ///< hears what the engine has to say
   unsigned threads = 1;  ///< as in `EngineOptions`
+  /// Called after each call: kilobytes of the recording that are replayed, and that it has. May be empty.
+  std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
 /// The first place where a replay did not do what was recorded.
@@ -67,6 +70,10 @@ Result<std::optional<ReplayDifference>> replay_call(Engine& engine, const Record
 
 /// A few lines for people.
 [[nodiscard]] std::string to_text(const ReplayResult& result);
+
+/// The result as JSON, format "incise-replay" version 1, with a newline at the end; `difference` is null where there is
+/// none.
+[[nodiscard]] std::string to_json(const ReplayResult& result);
 
 }  // namespace app
 }  // namespace v0

@@ -57,7 +57,8 @@ struct JobReport {
   std::string input_format;
   std::vector<std::string> notes;  ///< from loading
   ReportOptions options;
-  std::uint64_t strokes = 0;  ///< 0 for an improvement
+  std::uint64_t strokes = 0;          ///< 0 for an improvement
+  std::vector<std::uint64_t> missed;  ///< strokes, from 0, that cut nothing
   MeshCounts before, after;
   std::vector<PieceFigures> pieces;  ///< after, by label
   CutStatistics cut;

@@ -174,7 +174,9 @@ Result<SimulateResult> run_simulate(const Scene& scene, const SimulateJob& job) 
     if (!begun.ok()) return begun.error();
     series.emplace(std::move(begun).value());
   }
-  Result<RecordedSimulation> made = RecordedSimulation::create(scene, std::move(loaded->mesh), job.run);
+  SceneRun run = job.run;
+  run.keep_undo = 1;  // a scene takes nothing back
+  Result<RecordedSimulation> made = RecordedSimulation::create(scene, std::move(loaded->mesh), run);
   if (!made.ok()) return made.error();
   SceneRunner runner(scene, job, std::move(made).value(), result.report);
   if (const Status status = runner.settle(); !status.ok()) return status.error();

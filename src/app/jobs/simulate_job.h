@@ -23,7 +23,7 @@ inline constexpr std::uint64_t kSeriesFiles = 100;
 
 struct SimulateJob {
   std::string scene_file;        ///< repeated in the report
-  SceneRun run;                  ///< threads, log, recording
+  SceneRun run;                  ///< threads, log, recording; `keep_undo` plays no part: the history is of one stroke
   std::filesystem::path output;  ///< NAME.pvd, see `FrameSeries`; empty: none
   std::uint64_t every = 0;       ///< frames from one file to the next; 0: so many that there are `kSeriesFiles`
   std::uint64_t budget_us = 0;   ///< repeated in the report

@@ -66,17 +66,19 @@ Result<std::optional<ReplayDifference>> replay_call(Simulation& simulation, cons
 }
 
 /// Makes all calls up to the first difference.
-Status replay_all(Simulation& simulation, SimulationReader& reader, bool verify, ReplayResult& result) {
+Status replay_all(Simulation& simulation, SimulationReader& reader, const ReplayJob& job, ReplayResult& result) {
+  const std::size_t kilobytes = detail::kilobytes_of(job.recording);
   std::optional<SimulationCall> last;
   while (!result.difference) {
     Result<std::optional<SimulationCall>> call = reader.next();
     if (!call.ok()) return call.error();
     if (!call->has_value()) break;
     last = std::move(**call);
-    auto difference = replay_call(simulation, *last, verify, reader.file_name());
+    auto difference = replay_call(simulation, *last, job.verify, reader.file_name());
     if (!difference.ok()) return difference.error();
     result.difference = std::move(*difference);
     ++result.calls;
+    if (job.progress) job.progress(reader.bytes() >> 10U, kilobytes);
   }
   if (last && !result.difference) result.difference = compare_hashes(*last, simulation);
   return {};
@@ -117,7 +119,7 @@ Result<ReplayResult> run_simulation_replay(const ReplayJob& job) {
   Result<Simulation> simulation =
       make_simulation(reader->header().scene, std::move(loaded->mesh), job.threads, job.log);
   if (!simulation.ok()) return simulation.error();
-  if (const Status status = replay_all(*simulation, *reader, job.verify, result); !status.ok()) return status.error();
+  if (const Status status = replay_all(*simulation, *reader, job, result); !status.ok()) return status.error();
   result.is_cut_off = reader->is_cut_off();
   finish(*simulation, loaded->file_vertex, job.wants_mesh, result);
   return result;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_loader.h"
@@ -30,6 +31,9 @@ std::string extension_of(const fs::path& path) {
 
 Result<Conversion> write_surface(const fs::path& out, const io::SurfaceSoup& surface, Conversion done) {
   if (const Status status = io::write_surface(out, surface); !status.ok()) return status.error();
+  done.files = {out};
+  done.vertices = surface.points.size();
+  done.triangles = surface.triangles.size();
   return done;
 }
 
@@ -42,7 +46,9 @@ Result<Conversion> convert_surface(const fs::path& in, const fs::path& out) {
 Result<Conversion> mesh_to_surface(io::MeshFile file, const fs::path& in, const fs::path& out) {
   Result<io::LoadedMesh> loaded = io::build_mesh(std::move(file), in);
   if (!loaded.ok()) return loaded.error();
-  return write_surface(out, io::to_surface(loaded->mesh), {loaded->source.notes});
+  Conversion done;
+  done.notes = loaded->source.notes;
+  return write_surface(out, io::to_surface(loaded->mesh), std::move(done));
 }
 
 }  // namespace
@@ -55,9 +61,9 @@ bool is_surface_extension(const fs::path& path) {
   return std::find(kSurfaces.begin(), kSurfaces.end(), extension_of(path)) != kSurfaces.end();
 }
 
-Result<Conversion> convert(const fs::path& in, const fs::path& out) {
-  const bool wants_surface = is_surface_extension(out);
-  if (!wants_surface && !is_mesh_extension(out)) {
+Result<Conversion> convert(const fs::path& in, const fs::path& out, const io::WriteOptions& options) {
+  const bool wants_surface = options.extension.empty() && is_surface_extension(out);
+  if (!wants_surface && options.extension.empty() && !is_mesh_extension(out)) {
     return Error{
         ErrorCode::kBadArgument,
         out.string() + ": unknown extension; use " + kMeshExtensions + ", or for surfaces " + kSurfaceExtensions,
@@ -67,8 +73,10 @@ Result<Conversion> convert(const fs::path& in, const fs::path& out) {
   if (!file.ok()) return wants_surface && is_surface_extension(in) ? convert_surface(in, out) : file.error();
   if (wants_surface) return mesh_to_surface(std::move(file).value(), in, out);
   io::drop_mid_nodes(*file);
-  if (const Status status = io::write_mesh(out, file->data); !status.ok()) return status.error();
-  return Conversion{file->notes};
+  const io::MeshData& data = file->data;
+  if (const Status status = io::write_mesh(out, data, options); !status.ok()) return status.error();
+  return Conversion{file->notes, io::mesh_files(out, options), data.soup.points.size(), data.soup.tets.size(),
+                    data.triangles.size()};
 }
 
 }  // namespace app

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "incise/core/result.h"
+#include "incise/io/mesh_file.h"
 
 namespace incise {
 inline namespace v0 {
@@ -21,14 +23,21 @@ inline constexpr const char* kSurfaceExtensions = ".obj .stl .ply .off";
 
 /// What a conversion has to tell.
 struct Conversion {
-  std::vector<std::string> notes;  ///< what was left out, in words
+  std::vector<std::string> notes;            ///< what was left out, in words
+  std::vector<std::filesystem::path> files;  ///< that were written
+  std::uint64_t vertices = 0;                ///< that were written, like the following
+  std::uint64_t tets = 0;                    ///< 0 for a surface
+  std::uint64_t triangles = 0;               ///< of a surface, or with labels in a mesh
 };
 
 /// Converts mesh to mesh as it stands, mesh to surface (its boundary), or surface to surface.
 ///
-/// Ten-node tets keep their corners. Errors: as the readers and writers; kBadArgument for an extension that cannot be
-/// written, or a surface where a mesh is asked for. Cost: O(n).
-[[nodiscard]] Result<Conversion> convert(const std::filesystem::path& in, const std::filesystem::path& out);
+/// Ten-node tets keep their corners.
+/// @param options  how a mesh is written; an extension there makes `out` a mesh, whatever its own.
+/// Errors: as the readers and writers; kBadArgument for an extension that cannot be written, or a surface where a mesh
+/// is asked for. Cost: O(n).
+[[nodiscard]] Result<Conversion> convert(const std::filesystem::path& in, const std::filesystem::path& out,
+                                         const io::WriteOptions& options = {});
 
 }  // namespace app
 }  // namespace v0

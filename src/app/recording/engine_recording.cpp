@@ -203,6 +203,7 @@ class CallReader : public LineReader {
     for (std::size_t i = 0; is_sound && i < 3 * points.size(); ++i) {
       is_sound = read_double(source, points[i / 3][static_cast<Eigen::Index>(i % 3)]);
     }
+    is_sound = is_sound && source.is_at_end();
     return is_sound || read_.fail(*root.find("base64"), "base64", "does not hold 24 bytes per vertex slot");
   }
   static bool read_double(io::ByteSource& source, double& out) {

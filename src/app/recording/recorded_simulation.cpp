@@ -37,6 +37,9 @@ Result<RecordedSimulation> RecordedSimulation::create(const Scene& scene, TetMes
   if (run.keeps_calls) past = Past{scene, mesh.hash(), {}};
   Result<Simulation> simulation = make_simulation(scene, std::move(mesh), run.threads, run.log);
   if (!simulation.ok()) return simulation.error();
+  if (run.keep_undo > 0) {
+    if (const Status status = simulation->keep_undo(run.keep_undo); !status.ok()) return status.error();
+  }
   return RecordedSimulation(std::move(simulation).value(), std::move(writer), std::move(past));
 }
 

@@ -20,6 +20,7 @@ struct SceneRun {
   LogSink log = {};              ///< hears what a stroke could not do as asked
   std::filesystem::path record;  ///< the recording; empty: none is made
   bool keeps_calls = false;      ///< remembers all calls, so that `start_recording` may come later
+  std::size_t keep_undo = 0;     ///< strokes that undo can take back, the last ones; 0: all
 };
 
 /// A scene's simulation that keeps a recording of what is asked of it: `run_replay` does the same again.
@@ -39,6 +40,8 @@ class RecordedSimulation {
   Result<unsigned> settle(const SceneSettle& settle);
   Result<bool> undo();
   Result<bool> redo();
+  /// As `Simulation::keep_undo`. No call of a recording.
+  Status keep_undo(std::size_t operations) { return simulation_.keep_undo(operations); }
 
   /// Begins a recording of the whole session: what was done so far goes in first, with the hash of the last call alone.
   /// Ends another recording that was under way. Errors: kBadArgument unless calls are kept; kIo, naming the file.

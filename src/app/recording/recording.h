@@ -2,6 +2,7 @@
 // A recording is a text file: a header, then one line for each call. What the lines say is the codec's.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <istream>
 #include <memory>
@@ -66,6 +67,8 @@ class BasicRecordingReader {
 
   [[nodiscard]] const Header& header() const { return header_; }
   [[nodiscard]] const std::string& file_name() const { return lines_.file_name(); }
+  /// Bytes of the file that were read so far.
+  [[nodiscard]] std::uint64_t bytes() const { return lines_.bytes(); }
 
   /// The next call, or nothing at the end. Errors: kBadFile "FILE:LINE: what", for instance for an unknown call or key,
   /// a number that is not finite, or a line of more than 1 GiB. Cost: O(line).

@@ -28,12 +28,19 @@ namespace app {
 /// @param body  the mesh's bounds, in its own unit. @param up  unit.
 [[nodiscard]] Scene scene_of_mesh(const std::filesystem::path& mesh, const Box& body, const Vec3& up);
 
+/// Strokes that a session can take back unless told otherwise; the history of one takes the memory of all that it
+/// changed, before and after.
+inline constexpr std::size_t kKeptStrokes = 100;
+
 struct SessionOptions {
   unsigned threads = 1;          ///< in [1, 256]; the result does not depend on them
   LogSink log;                   ///< hears what a stroke could not do as asked
   std::filesystem::path record;  ///< from the start; empty: no recording, until one is begun
   Vec3 up = Vec3::UnitZ();       ///< of a mesh without a scene; unit
   bool plays_script = true;      ///< the strokes of a scene are made until a hand takes over
+  /// Strokes that undo can take back, the last ones: the memory of those before them is freed, so that a session may
+  /// last. 0: all. While a recording is played all are kept, since it may take any back.
+  std::size_t keep_undo = kKeptStrokes;
 };
 
 /// The force on the blade at one moment.

@@ -176,6 +176,7 @@ Result<RecordedSimulation> Session::State::make_simulation() const {
   run.threads = options.threads;
   run.log = options.log;
   run.keeps_calls = true;
+  if (!is_replay) run.keep_undo = options.keep_undo;
   Result<RecordedSimulation> made = RecordedSimulation::create(scene, initial, run);
   if (!made.ok() || is_replay || scene.settle.frames == 0) return made;
   const Result<unsigned> settled = made->settle(scene.settle);

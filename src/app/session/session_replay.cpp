@@ -125,6 +125,7 @@ bool Session::take_over() {
   if (s.is_replay && s.last_input.blade) s.blade_source = State::BladeSource::kScript;
   s.is_replay = false;
   s.plays_script = false;
+  if (s.options.keep_undo > 0 && s.simulation) static_cast<void>(s.simulation->keep_undo(s.options.keep_undo));
   return true;
 }
 

@@ -44,6 +44,7 @@ Result<bool> LineSource::read(std::string& line) {
   has_line_end_ = false;
   line.clear();
   for (auto byte = bytes.sbumpc(); !Traits::eq_int_type(byte, Traits::eof()); byte = bytes.sbumpc()) {
+    ++bytes_;
     if (byte == '\n') {
       has_line_end_ = true;
       return true;

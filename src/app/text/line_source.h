@@ -29,6 +29,7 @@ class LineSource {
   Result<bool> next(std::string& line);
   [[nodiscard]] const std::string& file_name() const { return file_name_; }
   [[nodiscard]] std::uint32_t number() const { return number_; }  ///< of the line read last, from 1
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }    ///< that were read so far
   /// Whether the end, once it was reached, was within a line.
   [[nodiscard]] bool is_cut_off() const { return is_cut_off_; }
 
@@ -38,6 +39,7 @@ class LineSource {
   std::unique_ptr<std::istream> text_;
   std::string file_name_;
   std::uint32_t number_ = 0;
+  std::uint64_t bytes_ = 0;
   bool has_line_end_ = true;
   bool is_cut_off_ = false;
 };

@@ -376,6 +376,47 @@ TEST(SessionLive, undo_within_a_stroke_takes_it_back) {
   EXPECT_TRUE(texts(session, Operation::Kind::kStroke).empty());
 }
 
+TEST(SessionLive, keeps_as_many_strokes_for_undo_as_it_is_told) {
+  SessionOptions options;
+  options.keep_undo = 2;
+  Session session = opened(still_scene(), options);
+  Session all = opened(still_scene());
+  for (const double x : {0.3, 0.52, 0.74}) {
+    cut_by_hand(session, x);
+    cut_by_hand(all, x);
+  }
+  EXPECT_EQ(session.simulation()->hash(), all.simulation()->hash());
+  EXPECT_GT(session.engine().journal().first(), 0U);
+  EXPECT_EQ(all.engine().journal().first(), 0U) << "three strokes are fewer than " << incise::app::kKeptStrokes;
+  EXPECT_LT(session.engine().journal().memory_bytes(), all.engine().journal().memory_bytes());
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(session.undo().value());
+    EXPECT_TRUE(all.undo().value());
+    EXPECT_EQ(session.mesh().hash(), all.mesh().hash());
+  }
+  EXPECT_FALSE(session.undo().value());
+  EXPECT_TRUE(all.undo().value());
+  EXPECT_TRUE(session.redo().value());
+  play(session, 3);
+  ASSERT_TRUE(session.reset().ok());
+  for (const double x : {0.3, 0.52, 0.74}) cut_by_hand(session, x);
+  EXPECT_GT(session.engine().journal().first(), 0U);
+}
+
+TEST_F(SessionFiles, keeps_all_strokes_of_a_recording_until_a_hand_takes_over) {
+  const std::string recording = write_simulation_recording(folder_);
+  SessionOptions options;
+  options.keep_undo = 1;
+  Session session = Session::open(std::filesystem::path(recording), options).value();
+  ASSERT_TRUE(session.seek(session.place().calls).ok());
+  EXPECT_EQ(session.engine().journal().first(), 0U);
+  ASSERT_TRUE(session.take_over());
+  for (const double x : {0.3, 0.74}) cut_by_hand(session, x);
+  EXPECT_GT(session.engine().journal().first(), 0U);
+  EXPECT_TRUE(session.undo().value());
+  EXPECT_FALSE(session.undo().value());
+}
+
 TEST(SessionLive, reset_goes_back_to_the_start) {
   Session session = opened(cut_scene());
   const std::uint64_t start = session.simulation()->hash();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cut/star_separation.h"
+#include "support/star_separation.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "command_support.h"
+#include "commands.h"
+#include "app/model/convert.h"
+#include "incise/io/mesh_loader.h"
+#include "input_kind.h"
+#include "mesh_output.h"
+
+namespace incise_cli {
+namespace {
+
+using namespace incise;
+
+/// A mesh from a file or stdin to stdout.
+Result<app::Conversion> convert_to_stdout(const ConvertArguments& a, const Terminal& terminal) {
+  Result<io::MeshFile> file = io::read_mesh(input_of(a.in));
+  if (!file.ok()) return file.error();
+  io::drop_mid_nodes(*file);
+  if (Status status = write_output(a.out, file->data, terminal); !status.ok()) return status.error();
+  app::Conversion done;
+  done.notes = file->notes;
+  return done;
+}
+
+Result<app::Conversion> convert(const ConvertArguments& a, const Terminal& terminal) {
+  return a.out.is_stdout() ? convert_to_stdout(a, terminal)
+                           : app::convert(input_of(a.in), a.out.file, write_options_of(a.out));
+}
+
+/// Of an output that may be a surface, too.
+std::optional<OutputProblem> problem_of_conversion(const ConvertArguments& a) {
+  if (a.out.is_stdout() && a.as_json) {
+    return OutputProblem{"OUT is stdout, where --json would print too; name a file", kUsage};
+  }
+  if (!a.out.format.empty() || a.out.is_stdout()) return problem_of(a.out);
+  if (has_folder(a.out.file)) return std::nullopt;  // `app::convert` knows the extensions
+  return OutputProblem{a.out.file + ": its folder does not exist; create it first", kFailure};
+}
+
+std::string json_of(const ConvertArguments& a, const app::Conversion& done) {
+  nlohmann::ordered_json root;
+  root["format"] = "incise-conversion";
+  root["version"] = 1;
+  root["input"] = a.in;
+  root["output"] = nlohmann::ordered_json::array();
+  for (const auto& file : done.files) root["output"].push_back(file.string());
+  root["vertices"] = done.vertices;
+  root["tets"] = done.tets;
+  root["triangles"] = done.triangles;
+  root["notes"] = done.notes;
+  return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string counts_of(const app::Conversion& done) {
+  if (done.tets > 0) return counts_text(done.tets, done.vertices);
+  return std::to_string(done.triangles) + " triangles, " + std::to_string(done.vertices) + " vertices";
+}
+
+}  // namespace
+
+int run_convert(const ConvertArguments& arguments, const Terminal& terminal) {
+  if (const auto problem = problem_of_conversion(arguments)) return fail(terminal, problem->text, problem->code);
+  const WritingZone zone;
+  const Result<app::Conversion> done = convert(arguments, terminal);
+  if (!done.ok()) {
+    return fail(terminal, explain_kind(done.error(), arguments.in, FileKind::kMesh), exit_of(done.error()));
+  }
+  print_notes(done->notes, arguments.in, terminal);
+  if (!done->files.empty()) terminal.wrote(names_text(done->files), counts_of(*done));
+  return finish(terminal, arguments.as_json ? terminal.data(json_of(arguments, *done)) : Status());
+}
+
+}  // namespace incise_cli

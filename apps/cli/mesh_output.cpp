@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_output.h"
+
+#include <filesystem>
+
+#include "command_support.h"
+#include "app/model/convert.h"
+
+namespace incise_cli {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace incise;
+
+/// ".vtu" of "a.vtu.gz".
+std::string extension_of(const std::string& file) {
+  const fs::path path(file);
+  return (path.extension() == ".gz" ? path.stem().extension() : path.extension()).string();
+}
+
+std::string problem_of_format(const MeshOutput& output) {
+  const io::WriteOptions options = *io::write_options_named(output.format);
+  const std::string extension = extension_of(output.file);
+  const bool is_pair = options.extension == ".node";
+  if (output.is_stdout()) return is_pair ? "--format node makes two files, and stdout is one; name a file" : "";
+  if (extension == options.extension || (is_pair && extension == ".ele")) return "";
+  return output.file + ": --format " + output.format + " writes " + options.extension +
+         " files; give it that extension";
+}
+
+std::string problem_of_name(const MeshOutput& output) {
+  if (!output.format.empty()) return problem_of_format(output);
+  if (output.is_stdout())
+    return std::string("- needs --format, which says what to write to stdout: ") + io::kFormatNames;
+  if (app::is_mesh_extension(output.file)) return "";
+  return output.file + ": unknown extension; use " + app::kMeshExtensions;
+}
+
+}  // namespace
+
+std::optional<OutputProblem> problem_of(const MeshOutput& output) {
+  if (!output.is_wanted()) {
+    if (output.format.empty()) return std::nullopt;
+    return OutputProblem{"--format says what -o writes; give both", kUsage};
+  }
+  if (const std::string problem = problem_of_name(output); !problem.empty()) return OutputProblem{problem, kUsage};
+  if (has_folder(output.file)) return std::nullopt;
+  return OutputProblem{output.file + ": its folder does not exist; create it first", kFailure};
+}
+
+io::WriteOptions write_options_of(const MeshOutput& output) {
+  return output.format.empty() ? io::WriteOptions() : *io::write_options_named(output.format);
+}
+
+Status write_output(const MeshOutput& output, const io::MeshData& mesh, const Terminal& terminal) {
+  const io::WriteOptions options = write_options_of(output);
+  if (output.is_stdout()) {
+    const Result<std::string> bytes = io::write_mesh_bytes(options.extension, mesh, options.msh);
+    if (!bytes.ok()) return bytes.error();
+    return terminal.data(*bytes);
+  }
+  if (Status status = io::write_mesh(output.file, mesh, options); !status.ok()) return status;
+  terminal.wrote(names_text(io::mesh_files(output.file, options)),
+                 counts_text(mesh.soup.tets.size(), mesh.soup.points.size()));
+  return {};
+}
+
+std::string counts_text(std::size_t tets, std::size_t vertices) {
+  return std::to_string(tets) + " tets, " + std::to_string(vertices) + " vertices";
+}
+
+std::string names_text(const std::vector<fs::path>& files) {
+  std::string text;
+  for (const fs::path& file : files) text += (text.empty() ? "" : " and ") + file.string();
+  return text;
+}
+
+}  // namespace incise_cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the commands' meshes go: a file or stdout, in the format that its extension or --format names.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "incise/io/mesh_file.h"
+
+namespace incise_cli {
+
+/// What is wrong with an output, as far as its name and format tell; nothing where it can be written.
+struct OutputProblem {
+  std::string text;
+  ExitCode code = kUsage;
+};
+[[nodiscard]] std::optional<OutputProblem> problem_of(const MeshOutput& output);
+
+/// The options that the output's name and format stand for; `problem_of` found nothing.
+[[nodiscard]] incise::io::WriteOptions write_options_of(const MeshOutput& output);
+
+/// Writes the mesh, and says so. Errors: as `io::write_mesh`.
+[[nodiscard]] incise::Status write_output(const MeshOutput& output, const incise::io::MeshData& mesh,
+                                          const Terminal& terminal);
+
+/// "750 tets, 216 vertices".
+[[nodiscard]] std::string counts_text(std::size_t tets, std::size_t vertices);
+
+/// "a.node and a.ele".
+[[nodiscard]] std::string names_text(const std::vector<std::filesystem::path>& files);
+
+}  // namespace incise_cli

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "command_support.h"
+#include "commands.h"
+#include "app/jobs/replay_job.h"
+#include "input_kind.h"
+#include "mesh_output.h"
+
+namespace incise_cli {
+namespace {
+
+using namespace incise;
+
+/// Says where a replay ended, if not where it should.
+void note_end(const app::ReplayResult& result, const std::string& recording, const Terminal& terminal) {
+  const std::string after = recording + ": after " + std::to_string(result.calls) + " calls ";
+  if (result.is_cut_off) terminal.note(after + "the recording is cut off; what was whole has been replayed");
+  if (result.is_in_stroke) terminal.note(after + "a stroke is still under way; the mesh is as its last step left it");
+}
+
+int report_difference(const app::ReplayDifference& d, const std::string& recording, const Terminal& terminal) {
+  return fail(terminal,
+              recording + ":" + std::to_string(d.line) + ": the call \"" + d.call +
+                  "\" came out differently: expected " + d.expected + ", found " + d.found +
+                  "; no mesh was written. Was it another version that recorded?",
+              kCheckFailed);
+}
+
+Result<app::ReplayResult> replay(const ReplayArguments& a, const Terminal& terminal) {
+  ProgressBar bar(terminal, "kB");
+  app::ReplayJob job{a.recording, a.verify, a.output.is_wanted(), terminal.log_sink()};
+  job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
+  Result<app::ReplayResult> result = app::run_replay(job);
+  if (!result.ok()) return explain_kind(result.error(), a.recording, FileKind::kRecording);
+  return result;
+}
+
+Status print(const ReplayArguments& a, const app::ReplayResult& result, const Terminal& terminal) {
+  if (a.as_json) return terminal.data(app::to_json(result));
+  if (!result.difference) terminal.summary(app::to_text(result), a.output.is_stdout());
+  return {};
+}
+
+}  // namespace
+
+int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
+  if (const auto problem = problem_of(arguments.output)) return fail(terminal, problem->text, problem->code);
+  if (arguments.output.is_stdout() && arguments.as_json) {
+    return fail(terminal, "-o - writes the mesh to stdout, where --json would print too; name a file", kUsage);
+  }
+  const Result<app::ReplayResult> result = replay(arguments, terminal);
+  if (!result.ok()) return fail(terminal, result.error(), exit_of(result.error()));
+  note_end(*result, arguments.recording, terminal);
+  const WritingZone zone;
+  if (arguments.output.is_wanted() && !result->difference) {
+    const Status status = write_output(arguments.output, result->mesh, terminal);
+    if (!status.ok()) return fail(terminal, status.error(), kFailure);
+  }
+  const int code = finish(terminal, print(arguments, *result, terminal));
+  return result->difference ? report_difference(*result->difference, arguments.recording, terminal) : code;
+}
+
+}  // namespace incise_cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shared/message_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace incise_apps {
+namespace {
+
+constexpr std::size_t kLongest = 480, kEnd = 160;
+constexpr std::size_t kBarWidth = 30;
+
+}  // namespace
+
+std::string one_line(std::string_view text) {
+  std::string line(text);
+  if (line.size() > kLongest) {
+    const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
+    std::size_t head = kLongest - kEnd - 5, tail = text.size() - kEnd;  // not within a character of several bytes
+    while (head > 0 && is_inside(head)) --head;
+    while (tail < text.size() && is_inside(tail)) ++tail;
+    line = std::string(text.substr(0, head)) + " ... " + std::string(text.substr(tail));
+  }
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+  std::replace_if(line.begin(), line.end(), is_control, ' ');
+  return line;
+}
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<unsigned long>(std::llround(seconds));
+  const auto two_digits = [](unsigned long n) { return (n < 10 ? "0" : "") + std::to_string(n); };
+  const std::string end = ":" + two_digits(whole % 60);
+  if (whole < 3600) return std::to_string(whole / 60) + end;
+  return std::to_string(whole / 3600) + ":" + two_digits(whole / 60 % 60) + end;
+}
+
+std::string progress_text(std::size_t done, std::size_t total, std::string_view unit, double seconds) {
+  const double share = static_cast<double>(done) / static_cast<double>(total);
+  const auto filled = static_cast<std::size_t>(share * kBarWidth);
+  std::string text = "[" + std::string(filled, '#') + std::string(kBarWidth - filled, ' ') + "] ";
+  text += std::to_string(done) + " of " + std::to_string(total) + " " + std::string(unit);
+  if (done > 0 && seconds >= 1) text += ", " + clock_text(seconds * (1 - share) / share) + " left";
+  return text;
+}
+
+}  // namespace incise_apps

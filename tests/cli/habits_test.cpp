@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the command talks: what it wrote, JSON, stdin and stdout, warnings, files of another kind.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/scene_cases.h"
+#include "cli/program.h"
+#include "incise/io/mesh_file.h"
+
+namespace {
+
+using namespace incise_test;
+using nlohmann::json;
+
+class CliHabits : public testing::Test {
+ protected:
+  Folder folder_;
+  std::string cube_ = folder_.write("cube.mesh", cube_mesh(3));
+};
+
+TEST_F(CliHabits, says_what_was_written_unless_it_shall_be_quiet) {
+  const std::string out = folder_ / "out.vtu", report = folder_ / "r.json", record = folder_ / "r.jsonl";
+  const std::vector<std::string> cut = {"cut", cube_,      "--plane", "1,0,0,0.4", "-o",
+                                        out,   "--report", report,    "--record",  record};
+  const Outcome told = run(cut);
+  ASSERT_EQ(told.code, 0) << told.err;
+  const auto mesh = incise::io::read_mesh(out);
+  EXPECT_NE(told.err.find("incise: wrote " + out + " (" + std::to_string(mesh->file_tets) + " tets, " +
+                          std::to_string(mesh->file_vertices) + " vertices)\n"),
+            std::string::npos)
+      << told.err;
+  EXPECT_NE(told.err.find("incise: wrote " + report + " (report)\n"), std::string::npos) << told.err;
+  EXPECT_NE(told.err.find("incise: wrote " + record + " (recording)\n"), std::string::npos) << told.err;
+  const std::string node = folder_ / "a.node", ele = folder_ / "a.ele", obj = folder_ / "a.obj";
+  EXPECT_EQ(run({"convert", cube_, node}).err, "incise: wrote " + node + " and " + ele + " (162 tets, 64 vertices)\n");
+  EXPECT_EQ(run({"convert", cube_, obj}).err, "incise: wrote " + obj + " (108 triangles, 56 vertices)\n");
+  EXPECT_EQ(run({"convert", cube_, obj, "-q"}).err, "");
+}
+
+TEST_F(CliHabits, prints_json_where_it_is_asked_to) {
+  const std::string record = folder_ / "r.jsonl";
+  const Outcome cut = run({"cut", cube_, "--plane", "1,0,0,0.4", "--json", "--record", record, "-q"});
+  EXPECT_EQ(json::parse(cut.out)["format"], "incise-report");
+  EXPECT_EQ(json::parse(run({"improve", cube_, "--json"}).out)["format"], "incise-report");
+  const json replay = json::parse(run({"replay", record, "--verify", "--json"}).out);
+  EXPECT_EQ(replay["format"], "incise-replay");
+  EXPECT_EQ(replay["mesh"]["after"], json::parse(cut.out)["mesh"]["after"]);
+  EXPECT_EQ(replay["hash"], json::parse(cut.out)["hash"]);
+  EXPECT_TRUE(replay["difference"].is_null());
+  const json convert = json::parse(run({"convert", cube_, folder_ / "a.node", "--json"}).out);
+  EXPECT_EQ(convert["tets"], 162);
+  EXPECT_EQ(convert["output"].size(), 2U);
+  const std::string scene = folder_.write("scene.json", full_scene().dump());
+  EXPECT_EQ(json::parse(run({"simulate", scene, "--frames", "2", "--json"}).out)["scene"]["frames"], 2);
+}
+
+TEST_F(CliHabits, json_of_a_replay_names_the_difference) {
+  const std::string record = folder_ / "r.jsonl";
+  ASSERT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.4", "--record", record, "-q"}).code, 0);
+  std::string text = read(record);
+  const std::size_t at = text.find("\"hash\":\"", text.find('\n')) + 8;
+  text[at] = text[at] == '0' ? '1' : '0';
+  folder_.write("r.jsonl", text);
+  const Outcome replay = run({"replay", record, "--verify", "--json"});
+  EXPECT_EQ(replay.code, 4);
+  EXPECT_EQ(json::parse(replay.out)["difference"]["line"], 2);
+}
+
+TEST_F(CliHabits, meshes_come_by_stdin_and_go_by_stdout) {
+  const Outcome vtu = run({"convert", cube_, "-", "--format", "vtu"});
+  ASSERT_EQ(vtu.code, 0) << vtu.err;
+  EXPECT_EQ(vtu.err, "");
+  EXPECT_EQ(json::parse(run_on(vtu.out, {"info", "-", "--json"}).out)["tets"], 162);
+  const Outcome cut = run_on(vtu.out, {"cut", "-", "--plane", "1,0,0,0.4", "-o", "-", "--format", "msh41-binary"});
+  ASSERT_EQ(cut.code, 0) << cut.err;
+  EXPECT_NE(cut.err.find("1 -> 2 pieces"), std::string::npos) << "the summary makes room: " << cut.err;
+  EXPECT_EQ(json::parse(run_on(cut.out, {"check", "-", "--json"}).out)["components"], 2);
+  const std::string better = folder_ / "better.mesh";
+  EXPECT_EQ(run_on(cut.out, {"improve", "-", "-o", better, "-q"}).code, 0);
+  EXPECT_EQ(json::parse(run({"check", better, "--json"}).out)["components"], 2);
+  const std::string blade = read(INCISE_SCENES "/cube_plane.json");
+  EXPECT_EQ(run_on(blade, {"cut", cube_, "--blade", "-", "-q"}).code, 0);
+  EXPECT_EQ(run_on(full_scene().dump(), {"simulate", "-", "--frames", "2", "-q"}).code, 0);
+}
+
+TEST_F(CliHabits, stdout_takes_one_thing_in_a_format_that_is_named) {
+  const auto expect_usage = [&](std::vector<std::string> words, const std::string& part) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  };
+  const std::vector<std::string> cut = {"cut", cube_, "--plane", "1,0,0,0.4"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), cut.begin(), cut.end());
+    return more;
+  };
+  expect_usage(with({"-o", "-"}), "needs --format");
+  expect_usage(with({"-o", "-", "--format", "node"}), "makes two files");
+  expect_usage(with({"-o", "-", "--format", "vtu", "--json"}), "stdout");
+  expect_usage(with({"-o", "-", "--format", "vtu", "--report", "-"}), "stdout");
+  expect_usage(with({"--format", "vtu"}), "give both");
+  expect_usage(with({"-o", folder_ / "a.vtu", "--format", "msh22"}), "writes .msh files");
+  expect_usage(with({"--record", "-"}), "name a file");
+  expect_usage({"cut", "-", "--blade", "-"}, "cannot both come from stdin");
+  expect_usage({"cut", "-", "--plane", "1,0,0,0.4", "--record", folder_ / "r.jsonl"}, "as a file");
+  expect_usage({"convert", cube_, "-"}, "needs --format");
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"cube.mesh"});
+}
+
+TEST_F(CliHabits, writes_the_variant_of_gmsh_that_is_asked_for) {
+  const std::string out = folder_ / "a.msh";
+  const std::vector<std::pair<std::string, std::string>> variants = {
+      {"msh", "Gmsh MSH 4.1 ASCII"}, {"msh41-binary", "Gmsh MSH 4.1 binary"}, {"msh22", "Gmsh MSH 2.2 ASCII"}};
+  for (const auto& [format, name] : variants) {
+    ASSERT_EQ(run({"convert", cube_, out, "--format", format}).code, 0);
+    EXPECT_EQ(json::parse(run({"info", out, "--json"}).out)["format"], name);
+  }
+}
+
+TEST_F(CliHabits, warns_of_a_plane_or_a_blade_that_misses) {
+  const Outcome plane = run({"cut", cube_, "--plane", "2,0,0,5"});
+  EXPECT_EQ(plane.code, 0);
+  EXPECT_NE(plane.err.find("warning: the plane 2,0,0,5 misses the mesh: nothing was cut; its box has d from 0 to 2"),
+            std::string::npos)
+      << plane.err;
+  EXPECT_EQ(run({"cut", cube_, "--plane", "2,0,0,5", "-q"}).err, "");
+  EXPECT_EQ(run({"cut", cube_, "--plane", "2,0,0,1"}).err.find("warning"), std::string::npos);
+  const std::string blade = folder_.write("blade.json", R"({"format":"incise-blade","version":1,"strokes":[
+        {"edges":[{"t":0,"points":[[0.4,-1,-1],[0.4,2,-1]]},{"t":1,"points":[[0.4,-1,2],[0.4,2,2]]}]},
+        {"name":"far","edges":[{"t":0,"points":[[4,-1,-1],[4,2,-1]]},{"t":1,"points":[[4,-1,2],[4,2,2]]}]}]})");
+  const Outcome far = run({"cut", cube_, "--blade", blade});
+  EXPECT_NE(far.err.find("warning: " + blade + ": stroke 1 \"far\" cut nothing"), std::string::npos) << far.err;
+}
+
+TEST_F(CliHabits, says_of_files_of_another_kind_what_they_are_and_what_to_use) {
+  const std::string scene = folder_.write("scene.json", full_scene().dump());
+  const std::string blade = INCISE_SCENES "/cube_plane.json", record = folder_ / "r.jsonl";
+  ASSERT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.4", "--record", record, "-q"}).code, 0);
+  const auto expect_told = [&](const std::vector<std::string>& words, const std::string& file,
+                               const std::string& part) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
+    EXPECT_NE(outcome.err.find("incise: error: " + file + ": is " + part), std::string::npos) << outcome.err;
+  };
+  expect_told({"simulate", cube_}, cube_, "a mesh (MEDIT .mesh ASCII, 162 tets); cut it with incise cut");
+  expect_told({"simulate", record}, record, "a recording; run it again with incise replay");
+  expect_told({"simulate", blade}, blade, "a blade file");
+  expect_told({"cut", cube_, "--blade", scene}, scene, "a scene; run it with incise simulate");
+  expect_told({"cut", scene, "--plane", "1,0,0,0.4"}, scene, "a scene");
+  expect_told({"info", record}, record, "a recording");
+  expect_told({"check", blade}, blade, "a blade file");
+  expect_told({"replay", cube_}, cube_, "a mesh");
+}
+
+TEST_F(CliHabits, a_full_stdout_is_a_failure) {
+  EXPECT_EQ(run_to("/dev/full", {"info", cube_}).code, 1);
+  EXPECT_NE(run_to("/dev/full", {"info", cube_}).err.find("stdout: writing failed"), std::string::npos);
+}
+
+}  // namespace
