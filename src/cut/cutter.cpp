@@ -65,7 +65,7 @@ constexpr double kDrawBack = 0.8;
 constexpr double kStartShare = 0.2, kMostStarts = 1024.0;
 /// A stroke goes on from one whose blade stood within so many spacings from where it starts, at rest and in a body that
 /// has moved: there the tissue tells where that blade would be.
-constexpr double kStands = 0.05, kStandsInTissue = 0.08;
+constexpr double kStands = 0.05, kStandsInTissue = 0.05;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
 
@@ -189,13 +189,12 @@ class Cutter::Pipeline : private OpenStroke {
     });
   }
   [[nodiscard]] std::shared_ptr<const Pause> pause(const TetMesh& mesh) const {
-    if (!stroke_cut_.has_front() && !motion_.is_at_start()) return nullptr;
     auto pause = std::make_shared<Pause>(Pause{stroke_cut_.pause(), static_cast<const OpenStroke&>(*this)});
     if (is_in_material_) pause->stroke.material_.find_tips(mesh, stroke_cut_.complex());
     return pause;
   }
-  bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
-                 std::span<const Vec3> row, bool has_moved) {
+  bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, std::span<const Vec3> row,
+                 bool has_moved) {
     const OpenStroke& paused = pause.stroke;
     if (row.size() != paused.given_row_.size()) return false;
     if (!has_moved && !paused.is_in_material_) {
@@ -207,7 +206,8 @@ class Cutter::Pipeline : private OpenStroke {
     }
     const std::size_t end = journal.position();
     if (!go_on(mesh, journal, pause, first_step, has_moved, paused.tag_)) return false;
-    const bool stands = material_.stands_at(mesh, stroke_cut_.complex(), edge_.divided(row), kStandsInTissue * spacing_);
+    const bool stands =
+        material_.stands_at(mesh, stroke_cut_.complex(), edge_.divided(row), kStandsInTissue * spacing_);
     stroke_cut_.forget();
     journal.take_back(mesh, end);
     return stands;
@@ -216,7 +216,7 @@ class Cutter::Pipeline : private OpenStroke {
              std::uint32_t tag) {
     const std::size_t end = journal.position();
     const std::uint32_t pieces = pieces_at(mesh, journal, first_step, end);
-    for (std::size_t i = end; i-- > first_step;) journal.append(reversal_of(mesh, journal.step(i)));
+    for (std::size_t i = end; i-- > first_step;) reverse(mesh, journal, i);
     if (pieces_at(mesh, journal, first_step, end) != pieces) {
       journal.take_back(mesh, end);
       return false;

@@ -22,39 +22,58 @@ constexpr double kLeastWeight = -2.0;
 
 class Reversal {
  public:
-  Reversal(TetMesh& mesh, const Step& step) : mesh_(mesh), step_(step), transaction_(mesh) {}
+  Reversal(TetMesh& mesh, const Step& step) : mesh_(mesh), step_(step) {}
 
-  Step run() {
-    keep_present();
+  void run(Journal& journal) {
+    find_tets();
     find_middles();
-    for (const Back& back : backs_) {
-      if (!mesh_.is_live(back.image->id)) revive(back);
+    Transaction first(mesh_);
+    restore_places(first);
+    for (std::uint32_t i = 0; i < given_way_; ++i) first.remove_tet(present_.id(i));
+    if (waits_) {
+      for (const TetImage* image : coming_)
+        aside_.push_back(first.add_tet_beside(image->vertices, parent_of(*image), ids_));
+      journal.append(first.commit());
+      Transaction second(mesh_);
+      for (const TetId tet : aside_) second.remove_tet(tet);
+      finish(second, journal);
+    } else {
+      finish(first, journal);
     }
-    for (auto back = backs_.rbegin(); back != backs_.rend(); ++back) {
-      if (mesh_.rest(back->image->id) != back->image->rest) move(*back);
-    }
-    restore_tets();
-    restore_vertices();
-    return transaction_.commit();
   }
 
  private:
   /// A vertex that comes back, or goes back to where it was.
   struct Back {
     const VertexImage* image;
-    Vec3 middle = Vec3::Zero();  ///< of the largest tet that it had
-    double volume6 = -1.0;       ///< of that
+    Vec3 middle = Vec3::Zero();         ///< of the largest tet that it had
+    double volume6 = -1.0;              ///< of that
     std::uint32_t first = 0, last = 0;  ///< the tets around it, in `stars_`
   };
 
-  /// The tets that stand where the step changed something: first those that it made.
-  void keep_present() {
+  /// The tets that come back, and those that stand in their place: first those that give way.
+  void find_tets() {
+    bool is_rewired = false;
+    for (const TetImage& image : step_.before.tets) {
+      ids_.push_back(image.id);
+      const bool is_back = !mesh_.is_live(image.id);
+      is_rewired |= !is_back && mesh_.vertices(image.id) != image.vertices;
+      if (is_back) coming_.push_back(&image);
+    }
+    std::sort(ids_.begin(), ids_.end());
+    waits_ = is_rewired && !coming_.empty();
     for (const TetId tet : step_.new_tets) {
       if (mesh_.is_live(tet)) present_.add(mesh_, tet);
     }
-    made_ = present_.size();
     for (const TetImage& image : step_.before.tets) {
-      if (mesh_.is_live(image.id)) present_.add(mesh_, image.id);
+      if (!waits_ || !mesh_.is_live(image.id) || mesh_.vertices(image.id) == image.vertices) continue;
+      present_.add(mesh_, image.id);
+      coming_.push_back(&image);
+    }
+    given_way_ = present_.size();
+    for (const TetImage& image : step_.before.tets) {
+      if (mesh_.is_live(image.id) && (!waits_ || mesh_.vertices(image.id) == image.vertices))
+        present_.add(mesh_, image.id);
     }
   }
   void find_middles() {
@@ -63,8 +82,7 @@ class Reversal {
       images_.push_back(&image);
       if (!mesh_.is_live(image.id) || mesh_.rest(image.id) != image.rest) backs_.push_back({&image});
     }
-    std::sort(images_.begin(), images_.end(),
-              [](const VertexImage* a, const VertexImage* b) { return a->id < b->id; });
+    std::sort(images_.begin(), images_.end(), [](const VertexImage* a, const VertexImage* b) { return a->id < b->id; });
     for (const TetImage& image : step_.before.tets) note_middle(image);
     for (Back& back : backs_) {
       if (mesh_.is_live(back.image->id)) keep_star(back);
@@ -97,63 +115,70 @@ class Reversal {
     const Vec3 inwards = back.volume6 > 0 ? Vec3(place + kInwards * (back.middle - place)) : place;
     return present_.holding(inwards, 0, present_.size());
   }
-  void revive(const Back& back) {
-    const MaterialPlace place = present_.place_in(holder_of(back), back.image->rest);
-    transaction_.revive_vertex(*back.image, place.basis, place.weights, place.current);
+  void restore_places(Transaction& transaction) {
+    for (const Back& back : backs_) {
+      if (mesh_.is_live(back.image->id)) continue;
+      const MaterialPlace place = present_.place_in(holder_of(back), back.image->rest);
+      transaction.revive_vertex(*back.image, place.basis, place.weights, place.current);
+    }
+    for (auto back = backs_.rbegin(); back != backs_.rend(); ++back) {
+      if (mesh_.rest(back->image->id) != back->image->rest) move(transaction, *back);
+    }
   }
   /// The others have moved by now, and its tet may be flat.
-  void move(const Back& back) {
+  void move(Transaction& transaction, const Back& back) {
     const std::uint32_t holder = stars_.holding(back.image->rest, back.first, back.last);
     MaterialPlace place = place_in(mesh_, stars_.id(holder), back.image->rest);
     if (!(place.inside > kLeastWeight)) place = stars_.place_in(holder, back.image->rest);
-    transaction_.move(back.image->id, back.image->rest, place.basis, place.weights);
+    transaction.move(back.image->id, back.image->rest, place.basis, place.weights);
   }
-
-  void restore_tets() {
-    for (std::uint32_t i = 0; i < made_; ++i) transaction_.remove_tet(present_.id(i));
-    for (const TetImage& image : step_.before.tets) {
-      if (!mesh_.is_live(image.id)) transaction_.revive_tet(image, parent_of(image));
-    }
-    for (const TetImage& image : step_.before.tets) restore(image);
-    for (const OpenedFace& face : step_.closed) transaction_.open(face.a, face.b, face.tag);
-  }
-  /// Of the tets that the step made the one in which the middle of another one lies.
+  /// Of the tets that give way the one in which the middle of another one lies.
   [[nodiscard]] TetId parent_of(const TetImage& image) const {
     Vec3 middle = Vec3::Zero();
     for (const VertexId v : image.vertices) middle += 0.25 * rest_before(v);
-    return present_.id(present_.holding(middle, 0, made_ > 0 ? made_ : present_.size()));
+    return present_.id(present_.holding(middle, 0, given_way_ > 0 ? given_way_ : present_.size()));
   }
-  void restore(const TetImage& image) {
-    for (unsigned k = 0; k < 4; ++k) {
-      if (mesh_.vertices(image.id)[k] != image.vertices[k]) transaction_.set_corner(image.id, k, image.vertices[k]);
-      const Side side(image.id, k);
-      if (mesh_.link(side) != image.links[k]) transaction_.set_link(side, image.links[k]);
+
+  void finish(Transaction& transaction, Journal& journal) {
+    for (std::size_t i = 0; i < coming_.size(); ++i) {
+      transaction.revive_tet(*coming_[i], waits_ ? aside_[i] : parent_of(*coming_[i]));
     }
-  }
-  void restore_vertices() {
+    for (const TetImage& image : step_.before.tets) restore(transaction, image);
+    for (const OpenedFace& face : step_.closed) transaction.open(face.a, face.b, face.tag);
     for (const VertexId vertex : step_.new_vertices) {
-      if (mesh_.is_live(vertex)) transaction_.remove_vertex(vertex);
+      if (mesh_.is_live(vertex)) transaction.remove_vertex(vertex);
     }
     for (const VertexImage& image : step_.before.vertices) {
-      if (mesh_.tet_of(image.id) != image.tet) transaction_.set_tet_of(image.id, image.tet);
-      if (mesh_.shape_of(image.id) != image.shape) transaction_.set_shape(image.id, image.shape);
+      if (mesh_.tet_of(image.id) != image.tet) transaction.set_tet_of(image.id, image.tet);
+      if (mesh_.shape_of(image.id) != image.shape) transaction.set_shape(image.id, image.shape);
+    }
+    journal.append(transaction.commit());
+  }
+  void restore(Transaction& transaction, const TetImage& image) {
+    for (unsigned k = 0; k < 4; ++k) {
+      if (mesh_.vertices(image.id)[k] != image.vertices[k]) transaction.set_corner(image.id, k, image.vertices[k]);
+      const Side side(image.id, k);
+      if (mesh_.link(side) != image.links[k]) transaction.set_link(side, image.links[k]);
     }
   }
 
   TetMesh& mesh_;
   const Step& step_;
-  Transaction transaction_;
   StarWalker walker_;
   OldChildren present_, stars_;
-  std::uint32_t made_ = 0;  // of these: by the step
+  std::uint32_t given_way_ = 0;  // of the present ones: so many give way
+  bool waits_ = false;           // tets come back in two steps
+  std::vector<const TetImage*> coming_;
+  std::vector<TetId> ids_, aside_;  // ascending, of all images; of those that wait, beside `coming_`
   std::vector<Back> backs_;
   std::vector<const VertexImage*> images_;  // by id
 };
 
 }  // namespace
 
-Step reversal_of(TetMesh& mesh, const Step& step) {
-  return Reversal(mesh, step).run();
+void reverse(TetMesh& mesh, Journal& journal, std::size_t index) {
+  const Step& step = journal.step(index);  // stays in place while others are appended
+  Reversal(mesh, step).run(journal);
 }
 
 }  // namespace v0

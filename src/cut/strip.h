@@ -66,7 +66,7 @@ class OwnSheet {
   static constexpr std::size_t kGroup = 16;
 
   std::deque<std::shared_ptr<const Strip>> strips_;  // shared with copies
-  std::vector<Box> groups_;  // of as many strips each
+  std::vector<Box> groups_;                          // of as many strips each
   std::vector<Strip::Segment> border_;
 };
 

@@ -77,13 +77,6 @@ void StrokeCut::go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag
   tags_.first = pause.first_tag_;
 }
 
-bool StrokeCut::has_front() const {
-  for (std::uint32_t i = 0; i < complex_.size(); ++i) {
-    if (complex_[i].split != nullptr && has_odd_face(complex_[i].flagged)) return true;
-  }
-  return false;
-}
-
 Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> next, const FrontRules& rules,
                           CutStatistics& statistics, StageTimes& times) {
   if (next->sheet.triangle_count() == 0) return {};

@@ -74,8 +74,6 @@ class StrokeCut {
   /// Goes on from there; `mesh` must be as it was then, but for current positions. Walls get `tag` from now on.
   /// Cost: O(band + strips).
   void go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag);
-  /// Whether the sheet ends within tissue: there is a front to go on from.
-  [[nodiscard]] bool has_front() const;
   /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
   void finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics, StageTimes& times);
   /// Forgets a sheet whose cut was taken back.

@@ -14,9 +14,7 @@ struct StrokeTags {
   std::uint32_t first = 1, last = 1;
 
   /// Whether a link is a wall of the incision.
-  [[nodiscard]] bool own(Link link) const {
-    return link.is_boundary() && link.tag() >= first && link.tag() <= last;
-  }
+  [[nodiscard]] bool own(Link link) const { return link.is_boundary() && link.tag() >= first && link.tag() <= last; }
   /// What new walls are linked to.
   [[nodiscard]] Link wall() const { return Link::boundary(last); }
 };

@@ -49,13 +49,7 @@ void Transaction::touch(VertexId vertex) {
 std::uint32_t Transaction::take_tet_slot() {
   std::uint32_t slot = 0;
   if (mesh_.free_tets_.empty()) {
-    slot = mesh_.tet_slots();
-    mesh_.tet_vertices_.push_back(kNoVertices);
-    mesh_.tet_links_.push_back({});
-    mesh_.tet_region_.push_back(0);
-    if (mesh_.tet_generation_.size() <= slot) {
-      mesh_.tet_generation_.push_back(0);
-    }
+    slot = append_tet_slot();
   } else {
     slot = mesh_.free_tets_.back();
     mesh_.free_tets_.pop_back();
@@ -65,6 +59,17 @@ std::uint32_t Transaction::take_tet_slot() {
     }
   }
   note_taken(TetId(slot));
+  return slot;
+}
+
+std::uint32_t Transaction::append_tet_slot() {
+  const std::uint32_t slot = mesh_.tet_slots();
+  mesh_.tet_vertices_.push_back(kNoVertices);
+  mesh_.tet_links_.push_back({});
+  mesh_.tet_region_.push_back(0);
+  if (mesh_.tet_generation_.size() <= slot) {
+    mesh_.tet_generation_.push_back(0);
+  }
   return slot;
 }
 
@@ -179,12 +184,27 @@ VertexId Transaction::copy_vertex(VertexId source) {
 
 TetId Transaction::add_tet(const TetVertices& vertices, TetId parent) {
   const TetId id(take_tet_slot());
+  fill_tet(id, vertices, parent);
+  return id;
+}
+
+TetId Transaction::add_tet_beside(const TetVertices& vertices, TetId parent, std::span<const TetId> reserved) {
+  const GrowArray<std::uint32_t>& free = mesh_.free_tets_;
+  std::size_t at = free.size();
+  while (at > 0 && std::binary_search(reserved.begin(), reserved.end(), TetId(free[at - 1]))) --at;
+  const TetId id(at > 0 ? free[at - 1] : append_tet_slot());
+  if (at > 0) take_free_slot(id.value, mesh_.free_tets_, step_.free_tets_common, step_.before.free_tets);
+  note_taken(id);
+  fill_tet(id, vertices, parent);
+  return id;
+}
+
+void Transaction::fill_tet(TetId id, const TetVertices& vertices, TetId parent) {
   mesh_.tet_vertices_[id] = vertices;
   mesh_.tet_links_[id] = {};
   mesh_.tet_region_[id] = mesh_.tet_region_[parent];
   parents_.push_back(parent);
   ++mesh_.live_tets_;
-  return id;
 }
 
 void Transaction::remove_tet(TetId tet) {

@@ -47,17 +47,17 @@ class Cutter {
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times);
   /// A stroke as it stands before its end: its blade, its sheet, and the band around its front.
   class Pause;
-  /// The stroke under way, so that a stroke to come may go on from it; null where it has cut something and has no front
-  /// in the body: it is through. To be called before `end`. Cost: O(band + strips).
+  /// The stroke under way, so that a stroke to come may go on from it. To be called before `end`. Cost: O(band +
+  /// strips).
   [[nodiscard]] std::shared_ptr<const Pause> pause(const TetMesh& mesh) const;
   /// Whether a blade stands where that of a paused stroke would, so that its stroke may go on from that one: it has the
-  /// same number of points, each within 0.05 spacings; in a body that has moved those in tissue are within 0.08 spacings
-  /// of where this has taken the front. `first_step` as for `go_on`; nothing changes, but that undone steps are lost.
-  /// Cost: O(points) at rest, else as `go_on`.
+  /// same number of points, each within 0.05 spacings; in a body that has moved those in tissue are within 0.05
+  /// spacings of where this has taken the front. `first_step` as for `go_on`; nothing changes, but that undone steps
+  /// are lost. Cost: O(points) at rest, else as `go_on`.
   [[nodiscard]] bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
                                std::span<const Vec3> row, bool has_moved);
   /// Begins a stroke that goes on from a paused one: what the steps of the journal from `first_step` on did to end that
-  /// is taken back, by as many new steps. The journal must be as that stroke left it. From then on both are one cut;
+  /// is taken back, by new steps. The journal must be as that stroke left it. From then on both are one cut;
   /// walls get `tag`, the next one after those of the strokes before. Returns false, with nothing changed, where that
   /// would join two pieces: there `begin`. Cost: O(those steps + band + strips), and that of `PieceFinder`.
   bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,

@@ -90,9 +90,10 @@ class Engine {
   Result<StrokeReport> cut(const Stroke& stroke);
 
   /// Puts the blade in place for a stroke that will be cut step by step; nothing is cut yet. Returns the stroke's
-  /// number. A stroke that starts where the last one ended, its points within 0.05 spacings of a typical edge, is one cut with it: its
-  /// first step takes back what ended that one, and cuts on (docs/decisions/0030). Errors: kBadArgument for a malformed pose, one too far from the body as it stands (`check_reach`), or
-  /// while another stroke is under way; nothing changes then.
+  /// number. A stroke that starts where the last one ended, its points within 0.05 spacings of a typical edge, is one
+  /// cut with it: its first step takes back what ended that one, and cuts on (docs/decisions/0030). Errors:
+  /// kBadArgument for a malformed pose, one too far from the body as it stands (`check_reach`), or while another stroke
+  /// is under way; nothing changes then.
   Result<std::uint32_t> begin_stroke(const BladePose& pose);
   /// Moves the blade on and cuts what it passes through on the way, up to where it stands now. All poses of a stroke
   /// have the same number of points. Errors: kBadArgument without a stroke, for a malformed pose or one too far away,

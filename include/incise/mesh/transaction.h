@@ -40,6 +40,8 @@ class Transaction {
   VertexId copy_vertex(VertexId source);
   /// A new tet; its links are boundary with tag 0 until set. `parent` is the tet that it takes material from.
   TetId add_tet(const TetVertices& vertices, TetId parent);
+  /// The same in a slot other than those of `reserved`, ascending. Cost: O(free slots) at most.
+  TetId add_tet_beside(const TetVertices& vertices, TetId parent, std::span<const TetId> reserved);
   void remove_tet(TetId tet);
   void remove_vertex(VertexId vertex);
   /// Puts a tet back into its slot, which must be free: all of the image but its links, which are boundary with tag 0
@@ -103,6 +105,8 @@ class Transaction {
   std::uint32_t take_vertex_slot();
   static void take_free_slot(std::uint32_t slot, GrowArray<std::uint32_t>& free, std::size_t& common,
                              std::vector<std::uint32_t>& before);
+  void fill_tet(TetId id, const TetVertices& vertices, TetId parent);
+  std::uint32_t append_tet_slot();
   void note_taken(TetId tet);
   void note_taken(VertexId vertex);
   void record_born(VertexId id, std::span<const VertexId> parents, std::span<const double> weights);

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stroke that starts where the last one ended is one cut with it: at rest, in a body that moves, after undo.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "incise/engine/engine.h"
+#include "incise/mesh/components.h"
+#include "incise/mesh/quality_stats.h"
+#include "incise/mesh/shapes.h"
+#include "incise/mesh/validate.h"
+#include "support/mirror_checks.h"
+#include "support/random.h"
+
+namespace incise::test {
+namespace {
+
+/// A blade that goes through the unit cube along a random plane: its pose where it has gone `way` from its middle.
+struct RandomPlane {
+  Vec3 centre, along, forwards;
+
+  explicit RandomPlane(std::uint64_t seed) {
+    Random random(seed);
+    const auto direction = [&] {
+      const double z = random.real(-1, 1), angle = random.real(0, 6.2831853071795862);
+      const double r = std::sqrt(1 - z * z);
+      return Vec3(r * std::cos(angle), r * std::sin(angle), z);
+    };
+    const Vec3 normal = direction();
+    forwards = direction();
+    forwards = (forwards - forwards.dot(normal) * normal).normalized();
+    along = normal.cross(forwards);
+    centre = {random.real(0.35, 0.65), random.real(0.35, 0.65), random.real(0.35, 0.65)};
+  }
+  [[nodiscard]] BladePose at(double way) const {
+    const Vec3 middle = centre + way * forwards;
+    return {{middle - 2 * along, middle + 2 * along}, forwards};
+  }
+};
+
+/// A fifth of the cube: an element.
+constexpr double kElement = 0.2;
+
+Engine engine_of_cube() {
+  return Engine::create(TetMesh::build(kuhn_cube(5)).value()).value();
+}
+
+void stroke(Engine& engine, const RandomPlane& plane, double from, double to) {
+  ASSERT_TRUE(engine.begin_stroke(plane.at(from)).ok());
+  ASSERT_TRUE(engine.step(plane.at(to)).ok());
+  ASSERT_TRUE(engine.end_stroke().ok());
+}
+
+/// Through all of the cube by strokes of a certain length.
+void cut_through(Engine& engine, const RandomPlane& plane, double length) {
+  for (double way = -1.0; way < 1.0; way += length) stroke(engine, plane, way, way + length);
+}
+
+TEST(Continuation, of_short_strokes_makes_the_cut_of_one_stroke) {
+  for (const double share : {0.1, 0.3, 0.48, 0.65}) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      SCOPED_TRACE(testing::Message() << share << " elements, seed " << seed);
+      const RandomPlane plane(seed);
+      Engine engine = engine_of_cube();
+      cut_through(engine, plane, share * kElement);
+      EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
+      EXPECT_LE(measure_quality(engine.mesh()).lr_max, 25.0);
+      EXPECT_LE(engine.mesh().tet_count(), 1000U);  // of 750; one stroke makes 700 to 850
+      EXPECT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
+    }
+  }
+}
+
+TEST(Continuation, leaves_a_mesh_in_shape_after_each_stroke) {
+  const RandomPlane plane(3);
+  Engine engine = engine_of_cube();
+  for (double way = -1.0; way < 1.0; way += 0.05) {
+    stroke(engine, plane, way, way + 0.05);
+    EXPECT_LE(measure_quality(engine.mesh()).lr_max, 60.0);
+    ASSERT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
+  }
+}
+
+TEST(Continuation, is_undone_redone_and_made_again_bit_for_bit) {
+  const RandomPlane plane(5);
+  Engine engine = engine_of_cube();
+  for (double way = -1.0; way < 0.0; way += 0.1) stroke(engine, plane, way, way + 0.1);
+  const std::uint64_t before = engine.mesh().hash();
+  stroke(engine, plane, 0.0, 0.1);
+  const std::uint64_t after = engine.mesh().hash();
+  EXPECT_NE(after, before);
+  EXPECT_TRUE(engine.undo());
+  EXPECT_EQ(engine.mesh().hash(), before);
+  EXPECT_TRUE(engine.redo());
+  EXPECT_EQ(engine.mesh().hash(), after);
+  EXPECT_TRUE(engine.undo());
+  stroke(engine, plane, 0.0, 0.1);
+  EXPECT_EQ(engine.mesh().hash(), after);
+}
+
+TEST(Continuation, begun_and_ended_without_a_step_changes_nothing) {
+  const RandomPlane plane(6);
+  Engine engine = engine_of_cube();
+  stroke(engine, plane, -1.0, 0.0);
+  const std::uint64_t before = engine.mesh().hash();
+  const std::size_t position = engine.journal().position();
+  ASSERT_TRUE(engine.begin_stroke(plane.at(0.0)).ok());
+  ASSERT_TRUE(engine.end_stroke().ok());
+  EXPECT_EQ(engine.mesh().hash(), before);
+  EXPECT_EQ(engine.journal().position(), position);
+  stroke(engine, plane, 0.0, 1.0);
+  EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
+}
+
+/// Where the body stands at a moment: it is sheared to and fro.
+void sway(Engine& engine, unsigned moment) {
+  const TetMesh& mesh = engine.mesh();
+  std::vector<Vec3> positions(mesh.vertex_slots(), Vec3::Zero());
+  const double shear = 0.3 * std::sin(0.15 * moment);
+  mesh.for_each_vertex([&](VertexId v) {
+    const Vec3& x = mesh.rest(v);
+    positions[v.value] = x + shear * Vec3(x.z(), 0.5 * x.x(), 0);
+  });
+  ASSERT_TRUE(engine.set_positions(positions).ok());
+}
+
+TEST(Continuation, goes_on_in_a_body_that_moves_between_strokes) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const RandomPlane plane(seed);
+    Engine engine = engine_of_cube();
+    JournalMirror mirror = mirror_of(engine.mesh());
+    const double mass = mass_of(mirror);
+    unsigned moment = 0;
+    const auto pose = [&](double way) {
+      const double shear = 0.3 * std::sin(0.15 * moment);
+      BladePose now = plane.at(way);
+      for (Vec3& x : now.edge) x += shear * Vec3(x.z(), 0.5 * x.x(), 0);
+      now.direction += shear * Vec3(now.direction.z(), 0.5 * now.direction.x(), 0);
+      return now;
+    };
+    for (double way = -1.0; way < 1.0; way += 0.08) {
+      sway(engine, ++moment);
+      ASSERT_TRUE(engine.begin_stroke(pose(way)).ok());
+      sway(engine, ++moment);
+      ASSERT_TRUE(engine.step(pose(way + 0.08)).ok());
+      ASSERT_TRUE(engine.end_stroke().ok());
+      ASSERT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
+      mirror.follow(engine.journal());
+      EXPECT_NEAR(mass_of(mirror), mass, 1e-3 * mass);
+    }
+    EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
+    EXPECT_LE(measure_quality(engine.mesh()).lr_max, 25.0);
+  }
+}
+
+TEST(Continuation, is_told_to_followers_by_steps_like_any_other) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const RandomPlane plane(seed);
+    Engine engine = engine_of_cube();
+    JournalMirror mirror = mirror_of(engine.mesh());
+    for (double way = -1.0; way < 1.0; way += 0.11) {
+      stroke(engine, plane, way, way + 0.11);
+      expect_follows(mirror, engine.journal(), engine.mesh());
+      expect_affine_velocity(mirror, 1e-6);
+    }
+    while (engine.undo()) expect_follows(mirror, engine.journal(), engine.mesh());
+    while (engine.redo()) expect_follows(mirror, engine.journal(), engine.mesh());
+  }
+}
+
+}  // namespace
+}  // namespace incise::test
