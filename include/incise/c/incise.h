@@ -754,7 +754,7 @@ INCISE_API incise_status incise_haptic_tool_tick(incise_haptic_tool* tool, doubl
 INCISE_API incise_status incise_haptic_tool_free(incise_haptic_tool* tool);
 
 #ifdef __cplusplus
-}
+} /* extern "C" */
 #endif
 /* NOLINTEND(readability-identifier-naming) */
 
