@@ -40,7 +40,7 @@ struct RebuildStatistics {
 class Rebuild {
  public:
   struct Settings {
-    StrokeTags tags;  ///< of the incision
+    StrokeTags tags = {};  ///< of the incision
     bool keeps_crumbs = true;
     double spacing = 0.0;        ///< the length of a typical edge: crumbs are judged by half of it at least
     double thin = 0.0;           ///< pieces beside an older wall that are thinner than this are crumbs

@@ -42,7 +42,7 @@ class StarParts {
   /// a star that stays whole beside walls of `tags` is at the front.
   using Home = std::function<VertexId(std::span<const StarTet>)>;  // of what is captured, two pointers cost no memory
   struct Settings {
-    StrokeTags tags;
+    StrokeTags tags = {};
     bool makes_twins = false;
     bool keeps_places = false, may_be_named = false;
     const MaterialPieces* pieces = nullptr;  ///< where not null, no copy goes over from one to another
