@@ -73,7 +73,7 @@ void WindingNumber::build(std::uint32_t begin, std::uint32_t end) {
   if (end - begin > kLeaf) {
     Eigen::Index axis = 0;
     (void)(middles.hi - middles.lo).maxCoeff(&axis);
-    std::stable_sort(corners_.begin() + begin, corners_.begin() + end,
+    std::stable_sort(corners_.data() + begin, corners_.data() + end,
                      [&](const auto& a, const auto& b) { return middle_of(a)[axis] < middle_of(b)[axis]; });
     build(begin, begin + (end - begin) / 2);
     node.second = static_cast<std::uint32_t>(nodes_.size());

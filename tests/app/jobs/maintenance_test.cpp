@@ -8,6 +8,7 @@
 #include "app/jobs/improve_job.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
+#include "incise/paper/paper_cut.h"
 
 namespace {
 
@@ -62,7 +63,11 @@ TEST(Maintenance, switched_off_leaves_the_plain_cut) {
     Journal journal;
     StageTimes times;
     Cutter cutter(job.engine.cut);
-    for (std::uint32_t i = 0; i < 3; ++i) ASSERT_TRUE(cutter.cut(mesh, journal, job.strokes[i], i + 1, times).ok());
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto cut_it = profile == Profile::kPaper ? cut_as_paper(mesh, journal, job.strokes[i], i + 1, 1, times)
+                                                     : cutter.cut(mesh, journal, job.strokes[i], i + 1, times);
+      ASSERT_TRUE(cut_it.ok());
+    }
     EXPECT_EQ(report.hash, mesh.hash());
     EXPECT_EQ(report.maintain.work_units, 0U);
     EXPECT_EQ(report.quality_cut.lr_max, report.quality_after.lr_max);
