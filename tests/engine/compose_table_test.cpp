@@ -86,7 +86,7 @@ constexpr std::array<Short, 14> kShort = {{
     {Body::kKuhn, Stance::kStretched, "ring 5", 1, 117, 1.3},
     {Body::kKuhn, Stance::kStretched, "parallel 0.25", 2, 31, 1.3},
     {Body::kKuhn, Stance::kSwaying, "ring 2", 1, 56, 1.3},
-    {Body::kKuhn, Stance::kSwaying, "ring 5", 1, 56, 1.3},
+    {Body::kKuhn, Stance::kSwaying, "ring 5", 1, 56, 1.4},
     {Body::kKuhn, Stance::kSwaying, "parallel 0.25", 2, 31, 1.3},
 }};
 
