@@ -103,18 +103,18 @@ namespace {
 struct OpenStroke {
   enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
 
-  BladeMotion motion_;
-  SweptTriangles swept_;
-  MaterialBlade material_;
-  EdgeDivision edge_;
-  std::vector<Vec3> given_row_;  // the last one
-  std::vector<Vec3> last_row_;   // the same, divided
-  double spacing_ = 1.0;
-  Vec3 direction_ = Vec3::Zero();  // of the last step in the material
-  bool is_in_material_ = false, is_last_ = false;
-  bool has_ended_ = false;                   // a short stroke in the material
-  AtFront is_at_front_ = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
-  std::uint32_t tag_ = 1;
+  BladeMotion motion;
+  SweptTriangles swept;
+  MaterialBlade material;
+  EdgeDivision edge;
+  std::vector<Vec3> given_row;  // the last one
+  std::vector<Vec3> last_row;   // the same, divided
+  double spacing = 1.0;
+  Vec3 direction = Vec3::Zero();  // of the last step in the material
+  bool is_in_material = false, is_last = false;
+  bool has_ended = false;                   // a short stroke in the material
+  AtFront is_at_front = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
+  std::uint32_t tag = 1;
 };
 
 }  // namespace
@@ -125,89 +125,94 @@ class Cutter::Pause {
   OpenStroke stroke;
 };
 
-class Cutter::Pipeline : private OpenStroke {
+class Cutter::Pipeline {
  public:
   explicit Pipeline(CutOptions options) : options_(options), stroke_cut_(options) {}
 
   void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
              std::uint32_t tag) {
-    tag_ = tag;
-    swept_ = {};
-    spacing_ = typical_spacing(mesh);
-    stroke_cut_.begin(tag, spacing_);
+    stroke_.tag = tag;
+    stroke_.swept = {};
+    stroke_.spacing = typical_spacing(mesh);
+    stroke_cut_.begin(tag, stroke_.spacing);
     stroke_cut_.prepare(mesh, journal);
-    given_row_.assign(row.begin(), row.end());
-    last_row_ = given_row_;
-    edge_ = EdgeDivision(row.size());
-    is_in_material_ = has_moved;
-    is_last_ = false;
-    is_at_front_ = AtFront::kUnknown;
-    has_ended_ = false;
-    direction_ = Vec3::Zero();
+    stroke_.given_row.assign(row.begin(), row.end());
+    stroke_.last_row = stroke_.given_row;
+    stroke_.edge = EdgeDivision(row.size());
+    stroke_.is_in_material = has_moved;
+    stroke_.is_last = false;
+    stroke_.is_at_front = OpenStroke::AtFront::kUnknown;
+    stroke_.has_ended = false;
+    stroke_.direction = Vec3::Zero();
     if (!has_moved) {
-      motion_.begin(row, spacing_);
+      stroke_.motion.begin(row, stroke_.spacing);
       return;
     }
-    material_.begin(mesh, stroke_cut_.surface(), row, spacing_, stroke_cut_.complex());
-    motion_.begin(material_.anchors(), spacing_);
+    stroke_.material.begin(mesh, stroke_cut_.surface(), row, stroke_.spacing, stroke_cut_.complex());
+    stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
   }
   Result<CutStatistics> step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, const Vec3& direction,
                              bool has_moved, StageTimes& times) {
     return guarded(mesh, journal, [&]() -> Status {
       statistics_.steps = 1;
-      if (has_moved && !is_in_material_) {
+      if (has_moved && !stroke_.is_in_material) {
         enter_material(mesh);
       }
-      given_row_.assign(row.begin(), row.end());
-      if (!is_in_material_) divide_edge(row);
-      const std::vector<Vec3> before = std::exchange(last_row_, edge_.divided(row));
-      if (is_in_material_) {
-        direction_ = direction;
+      stroke_.given_row.assign(row.begin(), row.end());
+      if (!stroke_.is_in_material) divide_edge(row);
+      const std::vector<Vec3> before = std::exchange(stroke_.last_row, stroke_.edge.divided(row));
+      if (stroke_.is_in_material) {
+        stroke_.direction = direction;
         return step_in_material(mesh, journal, before, direction, times);
       }
-      if (goes_on_shortly(mesh, last_row_)) return {};
-      return follow(mesh, journal,
-                    motion_.advance(last_row_, stroke_cut_.sheet(), touches(mesh), surroundings(mesh), false), times);
+      if (goes_on_shortly(mesh, stroke_.last_row)) return {};
+      return follow(
+          mesh, journal,
+          stroke_.motion.advance(stroke_.last_row, stroke_cut_.sheet(), touches(mesh), surroundings(mesh), false),
+          times);
     });
   }
   Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times) {
     return guarded(mesh, journal, [&] {
       Status status;
-      if (is_in_material_) {
-        if (motion_.is_at_start()) status = cut_to(mesh, journal, last_row_, direction_, times, true);
-        is_last_ = true;
-        if (status && !has_ended_) status = cut_to(mesh, journal, last_row_, direction_, times, true);
-        is_last_ = false;
-      } else if (goes_on_shortly(mesh, last_row_)) {
-        status = end_shortly(mesh, journal, last_row_, times);
+      if (stroke_.is_in_material) {
+        if (stroke_.motion.is_at_start())
+          status = cut_to(mesh, journal, stroke_.last_row, stroke_.direction, times, true);
+        stroke_.is_last = true;
+        if (status && !stroke_.has_ended)
+          status = cut_to(mesh, journal, stroke_.last_row, stroke_.direction, times, true);
+        stroke_.is_last = false;
+      } else if (goes_on_shortly(mesh, stroke_.last_row)) {
+        status = end_shortly(mesh, journal, stroke_.last_row, times);
       } else {
-        status = follow(mesh, journal, motion_.end(stroke_cut_.sheet(), touches(mesh), surroundings(mesh)), times);
+        status =
+            follow(mesh, journal, stroke_.motion.end(stroke_cut_.sheet(), touches(mesh), surroundings(mesh)), times);
       }
-      if (status) status = follow(mesh, journal, motion_.reach_on(surroundings(mesh)), times);
+      if (status) status = follow(mesh, journal, stroke_.motion.reach_on(surroundings(mesh)), times);
       if (status) finish_sheet(mesh, journal, times);
       return status;
     });
   }
   [[nodiscard]] std::shared_ptr<const Pause> pause(const TetMesh& mesh) const {
-    auto pause = std::make_shared<Pause>(Pause{stroke_cut_.pause(), static_cast<const OpenStroke&>(*this)});
-    if (is_in_material_) pause->stroke.material_.find_tips(mesh, stroke_cut_.complex());
+    auto pause = std::make_shared<Pause>(Pause{stroke_cut_.pause(), stroke_});
+    if (stroke_.is_in_material) pause->stroke.material.find_tips(mesh, stroke_cut_.complex());
     return pause;
   }
   bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, std::span<const Vec3> row,
                  bool has_moved) {
     const OpenStroke& paused = pause.stroke;
-    if (row.size() != paused.given_row_.size()) return false;
-    if (!has_moved && !paused.is_in_material_) {
+    if (row.size() != paused.given_row.size()) return false;
+    if (!has_moved && !paused.is_in_material) {
       bool stands = true;
       for (std::size_t c = 0; c < row.size(); ++c) {
-        stands = stands && (row[c] - paused.given_row_[c]).norm() <= kStands * paused.spacing_;
+        stands = stands && (row[c] - paused.given_row[c]).norm() <= kStands * paused.spacing;
       }
       return stands;
     }
     const std::size_t end = journal.position();
-    if (!go_on(mesh, journal, pause, first_step, has_moved, paused.tag_)) return false;
-    const bool stands =
-        material_.stands_at(mesh, stroke_cut_.complex(), edge_.divided(row), kStandsInTissue * spacing_);
+    if (!go_on(mesh, journal, pause, first_step, has_moved, paused.tag)) return false;
+    const bool stands = stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row),
+                                                   kStandsInTissue * stroke_.spacing);
     stroke_cut_.forget();
     journal.take_back(mesh, end);
     return stands;
@@ -221,17 +226,17 @@ class Cutter::Pipeline : private OpenStroke {
       journal.take_back(mesh, end);
       return false;
     }
-    static_cast<OpenStroke&>(*this) = pause.stroke;
-    tag_ = tag;
+    stroke_ = pause.stroke;
+    stroke_.tag = tag;
     stroke_cut_.go_on(*pause.cut, mesh, tag);
     stroke_cut_.prepare(mesh, journal);
-    if (has_moved && !is_in_material_) enter_material(mesh);
+    if (has_moved && !stroke_.is_in_material) enter_material(mesh);
     return true;
   }
   void forget() { stroke_cut_.forget(); }
   void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
   [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const { return stroke_cut_.is_busy(mesh, tet); }
-  [[nodiscard]] const SweptTriangles& swept() const { return swept_; }
+  [[nodiscard]] const SweptTriangles& swept() const { return stroke_.swept; }
 
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times) {
@@ -279,30 +284,31 @@ class Cutter::Pipeline : private OpenStroke {
   }
   /// The body has begun to move: from now on the blade is located in the elements as they stand.
   void enter_material(const TetMesh& mesh) {
-    is_in_material_ = true;
-    material_.take_over(mesh, stroke_cut_.surface(), last_row_, motion_.front(), spacing_, stroke_cut_.complex());
-    motion_.refine(material_.shares());
+    stroke_.is_in_material = true;
+    stroke_.material.take_over(mesh, stroke_cut_.surface(), stroke_.last_row, stroke_.motion.front(), stroke_.spacing,
+                               stroke_cut_.complex());
+    stroke_.motion.refine(stroke_.material.shares());
   }
   /// Divides the blade's edge where it turns on its way to a row.
   void divide_edge(std::span<const Vec3> row) {
-    const auto parts = edge_.divide(last_row_, edge_.divided(row), kTwist * spacing_);
+    const auto parts = stroke_.edge.divide(stroke_.last_row, stroke_.edge.divided(row), kTwist * stroke_.spacing);
     if (parts.empty()) return;
-    motion_.refine(parts);
-    last_row_ = divided(last_row_, parts);
+    stroke_.motion.refine(parts);
+    stroke_.last_row = divided(stroke_.last_row, parts);
   }
-  /// From where the blade was to `last_row_`, in parts of at most an element.
+  /// From where the blade was to `stroke_.last_row`, in parts of at most an element.
   Status step_in_material(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& before, const Vec3& direction,
                           StageTimes& times) {
     double travel = 0;
-    for (std::size_t c = 0; c < before.size(); ++c) travel = std::max(travel, (last_row_[c] - before[c]).norm());
-    if (travel > kMostParts * spacing_ || material_.is_graded()) {
+    for (std::size_t c = 0; c < before.size(); ++c) travel = std::max(travel, (stroke_.last_row[c] - before[c]).norm());
+    if (travel > kMostParts * stroke_.spacing || stroke_.material.is_graded()) {
       return step_from_far(mesh, journal, before, direction, times);
     }
-    const double parts = std::clamp(std::ceil(travel / spacing_), 1.0, kMostParts);
+    const double parts = std::clamp(std::ceil(travel / stroke_.spacing), 1.0, kMostParts);
     for (double part = 1; part <= parts; ++part) {
-      std::vector<Vec3> row = last_row_;
+      std::vector<Vec3> row = stroke_.last_row;
       for (std::size_t c = 0; c < row.size() && part < parts; ++c) {
-        row[c] = before[c] + (part / parts) * (last_row_[c] - before[c]);
+        row[c] = before[c] + (part / parts) * (stroke_.last_row[c] - before[c]);
       }
       if (Status status = cut_to(mesh, journal, row, direction, times); !status) return status;
     }
@@ -311,15 +317,16 @@ class Cutter::Pipeline : private OpenStroke {
   /// The same for a blade that reaches far beyond the body, or goes far: away from the body it is only put in place.
   Status step_from_far(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& before, const Vec3& direction,
                        StageTimes& times) {
-    const std::vector<Vec3> to = last_row_;
+    const std::vector<Vec3> to = stroke_.last_row;
     const Box body = current_bounds(mesh), near = enlarged(body, kNearBody);
-    const double travel = std::max(spacing_, (body.hi - body.lo).norm() / kMostParts);
+    const double travel = std::max(stroke_.spacing, (body.hi - body.lo).norm() / kMostParts);
     std::vector<Vec3> row = before;
     for (const StepPart& part : divide_step(before, to, travel, near)) {
       const std::vector<Vec3> from = std::exchange(row, to);
       for (std::size_t c = 0; c < row.size() && part.end < 1; ++c) row[c] = before[c] + part.end * (to[c] - before[c]);
       const bool is_free = stroke_cut_.complex().size() == 0;
-      if (is_free && (!part.is_near || material_.is_graded())) put_in_place(mesh, journal, part.is_near ? from : row);
+      if (is_free && (!part.is_near || stroke_.material.is_graded()))
+        put_in_place(mesh, journal, part.is_near ? from : row);
       if (is_free && !part.is_near) continue;
       if (Status status = cut_to(mesh, journal, row, direction, times); !status) return status;
     }
@@ -328,8 +335,8 @@ class Cutter::Pipeline : private OpenStroke {
   /// Starts anew with a blade that has not met the body yet.
   void put_in_place(const TetMesh& mesh, const Journal& journal, const std::vector<Vec3>& row) {
     stroke_cut_.prepare(mesh, journal);
-    material_.begin(mesh, stroke_cut_.surface(), row, spacing_, stroke_cut_.complex());
-    motion_.begin(material_.anchors(), spacing_);
+    stroke_.material.begin(mesh, stroke_cut_.surface(), row, stroke_.spacing, stroke_cut_.complex());
+    stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
   }
   /// `ends`: a stroke that is short ends there.
   Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction, StageTimes& times,
@@ -339,12 +346,12 @@ class Cutter::Pipeline : private OpenStroke {
     std::vector<Vec3> to;
     for (const SosPoint& p : proposal.row) to.push_back(p.position);
     if (goes_on_shortly(mesh, to)) {
-      has_ended_ = ends;
+      stroke_.has_ended = ends;
       return ends ? end_shortly(mesh, journal, to, times) : Status{};
     }
     BladeMotion::Move move;
-    move.strip = motion_.accept(proposal, surroundings(mesh));
-    material_.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    move.strip = stroke_.motion.accept(proposal, surroundings(mesh));
+    stroke_.material.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
     return follow(mesh, journal, std::move(move), times);
   }
   /// Looks for the blade in the tissue as it stands: the strip that it would cut.
@@ -352,10 +359,10 @@ class Cutter::Pipeline : private OpenStroke {
                                 const Vec3& direction, StageTimes& times) {
     const StageZone zone(times, Stage::kCollision);
     stroke_cut_.prepare(mesh, journal);
-    material_.locate(mesh, stroke_cut_.surface(), stroke_cut_.complex(), row, direction, is_last_);
-    BladeMotion::Proposal proposal = motion_.propose(material_.wanted());
+    stroke_.material.locate(mesh, stroke_cut_.surface(), stroke_cut_.complex(), row, direction, stroke_.is_last);
+    BladeMotion::Proposal proposal = stroke_.motion.propose(stroke_.material.wanted());
     while (!proposal.surface.triangles.empty() && hold_where_it_closes(mesh, proposal)) {
-      proposal = motion_.propose(material_.wanted());
+      proposal = stroke_.motion.propose(stroke_.material.wanted());
     }
     return proposal;
   }
@@ -365,11 +372,11 @@ class Cutter::Pipeline : private OpenStroke {
     const Strip strip(proposal.surface, {});
     bool has_held = false;
     for (const auto& [column, is_apart, is_left] : stroke_cut_.recrossed_columns(mesh, strip)) {
-      const double greatest = (is_left ? kTurnBack : kGiveWay) * spacing_;
+      const double greatest = (is_left ? kTurnBack : kGiveWay) * stroke_.spacing;
       for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
-        if (!material_.is_accepted(point)) continue;
-        if (!is_apart && material_.lead(point) > greatest) continue;
-        material_.hold(point);
+        if (!stroke_.material.is_accepted(point)) continue;
+        if (!is_apart && stroke_.material.lead(point) > greatest) continue;
+        stroke_.material.hold(point);
         has_held = true;
       }
     }
@@ -386,21 +393,22 @@ class Cutter::Pipeline : private OpenStroke {
     };
     found.reach = [this, older, is_outside = found.is_outside](const Vec3& place, const Vec3& outwards,
                                                                const Vec3& normal) {
-      const double along = kReachOn * spacing_, across = kReachThrough * spacing_;
-      const double beside = (options_.snap > 0 ? kBesideWall : kBesideExactly) * spacing_;
+      const double along = kReachOn * stroke_.spacing, across = kReachThrough * stroke_.spacing;
+      const double beside = (options_.snap > 0 ? kBesideWall : kBesideExactly) * stroke_.spacing;
       const auto is_open = [&](double share) {
         const Vec3 beyond = place + share * along * outwards;
-        return older.pass(beyond, normal, beside, kInside * spacing_) || is_outside(beyond);
+        return older.pass(beyond, normal, beside, kInside * stroke_.spacing) || is_outside(beyond);
       };
-      if (older.pass(place, normal, beside, kWeld * spacing_) &&
+      if (older.pass(place, normal, beside, kWeld * stroke_.spacing) &&
           std::all_of(kReachSamples.begin(), kReachSamples.end(), is_open)) {
         return along;
       }
-      return older.meet(place - kInside * spacing_ * outwards, place + kWeldThrough * spacing_ * outwards) ? across
-                                                                                                           : 0.0;
+      return older.meet(place - kInside * stroke_.spacing * outwards, place + kWeldThrough * stroke_.spacing * outwards)
+                 ? across
+                 : 0.0;
     };
     found.retreat = [this, older](const Vec3& place, const Vec3& outwards, double length) {
-      const double behind = std::min(kWeld * spacing_, length), before = kBefore * spacing_;
+      const double behind = std::min(kWeld * stroke_.spacing, length), before = kBefore * stroke_.spacing;
       const double met = older.first_met(place - behind * outwards, place + before * outwards, kSteep);
       return met <= 1.0 ? (1.0 - met) * (behind + before) : 0.0;
     };
@@ -408,15 +416,16 @@ class Cutter::Pipeline : private OpenStroke {
   }
   /// Whether a stroke has only begun, at the front of older cuts.
   [[nodiscard]] bool goes_on_shortly(const TetMesh& mesh, std::span<const Vec3> row) {
-    if (!motion_.is_at_start() || options_.snap <= 0 || is_at_front_ == AtFront::kNo) return false;
-    const std::vector<Vec3> start = motion_.front();
+    if (!stroke_.motion.is_at_start() || options_.snap <= 0 || stroke_.is_at_front == OpenStroke::AtFront::kNo)
+      return false;
+    const std::vector<Vec3> start = stroke_.motion.front();
     double travel = 0;
     for (std::size_t c = 0; c < row.size(); ++c) travel = std::max(travel, (row[c] - start[c]).norm());
-    if (!(travel > 0) || travel > kCarry * spacing_) return false;
-    if (is_at_front_ == AtFront::kUnknown) {
-      is_at_front_ = lies_at_front(mesh, start, row) ? AtFront::kYes : AtFront::kNo;
+    if (!(travel > 0) || travel > kCarry * stroke_.spacing) return false;
+    if (stroke_.is_at_front == OpenStroke::AtFront::kUnknown) {
+      stroke_.is_at_front = lies_at_front(mesh, start, row) ? OpenStroke::AtFront::kYes : OpenStroke::AtFront::kNo;
     }
-    return is_at_front_ == AtFront::kYes;
+    return stroke_.is_at_front == OpenStroke::AtFront::kYes;
   }
   /// Whether all of a row that is in the body lies at the front of older cuts, seen along its way to another row.
   [[nodiscard]] bool lies_at_front(const TetMesh& mesh, std::span<const Vec3> start, std::span<const Vec3> row) const {
@@ -428,13 +437,13 @@ class Cutter::Pipeline : private OpenStroke {
     bool is_at_front = false;
     for (std::size_t c = 0; c + 1 < row.size(); ++c) {
       const Vec3 along = start[c + 1] - start[c];
-      const Vec3 beside = kStartShare * spacing_ * along.normalized();  // the skin is near: fronts end off it
-      const double parts = std::clamp(std::ceil(along.norm() / (kStartShare * spacing_)), 1.0, kMostStarts);
+      const Vec3 beside = kStartShare * stroke_.spacing * along.normalized();  // the skin is near: fronts end off it
+      const double parts = std::clamp(std::ceil(along.norm() / (kStartShare * stroke_.spacing)), 1.0, kMostStarts);
       for (double k = 0; k <= parts; ++k) {
         const Vec3 place = start[c] + (k / parts) * along;
         const Vec3 normal = (row[c] + (k / parts) * (row[c + 1] - row[c]) - place).cross(along);
-        const bool is_at =
-            normal.squaredNorm() > 0 && older.pass(place, normal, kBesideWall * spacing_, kAtFront * spacing_);
+        const bool is_at = normal.squaredNorm() > 0 &&
+                           older.pass(place, normal, kBesideWall * stroke_.spacing, kAtFront * stroke_.spacing);
         if (!is_at && is_inside(place) && is_inside(place - beside) && is_inside(place + beside)) return false;
         is_at_front |= is_at;
       }
@@ -445,35 +454,35 @@ class Cutter::Pipeline : private OpenStroke {
   double carry(TetMesh& mesh, Journal& journal, std::span<const Vec3> from, std::span<const Vec3> to) {
     stroke_cut_.prepare(mesh, journal);
     Transaction transaction(mesh, true);
-    const double left = carry_front(transaction, stroke_cut_.surface(), from, to, spacing_);
+    const double left = carry_front(transaction, stroke_cut_.surface(), from, to, stroke_.spacing);
     Step step = transaction.commit();
     if (!step.is_empty()) journal.append(std::move(step));
     return left;
   }
   /// The same for the blade as it stands; what it swept is what walls are judged by.
   double carry_along(TetMesh& mesh, Journal& journal, std::span<const Vec3> row) {
-    note_swept(motion_.propose(row).surface);
-    return carry(mesh, journal, motion_.front(), row);
+    note_swept(stroke_.motion.propose(row).surface);
+    return carry(mesh, journal, stroke_.motion.front(), row);
   }
   /// Ends a short stroke. A front that cannot follow is drawn back and cut from there; what was drawn back in vain
   /// follows as far as it can.
   Status end_shortly(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times) {
-    if (carry_along(mesh, journal, row) <= kLag * spacing_) return {};
-    const std::vector<Vec3> back = drawn_back(motion_.front(), row);
+    if (carry_along(mesh, journal, row) <= kLag * stroke_.spacing) return {};
+    const std::vector<Vec3> back = drawn_back(stroke_.motion.front(), row);
     static_cast<void>(carry(mesh, journal, row, back));
-    stroke_cut_.begin(tag_, spacing_);
+    stroke_cut_.begin(stroke_.tag, stroke_.spacing);
     stroke_cut_.prepare(mesh, journal);
-    motion_.begin(back, spacing_);
+    stroke_.motion.begin(back, stroke_.spacing);
     BladeMotion::Move move;
-    move.strip = motion_.accept(motion_.propose(row), surroundings(mesh));
-    if (is_in_material_) material_.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    move.strip = stroke_.motion.accept(stroke_.motion.propose(row), surroundings(mesh));
+    if (stroke_.is_in_material) stroke_.material.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
     Status status = follow(mesh, journal, std::move(move), times);
-    if (status) status = follow(mesh, journal, motion_.reach_on(surroundings(mesh)), times);
+    if (status) status = follow(mesh, journal, stroke_.motion.reach_on(surroundings(mesh)), times);
     if (!status) return status;
     finish_sheet(mesh, journal, times);
     static_cast<void>(carry(mesh, journal, back, row));
-    stroke_cut_.begin(tag_, spacing_);
-    motion_.begin(row, spacing_);
+    stroke_cut_.begin(stroke_.tag, stroke_.spacing);
+    stroke_.motion.begin(row, stroke_.spacing);
     return {};
   }
   /// A row that is about an element behind another one, against its way.
@@ -482,7 +491,7 @@ class Cutter::Pipeline : private OpenStroke {
     for (std::size_t c = 0; c < row.size(); ++c) sum += to[c] - row[c];
     for (std::size_t c = 0; c < row.size(); ++c) {
       const Vec3 way = to[c] - row[c];
-      row[c] -= kDrawBack * spacing_ * (way.squaredNorm() > 0 ? way : sum).normalized();
+      row[c] -= kDrawBack * stroke_.spacing * (way.squaredNorm() > 0 ? way : sum).normalized();
     }
     return row;
   }
@@ -496,54 +505,55 @@ class Cutter::Pipeline : private OpenStroke {
     if (move.strip == nullptr) return {};
     if (move.starts_anew || comes_back(mesh, *move.strip)) {
       finish_sheet(mesh, journal, times);
-      stroke_cut_.begin(tag_, spacing_);
+      stroke_cut_.begin(stroke_.tag, stroke_.spacing);
       if (between_sheets_) between_sheets_();
       stroke_cut_.prepare(mesh, journal);
-      if (is_in_material_) material_.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-      move.strip = motion_.lay_anew(surroundings(mesh));
+      if (stroke_.is_in_material) stroke_.material.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+      move.strip = stroke_.motion.lay_anew(surroundings(mesh));
     }
     note_swept(move.strip->surface);
-    stroke_cut_.keep_pieces(is_in_material_);
+    stroke_cut_.keep_pieces(stroke_.is_in_material);
     Status status = stroke_cut_.advance(mesh, journal, std::move(move.strip), rules(), statistics_, times);
     if (!status) return status;
     if (stroke_cut_.must_finish()) {
       go_on_from_front(mesh, journal, times);
     } else {
-      const auto pinned = is_in_material_ ? material_.masters() : std::vector<std::uint32_t>();
+      const auto pinned = stroke_.is_in_material ? stroke_.material.masters() : std::vector<std::uint32_t>();
       stroke_cut_.bake(mesh, journal, rules(), pinned, statistics_, times);
     }
     return status;
   }
   /// Whether a strip comes back to what the sheet is done with.
   bool comes_back(const TetMesh& mesh, const Strip& strip) {
-    if (!is_in_material_ && stroke_cut_.crosses_own_cut(mesh, strip, kApart)) return true;
+    if (!stroke_.is_in_material && stroke_cut_.crosses_own_cut(mesh, strip, kApart)) return true;
     return stroke_cut_.comes_back(mesh, strip);
   }
   /// Finishes the sheet where it is; the next one goes on from there.
   void go_on_from_front(TetMesh& mesh, Journal& journal, StageTimes& times) {
     finish_sheet(mesh, journal, times);
-    stroke_cut_.begin(tag_, spacing_);
+    stroke_cut_.begin(stroke_.tag, stroke_.spacing);
     stroke_cut_.prepare(mesh, journal);
-    motion_.begin_anew();
-    if (is_in_material_) material_.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    stroke_.motion.begin_anew();
+    if (stroke_.is_in_material) stroke_.material.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
   }
   /// In a body that moves, front points keep still while they can: each that is made anew disturbs the solver.
   [[nodiscard]] FrontRules rules() const {
     FrontRules rules;
-    rules.reach = is_in_material_ ? kPointReach * spacing_ : 0.0;
+    rules.reach = stroke_.is_in_material ? kPointReach * stroke_.spacing : 0.0;
     return rules;
   }
   void note_swept(const SweptSurface& surface) {
-    const auto first = static_cast<std::uint32_t>(swept_.points.size());
-    for (const SosPoint& point : surface.points) swept_.points.push_back(point.position);
+    const auto first = static_cast<std::uint32_t>(stroke_.swept.points.size());
+    for (const SosPoint& point : surface.points) stroke_.swept.points.push_back(point.position);
     for (const SweptTriangle& triangle : surface.triangles) {
-      swept_.triangles.push_back({first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
+      stroke_.swept.triangles.push_back(
+          {first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
     }
   }
   /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
   Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
-    is_in_material_ = false;
-    const double spacing = spacing_ = typical_spacing(mesh);
+    stroke_.is_in_material = false;
+    const double spacing = stroke_.spacing = typical_spacing(mesh);
     const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
     const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
     for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
@@ -554,7 +564,7 @@ class Cutter::Pipeline : private OpenStroke {
   }
   /// One part of the sweep as a sheet of its own, in one step.
   Status cut_strip(TetMesh& mesh, Journal& journal, SweptSurface part, std::uint32_t tag, StageTimes& times) {
-    stroke_cut_.begin(tag, spacing_);
+    stroke_cut_.begin(tag, stroke_.spacing);
     auto strip = std::make_unique<Strip>(std::move(part), std::vector<std::array<std::uint64_t, 2>>());
     Status status = stroke_cut_.advance(mesh, journal, std::move(strip), rules(), statistics_, times);
     stroke_cut_.finish(mesh, journal, rules(), statistics_, times);
@@ -568,6 +578,7 @@ class Cutter::Pipeline : private OpenStroke {
   }
   CutOptions options_;
   StrokeCut stroke_cut_;
+  OpenStroke stroke_;
   PieceFinder finder_;
   std::function<void()> between_sheets_;
   CutStatistics statistics_;  // of the stroke being cut
