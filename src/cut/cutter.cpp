@@ -65,7 +65,7 @@ constexpr double kDrawBack = 0.8;
 constexpr double kStartShare = 0.2, kMostStarts = 1024.0;
 /// A stroke goes on from one whose blade stood within so many spacings from where it starts, at rest and in a body that
 /// has moved: there the tissue tells where that blade would be.
-constexpr double kStands = 0.05, kStandsInTissue = 0.05;
+constexpr double kStands = 0.05;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
 
@@ -211,8 +211,8 @@ class Cutter::Pipeline {
     }
     const std::size_t end = journal.position();
     if (!go_on(mesh, journal, pause, first_step, has_moved, paused.tag)) return false;
-    const bool stands = stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row),
-                                                   kStandsInTissue * stroke_.spacing);
+    const bool stands =
+        stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row), kStands * stroke_.spacing);
     stroke_cut_.forget();
     journal.take_back(mesh, end);
     return stands;
@@ -220,18 +220,18 @@ class Cutter::Pipeline {
   bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
              std::uint32_t tag) {
     const std::size_t end = journal.position();
-    const std::uint32_t pieces = pieces_at(mesh, journal, first_step, end);
-    for (std::size_t i = end; i-- > first_step;) reverse(mesh, journal, i);
-    if (pieces_at(mesh, journal, first_step, end) != pieces) {
-      journal.take_back(mesh, end);
-      return false;
+    bool goes_on = false;
+    try {
+      goes_on = take_end_back(mesh, journal, first_step);
+      if (goes_on) take_up(mesh, journal, pause, has_moved, tag);
+    } catch (const std::bad_alloc&) {
+      goes_on = false;
     }
-    stroke_ = pause.stroke;
-    stroke_.tag = tag;
-    stroke_cut_.go_on(*pause.cut, mesh, tag);
-    stroke_cut_.prepare(mesh, journal);
-    if (has_moved && !stroke_.is_in_material) enter_material(mesh);
-    return true;
+    if (!goes_on) {
+      stroke_cut_.forget();
+      journal.take_back(mesh, end);
+    }
+    return goes_on;
   }
   void forget() { stroke_cut_.forget(); }
   void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
@@ -250,6 +250,21 @@ class Cutter::Pipeline {
   }
 
  private:
+  /// Takes back what ended a stroke. Returns whether all pieces stay apart.
+  bool take_end_back(TetMesh& mesh, Journal& journal, std::size_t first_step) {
+    const std::size_t end = journal.position();
+    const std::uint32_t pieces = pieces_at(mesh, journal, first_step, end);
+    for (std::size_t i = end; i-- > first_step;) reverse(mesh, journal, i);
+    return pieces_at(mesh, journal, first_step, end) == pieces;
+  }
+  /// Puts the band, the sheet and the blade of a paused stroke back.
+  void take_up(const TetMesh& mesh, const Journal& journal, const Pause& pause, bool has_moved, std::uint32_t tag) {
+    stroke_ = pause.stroke;
+    stroke_.tag = tag;
+    stroke_cut_.go_on(*pause.cut, mesh, tag);
+    stroke_cut_.prepare(mesh, journal);
+    if (has_moved && !stroke_.is_in_material) enter_material(mesh);
+  }
   /// How many pieces there are where some steps of the journal changed something.
   [[nodiscard]] std::uint32_t pieces_at(const TetMesh& mesh, const Journal& journal, std::size_t first,
                                         std::size_t last) {

@@ -59,7 +59,8 @@ class Cutter {
   /// Begins a stroke that goes on from a paused one: what the steps of the journal from `first_step` on did to end that
   /// is taken back, by new steps. The journal must be as that stroke left it. From then on both are one cut;
   /// walls get `tag`, the next one after those of the strokes before. Returns false, with nothing changed, where that
-  /// would join two pieces: there `begin`. Cost: O(those steps + band + strips), and that of `PieceFinder`.
+  /// would join two pieces, and where memory runs out: there `begin`. Cost: O(those steps + band + strips), and that of
+  /// `PieceFinder`.
   bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
              std::uint32_t tag);
   /// Has `between_sheets` called within `step` and `end` wherever a sheet of the stroke is finished and another one
