@@ -59,9 +59,15 @@ inline double skin_share(const Care& care) {
   return care.is_bad ? kBadSkinTolerance : (care.is_at_seam ? kSeamSkinTolerance : kSkinTolerance);
 }
 
-/// How far a surface may leave its place, as a share of the local edge.
-inline double surface_tolerance(const Care& care, std::uint32_t tag) {
-  return tag == 0 ? skin_tolerance(care) : care.references.tolerance(tag, care.gives_way());
+/// To mend bad tets walls and skin may leave their place by this share of the edges that the body came with, however
+/// short cuts have made those that stand there now.
+inline constexpr double kOriginalTolerance = 0.03;
+
+/// How far a surface may leave its place, in the mesh's unit, at one of its vertices where edges are so long.
+inline double surface_tolerance(const Care& care, std::uint32_t tag, VertexId vertex, double edge) {
+  const double share = tag == 0 ? skin_tolerance(care) : care.references.tolerance(tag, care.gives_way());
+  const bool is_wide = care.gives_way() && (tag == 0 || care.references.knows(tag));
+  return std::max(share * edge, is_wide ? kOriginalTolerance * care.references.skin().sizes().at(vertex) : 0.0);
 }
 
 /// An operation is accepted where the worst tet after it is better than the worst before by more than this share.

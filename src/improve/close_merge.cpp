@@ -165,7 +165,7 @@ bool CloseMerger::keeps_tag(Care& care, std::uint32_t tag, const Vec3& place) {
   }
   if (after_.facets.empty()) return false;
   after_.samples.push_back(place);
-  const double tolerance = surface_tolerance(care, tag) * edge_;
+  const double tolerance = surface_tolerance(care, tag, plan_.from, edge_);
   const auto keeps_end = [&](const Vec3& end) {
     return !is_on(before_, end) || care.references.allows_apex(tag, end, place, tolerance, edge_, skin_share(care));
   };

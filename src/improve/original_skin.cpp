@@ -57,6 +57,10 @@ void OriginalSkin::begin(const TetMesh& mesh, const Journal& journal) {
   has_begun_ = true;
 }
 
+void OriginalSkin::skip(const Journal& journal) {
+  for (; position_ < journal.position(); ++position_) sizes_.follow(journal.step(position_));
+}
+
 void OriginalSkin::rewind(std::size_t position) {
   position_ = std::min(position_, position);
 }
@@ -88,6 +92,7 @@ void OriginalSkin::follow(const TetMesh& mesh, const Journal& journal) {
         note_tet(tet, mesh.vertices(tet), mesh.links(tet), place_of);
       }
     }
+    sizes_.follow(step);
   }
   position_ = journal.position();
 }
@@ -104,6 +109,9 @@ void OriginalSkin::note_tet(TetId tet, const TetVertices& vertices, const TetLin
   if (!is_fresh(tet)) return;
   is_noted_.ensure(std::size_t{tet.value} + 1);
   is_noted_[tet.value] = 1;
+  for (const auto& [a, b] : kEdgeCorners) {
+    sizes_.note_edge(vertices[a], vertices[b], (place_of(vertices[a]) - place_of(vertices[b])).norm());
+  }
   for (unsigned s = 0; s < 4; ++s) {
     if (links[s] != Link::boundary(0)) continue;
     std::array<VertexId, 3> v;
@@ -196,7 +204,9 @@ OriginalSkin::Closest OriginalSkin::closest(const Vec3& place, double greatest) 
 double OriginalSkin::tolerance_at(const Vec3& place, double edge, double share) const {
   const Closest nearest = closest(place, share * kFarthest * edge);
   const bool is_known = nearest.distance2 < std::numeric_limits<double>::infinity();
-  return share * (is_known ? std::min(edge, mean_edge(facets_[nearest.facet])) : edge);
+  if (!is_known) return share * edge;
+  const double original = mean_edge(facets_[nearest.facet]);
+  return share * (share < kBadSkinTolerance ? std::min(edge, original) : original);
 }
 
 /// Whether a vertex that the skin had is as near to the new piece as it must be; others than the old piece's own are.

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "improve/original_sizes.h"
 #include "improve/piece.h"
 #include "incise/core/grow_array.h"
 #include "incise/mesh/journal.h"
@@ -17,8 +18,8 @@ namespace incise {
 inline namespace v0 {
 
 /// However often it is maintained, skin leaves its place by at most this share of the local edge; by more where seams
-/// are thinned out, and to mend bad tets. Later cuts make edges shorter: of those it may be a few times as much.
-inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadSkinTolerance = 0.025;
+/// are thinned out. To mend bad tets it may by this share of the edges that it had.
+inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadSkinTolerance = 0.02;
 
 /// The skin of a mesh as it was when its journal began, as far as the places go that have changed since.
 ///
@@ -29,13 +30,15 @@ class OriginalSkin {
  public:
   /// Notes what the journal's steps since the last call changed. Cost: O(their edits).
   void follow(const TetMesh& mesh, const Journal& journal);
-  /// The journal's steps so far need not be followed: all that they change was noted before.
-  void skip(const Journal& journal) { position_ = journal.position(); }
+  /// What the journal's steps since the last call changed was noted before. Cost: O(vertices that they made).
+  void skip(const Journal& journal);
   /// After an undo: steps from `position` on will be others.
   void rewind(std::size_t position);
   /// Notes tets that are about to change, before they do. Cost: O(tets).
   void note(const TetMesh& mesh, std::span<const TetId> tets);
 
+  /// How long edges were where the vertices come from.
+  [[nodiscard]] const OriginalSizes& sizes() const { return sizes_; }
   [[nodiscard]] bool is_empty() const { return facets_.empty(); }
   /// The squared distance to the skin as it was, as far as it is noted; infinite beyond `greatest`. Cost: some ten
   /// triangles.
@@ -44,7 +47,8 @@ class OriginalSkin {
   }
   /// Whether a piece of skin may give way to another: the new one lies within `share` of the local edge from where the
   /// skin was, or at least no further off than the old piece did; and so do the vertices that the skin had there from
-  /// the new piece. The local edge: of the new piece or of the skin as it was, whichever is shorter.
+  /// the new piece. The local edge: of the new piece or of the skin as it was, whichever is shorter; of the skin as it
+  /// was for `kBadSkinTolerance`.
   [[nodiscard]] bool keeps(const Piece& before, const Piece& after, double share = kSkinTolerance) const;
   /// The same for a vertex that moves, at a piece of skin with this mean edge.
   [[nodiscard]] bool keeps_vertex(const Vec3& old_place, const Vec3& place, double edge,
@@ -90,6 +94,7 @@ class OriginalSkin {
   [[nodiscard]] bool is_near(const Piece& after, const Piece& before, double tolerance) const;
   [[nodiscard]] bool is_covered(const Vec3& point, const Piece& before, const Piece& after, double tolerance) const;
 
+  OriginalSizes sizes_;
   std::vector<Facet> facets_;
   std::vector<Vec3> points_;
   std::unordered_map<Cell, Content, CellHash> cells_;  // looked up, never iterated

@@ -41,6 +41,8 @@ class References {
   /// earlier calls included: no further may they lie from it later.
   void measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened);
 
+  /// Whether the sweep of a stroke is known.
+  [[nodiscard]] bool knows(std::uint32_t tag) const { return sweeps_.count(tag) != 0; }
   /// How far the wall of a stroke may lie from its sweep, as a share of the local edge: as far as most of the fresh
   /// wall did; to mend a bad tet as far as any of it.
   [[nodiscard]] double tolerance(std::uint32_t tag, bool is_bad) const;

@@ -283,7 +283,7 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
       continue;
     }
     collect_pieces(care, vertex, place, i);
-    const double tolerance = surface_tolerance(care, surface.tag) * mean_spoke(before_);
+    const double tolerance = surface_tolerance(care, surface.tag, vertex, mean_spoke(before_));
     Reach apex_reach, reach;
     const Piece apex_before{before_.facets, {care.mesh.rest(vertex)}}, apex_after{after_.facets, {place}};
     if (!care.references.allows(surface.tag, apex_before, apex_after, tolerance, apex_reach, skin_share(care)) ||
