@@ -104,6 +104,7 @@ TetMesh cube_with_a_wall() {
   return mesh;
 }
 
+// T34
 TEST(Swap, two_to_three_and_back_is_the_identity) {
   TetMesh mesh = build(jittered_cube(3, 1));
   const auto tets = tet_set(mesh);
