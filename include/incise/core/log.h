@@ -7,6 +7,7 @@
 namespace incise {
 inline namespace v0 {
 
+/// How much a message matters.
 enum class LogLevel : unsigned char { kDebug, kInfo, kWarning };
 
 /// Where the library's messages go. The library itself prints nothing; an empty sink drops them.

@@ -20,6 +20,7 @@ inline namespace v0 {
 /// Keeps scratch memory and split templates between strokes. One mesh at a time; not thread-safe.
 class Cutter {
  public:
+  /// `options` as `Engine::create` accepts them.
   explicit Cutter(CutOptions options);
   Cutter(Cutter&&) noexcept;
   Cutter& operator=(Cutter&&) noexcept;

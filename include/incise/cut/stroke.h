@@ -20,7 +20,7 @@ inline namespace v0 {
 /// the earlier first point to the later second. Each pair of times is one step. Where the first and last point of
 /// every polyline are bitwise equal the edge is closed (coring). A single time sweeps nothing.
 struct Stroke {
-  std::string name;
+  std::string name;                      ///< for messages; may be empty
   std::vector<double> times;             ///< s, strictly increasing, `n_times`
   std::vector<std::vector<Vec3>> edges;  ///< `n_times × n_points`, n_points ≥ 2 and the same at all times
 };
@@ -40,7 +40,7 @@ Status check_reach(std::span<const Vec3> edge, const Box& body, const std::strin
 
 /// The triangles that a stroke sweeps, without empty ones.
 struct SweptTriangles {
-  std::vector<Vec3> points;
+  std::vector<Vec3> points;                             ///< in the rest shape, length unit
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `points`
 };
 

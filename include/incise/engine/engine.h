@@ -21,11 +21,12 @@
 namespace incise {
 inline namespace v0 {
 
+/// How an engine works.
 struct EngineOptions {
-  CutOptions cut;
-  MaintainOptions maintain;
-  LogSink log;           ///< hears what a stroke could not do as asked
-  unsigned threads = 1;  ///< that search the mesh, in [1, 256]; the result does not depend on it
+  CutOptions cut;            ///< how the blade cuts
+  MaintainOptions maintain;  ///< what is done to the mesh behind the blade
+  LogSink log;               ///< hears what a stroke could not do as asked
+  unsigned threads = 1;      ///< that search the mesh, in [1, 256]; the result does not depend on it
   /// Looks at what each call committed: at the cut, and at its maintenance. Where it returns an error the call is taken
   /// back and returns it. `TouchedCheck` in builds with assertions; empty, and for nothing, in others.
   StepCheck check_step = default_step_check();
@@ -33,8 +34,8 @@ struct EngineOptions {
 
 /// What one stroke did.
 struct StrokeReport {
-  CutStatistics cut;
-  MaintainStatistics maintain;
+  CutStatistics cut;            ///< what cutting did
+  MaintainStatistics maintain;  ///< what maintenance did
   StageTimes times;             ///< summed over the stroke
   std::vector<double> step_ms;  ///< one entry for each step; one for a stroke that was cut as a whole
   std::uint32_t stroke = 0;     ///< its number: the tag of the walls that it made; see `Engine::next_stroke`
@@ -48,15 +49,15 @@ struct BladePose {
 
 /// What one step of the blade did.
 struct StepReport {
-  CutStatistics cut;
+  CutStatistics cut;            ///< what cutting did
   MaintainStatistics maintain;  ///< of what the blade has left behind
-  StageTimes times;
+  StageTimes times;             ///< ms by stage
 };
 
 /// What maintenance between strokes did.
 struct MaintainReport {
-  MaintainStatistics maintain;
-  StageTimes times;
+  MaintainStatistics maintain;  ///< counts
+  StageTimes times;             ///< ms by stage
 };
 
 /// Owns a mesh and orders the pipeline on it: collision → subdivide → separate → merge → improve (paper, Figure 1).
@@ -74,8 +75,11 @@ class Engine {
   /// Takes the mesh. Errors: kBadArgument for options out of range. Cost: O(tets).
   static Result<Engine> create(TetMesh mesh, EngineOptions options = {});
 
+  /// The mesh; to be read between calls.
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
+  /// What each step changed; to be read between calls.
   [[nodiscard]] const Journal& journal() const { return journal_; }
+  /// As given to `create`.
   [[nodiscard]] const EngineOptions& options() const { return options_; }
   /// Strokes applied so far (undone ones not counted).
   [[nodiscard]] std::uint32_t stroke_count() const { return stroke_count_; }
@@ -108,6 +112,7 @@ class Engine {
   /// Whether a pose is sound, with at least two points, and keeps within reach of the body as it stands
   /// (`check_reach`), as `begin_stroke` and `step` ask. The error says which pose of which stroke it would be.
   [[nodiscard]] Status check_pose(const BladePose& pose) const;
+  /// Whether a stroke is under way: begun, and not ended.
   [[nodiscard]] bool is_in_stroke() const { return is_in_stroke_; }
 
   /// Tells where the body stands now: `positions[slot]` for every vertex slot, dead ones ignored. Finite, in the mesh's

@@ -31,11 +31,11 @@ struct MeshLabelsOptions {
 
 /// What became of a label.
 struct LabelOutcome {
-  std::int32_t label = 0;
+  std::int32_t label = 0;    ///< as in the image
   std::uint64_t voxels = 0;  ///< that were to be meshed, after islands were joined
   double image_volume = 0;   ///< of these, or as told, mm³
-  std::uint64_t tets = 0;
-  double volume = 0;  ///< of these, mm³
+  std::uint64_t tets = 0;    ///< of this label
+  double volume = 0;         ///< of these, mm³
 };
 
 /// Tets of a label image.
@@ -46,7 +46,7 @@ struct LabelMesh {
   std::uint64_t relabelled_tets = 0;  ///< so that no label touches itself in an edge or a point alone
   std::uint64_t pinched_points = 0;   ///< where that could not be had; 0 but for images finer than the lattice
   double finest_size = 0;             ///< edge of the smallest cubes, mm
-  MaintainStatistics maintain;
+  MaintainStatistics maintain;        ///< what maintenance did at the end
 };
 
 /// Makes tets of all labels but 0 of a segmented scan: conforming where labels meet, without gaps between them.

@@ -28,6 +28,7 @@ inline namespace v0 {
 /// inserted and removed, and no average decides.
 class Maintainer {
  public:
+  /// `options`: what may be done.
   explicit Maintainer(MaintainOptions options = {});
   Maintainer(Maintainer&&) noexcept;
   Maintainer& operator=(Maintainer&&) noexcept;

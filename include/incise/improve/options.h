@@ -36,15 +36,15 @@ struct MaintainOptions {
 
 /// What maintenance did.
 struct MaintainStatistics {
-  std::uint64_t work_units = 0;       ///< spent
-  std::uint64_t collapsed_edges = 0;  ///< vertices merged into a neighbour
-  std::uint64_t moved_vertices = 0;   ///< moves, of interior and boundary vertices
-  std::uint64_t removed_edges = 0;    ///< edges swapped away: 3-2, 4-4 and larger rings
-  std::uint64_t removed_faces = 0;    ///< 2-3 swaps
-  std::uint64_t inserted_vertices = 0;
-  std::uint64_t peeled_tets = 0;   ///< flat on a surface, and taken away
-  std::uint64_t waiting_tets = 0;  ///< still below the goal and not tried again since; 0 where all is done
-  std::int64_t created_tets = 0;   ///< tets after minus tets before
+  std::uint64_t work_units = 0;         ///< spent
+  std::uint64_t collapsed_edges = 0;    ///< vertices merged into a neighbour
+  std::uint64_t moved_vertices = 0;     ///< moves, of interior and boundary vertices
+  std::uint64_t removed_edges = 0;      ///< edges swapped away: 3-2, 4-4 and larger rings
+  std::uint64_t removed_faces = 0;      ///< 2-3 swaps
+  std::uint64_t inserted_vertices = 0;  ///< vertices put in where nothing else helped
+  std::uint64_t peeled_tets = 0;        ///< flat on a surface, and taken away
+  std::uint64_t waiting_tets = 0;       ///< still below the goal and not tried again since; 0 where all is done
+  std::int64_t created_tets = 0;        ///< tets after minus tets before
 
   MaintainStatistics& operator+=(const MaintainStatistics& other);
   /// What a sum has beyond one that it contains; `waiting_tets` stays.

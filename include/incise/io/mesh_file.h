@@ -31,10 +31,10 @@ enum class Format : std::uint8_t {
 
 /// A mesh as its file has it: nothing is reordered, turned, merged or dropped.
 struct MeshFile {
-  Format format = Format::kMedit;
-  std::string format_name;  ///< for people, for instance "Gmsh MSH 2.2 ASCII"
-  bool gzipped = false;
-  MeshData data;
+  Format format = Format::kMedit;        ///< the family
+  std::string format_name;               ///< for people, for instance "Gmsh MSH 2.2 ASCII"
+  bool gzipped = false;                  ///< the file was compressed
+  MeshData data;                         ///< points, tets, triangles and labels
   bool ten_node = false;                 ///< tets had mid-edge nodes: their four corners are in `data`
   std::vector<std::uint32_t> mid_nodes;  ///< rising: points that are only mid-edge nodes of tets
   std::size_t file_vertices = 0;         ///< vertices in the file, mid-edge nodes included

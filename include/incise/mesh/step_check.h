@@ -33,6 +33,7 @@ class TouchedCheck {
   };
 
  public:
+  /// Looks at what the steps from `first_step` on touched.
   Status operator()(const TetMesh& mesh, const Journal& journal, std::size_t first_step);
 
  private:
