@@ -27,7 +27,7 @@ namespace {
 
 /// Two crossings of one edge closer than this share of it are one graze, not two sheets.
 constexpr double kGrazeShare = 0.02;
-/// A tet falls apart into so many children at most.
+/// The most children of a tet.
 constexpr std::size_t kMostChildren = 16;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;

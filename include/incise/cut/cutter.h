@@ -14,8 +14,8 @@
 namespace incise {
 inline namespace v0 {
 
-/// Cuts a mesh along strokes, in the profile incise: the exact counterpart of the paper's sections 2.2 to 2.4. What
-/// the profile paper does is `cut_as_paper`.
+/// Cuts a mesh along strokes, in the profile incise: the exact counterpart of the paper's sections 2.2 to 2.4.
+/// `cut_as_paper` does what the profile paper does.
 ///
 /// Keeps scratch memory and split templates between strokes. One mesh at a time; not thread-safe.
 class Cutter {
@@ -35,8 +35,8 @@ class Cutter {
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times);
 
-  /// Puts the blade in place for a stroke that is cut step by step. `row`: its edge as the body
-  /// stands, at least two finite points; `has_moved`: whether the body stands otherwise than at rest. Cost: one pass
+  /// Puts the blade in place for a stroke that is cut step by step. `row`: the blade's edge as the body stands, at
+  /// least two finite points; `has_moved`: whether the body stands otherwise than at rest. Cost: one pass
   /// over the mesh at first, to find its surface.
   void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved, std::uint32_t tag);
   /// Cuts on to where the blade is now; `row` has as many points as the first. `direction`: where the edge cuts, unit;
@@ -53,8 +53,8 @@ class Cutter {
   [[nodiscard]] std::shared_ptr<const Pause> pause(const TetMesh& mesh) const;
   /// Whether a blade stands where that of a paused stroke would, so that its stroke may go on from that one: it has the
   /// same number of points, each within 0.05 spacings; in a body that has moved those in tissue are within 0.05
-  /// spacings of where this has taken the front. `first_step` as for `go_on`; nothing changes, but that undone steps
-  /// are lost. Cost: O(points) at rest, else as `go_on`.
+  /// spacings of where this has taken the front. `first_step` as for `go_on`. Only undone steps are lost. Cost:
+  /// O(points) at rest, else as `go_on`.
   [[nodiscard]] bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
                                std::span<const Vec3> row, bool has_moved);
   /// Begins a stroke that goes on from a paused one: what the steps of the journal from `first_step` on did to end that
@@ -64,14 +64,14 @@ class Cutter {
   /// `PieceFinder`.
   bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
              std::uint32_t tag);
-  /// Has `between_sheets` called within `step` and `end` wherever a sheet of the stroke is finished and another one
-  /// starts, since the blade has come back to what it cut: the mesh may be maintained there. It must not throw. Empty:
+  /// Sets a function that `step` and `end` call wherever a sheet of the stroke is finished and another one starts,
+  /// because the blade has come back to what it cut: the mesh may be maintained there. It must not throw; empty:
   /// nothing is called.
   void call_between_sheets(std::function<void()> between_sheets);
   /// Forgets a stroke whose steps were taken back.
   void forget();
-  /// Whether a live tet lies in the band around the front of the stroke under way, or has a vertex of it: nobody else
-  /// may change it. Cost: O(1).
+  /// Whether a live tet lies in the band around the front of the stroke under way, or shares a vertex with it: only the
+  /// cutter may change such a tet. Cost: O(1).
   [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const;
   /// What the stroke has swept at rest, so far.
   [[nodiscard]] const SweptTriangles& swept() const;

@@ -28,8 +28,8 @@ struct Stroke {
 /// Whether a stroke keeps the promises above, has at least two times and is finite; the error names the time and point.
 Status check(const Stroke& stroke);
 
-/// A blade keeps within so many times the greatest side of the body's box from that box. Beyond, the rounding of a
-/// point that far away could move the cut by a noticeable share of an element.
+/// The greatest distance of a blade from the body's box, in units of the longest side of that box. Rounding of a point
+/// that is further away could move the cut by a noticeable share of an element.
 inline constexpr double kGreatestReach = 1e6;
 
 /// Whether a stroke keeps within `kGreatestReach` of a body; the error names stroke, time and point. True where the

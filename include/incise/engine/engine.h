@@ -25,10 +25,10 @@ inline namespace v0 {
 struct EngineOptions {
   CutOptions cut;            ///< how the blade cuts
   MaintainOptions maintain;  ///< what is done to the mesh behind the blade
-  LogSink log;               ///< hears what a stroke could not do as asked
+  LogSink log;               ///< told where a stroke was not done as asked
   unsigned threads = 1;      ///< that search the mesh, in [1, 256]; the result does not depend on it
-  /// Looks at what each call committed: at the cut, and at its maintenance. Where it returns an error the call is taken
-  /// back and returns it. `TouchedCheck` in builds with assertions; empty, and for nothing, in others.
+  /// Checks what each call committed, after the cut and after its maintenance. Where it returns an error, the call is
+  /// taken back and returns that error. `TouchedCheck` in builds with assertions; empty, and without cost, in others.
   StepCheck check_step = default_step_check();
 };
 
@@ -65,9 +65,9 @@ struct MaintainReport {
 /// A stroke is cut as a whole (`cut`) or step by step as the blade moves (`begin_stroke`, `step`, `end_stroke`), in a
 /// body at rest or one that moves (`set_positions`). After each step the mesh is valid and cut up to the blade, inside
 /// elements. The profile `paper` knows whole strokes alone: its steps cut nothing, `end_stroke` does.
-/// Maintenance follows the blade, but for a band around the front of its cut, and ends with the stroke, each call
-/// within `MaintainOptions::work_units`; what the budget leaves undone waits for the next one or `maintain`. One
-/// writer; const reads from any thread between calls. A call either takes effect as a whole or not at all; where it
+/// Maintenance follows the blade at a small distance, a band around the front of the cut, and ends with the stroke.
+/// Each call spends at most `MaintainOptions::work_units`; what is left undone waits for the next call or `maintain`.
+/// One writer; const reads from any thread between calls. A call either takes effect as a whole or not at all; where it
 /// fails with kOutOfMemory or with what `EngineOptions::check_step` says (kInternal), what `redo` could apply is
 /// forgotten.
 class Engine {

@@ -31,8 +31,8 @@ struct SimulationOptions {
   double flat_height = 0;           ///< of the blade behind its edge, length unit; 0: the flat touches nothing
 };
 
-/// A grip on the tissue: a hook, a pair of forceps. It takes hold, where it first appears, of all vertices within
-/// `radius` of where it is, and lets go where it appears no more.
+/// A grip on the tissue: a hook, a pair of forceps. In the first frame that names it, it takes hold of all vertices
+/// within `radius` of its position; in the first frame that does not, it lets go.
 struct Hook {
   std::uint32_t id = 0;          ///< the same from frame to frame, and once per frame
   Vec3 position = Vec3::Zero();  ///< length unit
@@ -42,8 +42,8 @@ struct Hook {
 
 /// What the hands do in one frame: everything that they hold, where it is at the end of the frame.
 struct FrameInput {
-  /// The blade. Its first frame puts it in place and cuts nothing; frame by frame it cuts on; where it is gone, the
-  /// stroke has ended. All poses of a stroke have the same number of points.
+  /// The blade. Its first frame puts it in place and cuts nothing; each frame after that cuts on; the first frame
+  /// without it ends the stroke. All poses of a stroke have the same number of points.
   std::optional<BladePose> blade;
   std::vector<Hook> hooks;  ///< what grips the tissue in this frame
   std::vector<Tool> tools;  ///< what presses on the surface in this frame, tables and walls included
@@ -94,8 +94,9 @@ class Simulation {
   /// stroke ends there. Cost: the relaxation's, plus O(tets that the blade touches), plus O(vertices), about 5 ns each.
   Result<FrameReport> frame(const FrameInput& input);
 
-  /// Lets the body come to rest under gravity and its holds, before anything is done to it: frames without input and
-  /// with velocities halved, until nothing moves faster than `speed` m/s, at most `max_frames`. Returns the frames.
+  /// Lets the body come to rest under gravity and its holds, before anything is done to it: makes frames without input,
+  /// with velocities halved, until nothing moves faster than `speed` m/s, at most `max_frames` of them. Returns how
+  /// many frames it made.
   Result<unsigned> settle(unsigned max_frames, double speed = 1e-4);
 
   /// Takes the last stroke back, with its maintenance; a stroke under way as well. The tissue stays where it stands.

@@ -15,10 +15,10 @@ inline namespace v0 {
 
 /// Keeps the neighbourhood of cuts fit to simulate: local, worst tets first, within a budget, monotone.
 ///
-/// Every accepted change replaces a few tets by others whose worst L/r is smaller than theirs was, but for thinning out
-/// where a cut goes on from an older one, which may cost shape down to L/r 13; stopping at any point leaves a valid and
-/// better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed
-/// stay so. Vertices move within what they are part of: interior ones freely, those of a wall or of the skin in their
+/// Every accepted change replaces a few tets by others whose worst L/r is smaller than theirs was. Where a cut goes on
+/// from an older one, vertices are thinned out as well, which may cost shape down to L/r 13; stopping at any point
+/// leaves a valid and better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed stay
+/// so. Vertices move within what they are part of: interior ones freely, those of a wall or of the skin in their
 /// surface, those where surfaces meet along the line, corners not; the volume on either side of every wall is kept.
 /// Skin stays close to where it was before the first change of all: `run` follows the journal, and remembers the skin
 /// of every place when it changes there first. What a budget left undone waits for the next call. Not thread-safe; the
@@ -42,15 +42,15 @@ class Maintainer {
   void extend_reference(std::uint32_t stroke, std::span<const Vec3> points,
                         std::span<const TriangleTree::Triangle> triangles);
 
-  /// Takes the surroundings of what the journal's steps from `first_step` on changed into care, but for what is locked:
-  /// that waits for a later call. Cost: O(their tets).
+  /// Queues the surroundings of what the journal's steps from `first_step` on changed. Tets that are locked wait for a
+  /// later call. Cost: O(their tets).
   void take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step, const IsLocked& is_locked = {});
-  /// Takes the whole mesh into care. Cost: O(tets).
+  /// Queues the whole mesh. Cost: O(tets).
   void take_up_all(const TetMesh& mesh);
 
-  /// Works on what is in care until it is done, `work_units` are spent (by at most one operation more) or `should_stop`
-  /// says so, and appends journal steps. Tets that are locked stay as they are. Calls with one work budget after the
-  /// other do the same operations as one call with their sum. Cost: about 0.1 µs per unit.
+  /// Works on what is queued until all is done, `work_units` are spent (by at most one operation more) or `should_stop`
+  /// returns true, and appends journal steps. Tets that are locked stay as they are. Calls with one work budget after
+  /// the other do the same operations as one call with their sum. Cost: about 0.1 µs per unit.
   MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
                          const ShouldStop& should_stop = {}, const IsLocked& is_locked = {});
 
@@ -59,7 +59,7 @@ class Maintainer {
 
   /// Whether tets wait for another `run`.
   [[nodiscard]] bool has_work() const;
-  /// Drops what is in care: after an undo. `position`: how many steps of the journal are still the same.
+  /// Empties the queue: after an undo. `position`: how many steps of the journal are still the same.
   void forget(std::size_t position);
 
  private:

@@ -104,7 +104,7 @@ inline constexpr const char* kFormatNames = "mesh, msh41, msh41-binary, msh22, v
 [[nodiscard]] Status write_mesh(const std::filesystem::path& path, const MeshData& data,
                                 const WriteOptions& options = {});
 
-/// The files that `write_mesh` makes: the path itself, but for TetGen's pair. Cost: O(1).
+/// The files that `write_mesh` makes: the path itself, except for TetGen's pair. Cost: O(1).
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path,
                                                             const WriteOptions& options = {});
 

@@ -28,7 +28,7 @@ struct MeshSource {
 /// A mesh made fit for cutting.
 struct LoadedMesh {
   MeshSource source;                       ///< where it comes from, and what was mended
-  TetMesh mesh;                            ///< valid but for the defects that the file has
+  TetMesh mesh;                            ///< valid except for the defects that the file has
   std::vector<std::uint32_t> file_vertex;  ///< the file's number of each mesh vertex; empty where they are equal, or
                                            ///< where the file itself names the vertices before its cuts
 };

@@ -72,7 +72,7 @@ inline constexpr std::uint8_t kDead = 128;   ///< the slot is free
 
 class Transaction;
 
-/// The arrays of a mesh by slot, free slots included: for those who hand them on without a copy.
+/// The arrays of a mesh by slot, free slots included: for bindings that pass them on without a copy.
 struct MeshArrays {
   std::span<const TetVertices> tets;               ///< by tet slot; the first vertex is invalid where the slot is free
   std::span<const TetLinks> links;                 ///< by tet slot

@@ -73,8 +73,8 @@ class Transaction {
   /// position and followers' values are sampled there. `rest` is that place, given exactly.
   void move(VertexId vertex, const Vec3& rest, const TetVertices& basis, const std::array<double, 4>& weights);
 
-  /// Lists the replacement of a cavity, where edits are kept: called before it with the tets that it consumes, after it
-  /// with those that it produced, their parents and the vertex that it put in, if any.
+  /// Records that a cavity is filled anew, where edits are kept: call it before with the tets that are consumed, and
+  /// `note_produced` after with those that were produced, their parents and the vertex that was put in, if any.
   void note_consumed(std::span<const TetId> tets);
   /// The second half: `parents`, one per produced tet, are among the consumed ones.
   void note_produced(std::span<const TetId> tets, std::span<const TetId> parents, VertexId born = {});
@@ -87,7 +87,7 @@ class Transaction {
   };
   /// What it has changed so far.
   [[nodiscard]] Sizes sizes() const;
-  /// Makes room for changes in one go: those of a transaction like it.
+  /// Allocates at once what a transaction of these sizes will need.
   void reserve(const Sizes& sizes);
 
   /// Slots taken so far.

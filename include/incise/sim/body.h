@@ -99,9 +99,9 @@ class DeformableBody {
   /// As given to `create`.
   [[nodiscard]] const Materials& materials() const;
 
-  /// Catches up with the journal, forwards or backwards; `mesh` as it stands. To be called after every call of the
-  /// engine that may change the mesh. What the steps put in place is woken and brought near to balance with what
-  /// stands around it. After an undo or redo, vertices that it leaves where they are at rest stay where the body has
+  /// Catches up with the journal, forwards or backwards; `mesh` as it stands. Call it after every call of the engine
+  /// that may change the mesh. Vertices that the steps made or moved are woken, and brought close to balance with their
+  /// neighbours. After an undo or redo, vertices that it leaves where they are at rest stay where the body has
   /// them, and the others go where the body has their material, as fast as that is; these positions are to be handed on
   /// to the mesh. Errors: kBadArgument where the journal stands before `create`.
   /// Cost: O(steps), below 0.5 µs per tet consumed or produced; O(tets) after an undo.
@@ -117,7 +117,7 @@ class DeformableBody {
   /// Vertices that cuts put between rigidly held ones are held as well, copies as their sources.
   /// Errors: kBadArgument for a vertex that is not live or a stiffness below 0. Cost: O(1).
   Status hold(VertexId vertex, double stiffness);
-  /// Where a held vertex is to be. Errors: kBadArgument where it is not held.
+  /// Sets the place where a held vertex is held. Errors: kBadArgument where it is not held.
   Status move_hold(VertexId vertex, const Vec3& target);
   /// Whether a vertex is held, rigidly or by a spring.
   [[nodiscard]] bool is_held(VertexId vertex) const;
@@ -135,13 +135,13 @@ class DeformableBody {
 
   /// The places of all vertex slots, for `Engine::set_positions`. Valid until the next call that changes the body.
   [[nodiscard]] std::span<const Vec3> positions() const;
-  /// Puts a vertex somewhere else, at rest. Errors: kBadArgument where it is not live, or not finite.
+  /// Puts a vertex at another place, without velocity. Errors: kBadArgument where it is not live, or not finite.
   Status place(VertexId vertex, const Vec3& position);
   [[nodiscard]] Vec3 velocity(VertexId vertex) const;  ///< m/s
   /// Gives a vertex a velocity, m/s, and wakes it; none to one that is held rigidly. Errors: kBadArgument where it is
   /// not live, or not finite.
   Status set_velocity(VertexId vertex, const Vec3& velocity);
-  /// Multiplies all velocities by `factor`, in [0, 1]: what comes to rest in a hurry.
+  /// Multiplies all velocities by `factor`, in [0, 1], so that the body comes to rest sooner.
   void slow_down(double factor);
   [[nodiscard]] double mass(VertexId vertex) const;  ///< kg
   [[nodiscard]] double mass() const;                 ///< kg

@@ -20,7 +20,7 @@ enum class LinearSolver : std::uint8_t {
   kConjugateGradients,  ///< preconditioned by blocks; slow with thin tets
 };
 
-/// Above so many tets a sparse Cholesky factor is no longer worth its time.
+/// The greatest number of tets for which a sparse Cholesky factor is worth its time.
 inline constexpr std::size_t kMostTetsForCholesky = 20000;
 
 /// A body, what it is made of, and what acts on it.
