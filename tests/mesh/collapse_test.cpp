@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "incise/cut/cutter.h"
+#include "cut/cutter.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "incise/cut/cutter.h"
+#include "cut/cutter.h"
 #include "incise/geom/predicates.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/validate.h"

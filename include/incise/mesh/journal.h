@@ -141,6 +141,8 @@ class Journal {
  public:
   /// Appends a step and gives it the next serial; steps that were undone are dropped.
   void append(Step step);
+  /// The same for a step that changed something; others are dropped. Returns whether it did.
+  bool append_if_changed(Step step);
   /// Steps applied so far.
   [[nodiscard]] std::size_t position() const { return position_; }
   /// One past the last step that is kept, undone ones included.
@@ -161,8 +163,9 @@ class Journal {
   /// Applies the next undone step again. Returns false where there is none. Cost: O(step).
   bool redo(TetMesh& mesh);
   /// Takes the steps from `position` on back and drops them, and those that were undone: for what has failed.
-  /// `position` in [`first`, `position()`]. Cost: O(steps).
-  void take_back(TetMesh& mesh, std::size_t position);
+  /// `position` in [`first`, `position()`]. Asks for no memory, so that it works where there is none left. Cost:
+  /// O(steps).
+  void take_back(TetMesh& mesh, std::size_t position) noexcept;
   /// Forgets the applied steps before `position`, at most all; their memory is free again. They can be neither undone
   /// nor followed any more. Cost: O(steps forgotten).
   void trim(std::size_t position);
@@ -170,6 +173,9 @@ class Journal {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
+  friend class Transaction;
+
+  static void revert(TetMesh& mesh, const Step& step) noexcept;
   static void restore(TetMesh& mesh, const Step& step, const StepImage& image);
   static void count_change(bool was_live, bool is_live, std::size_t& live, std::uint32_t& generation);
 

@@ -18,7 +18,8 @@ inline namespace v0 {
 ///
 /// The members are the primitive edits that the verbs of `mesh/verbs.h` and the cutting kernel are made of. They keep
 /// no invariant by themselves; whoever uses them promises a valid mesh at `commit`. Before the first change of a slot
-/// its image is kept, so that `rollback` (or destruction without commit) restores the mesh bit for bit.
+/// its image is kept, so that `rollback` (or destruction without commit) restores the mesh bit for bit. An edit, or
+/// `commit`, that throws std::bad_alloc leaves a transaction that can only be rolled back.
 /// Slots freed here are not reused before the commit. One transaction at a time per mesh.
 class Transaction {
  public:
@@ -99,8 +100,9 @@ class Transaction {
 
   /// Makes the edits permanent and returns them. Cost: O(edits).
   Step commit();
-  /// Restores the mesh as it was at construction.
-  void rollback();
+  /// Restores the mesh as it was at construction, also after an edit that ran out of memory. Asks for none itself.
+  /// Cost: O(edits).
+  void rollback() noexcept;
 
  private:
   void touch(TetId tet);
@@ -112,8 +114,11 @@ class Transaction {
   void record_closed();
   void release_slots();
   void clear_marks();
+  void close() noexcept;
   std::uint32_t take_tet_slot();
   std::uint32_t take_vertex_slot();
+  static std::uint32_t pop_free_slot(GrowArray<std::uint32_t>& free, std::size_t& common,
+                                     std::vector<std::uint32_t>& before);
   static void take_free_slot(std::uint32_t slot, GrowArray<std::uint32_t>& free, std::size_t& common,
                              std::vector<std::uint32_t>& before);
   void fill_tet(TetId id, const TetVertices& vertices, TetId parent);
