@@ -25,7 +25,7 @@ namespace {
 using namespace incise;
 
 constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
-constexpr int kSettlingFrames = 3;         // panels find their sizes within so many after something happened
+constexpr int kSettlingFrames = 3;         // after something happened, until panels have found their sizes
 constexpr unsigned kSamples = 4;
 const app::Vec2 kFreeShare(0.56, 1);  // of the picture, between the panels
 

@@ -30,7 +30,7 @@ class Window {
   Window& operator=(Window&&) noexcept;
   ~Window();
 
-  /// Waits for something to happen, at most so many seconds.
+  /// Waits for something to happen, at most for the given seconds.
   void wait(double seconds);
   [[nodiscard]] bool should_close() const;
   void ask_to_close(bool closes);

@@ -74,6 +74,7 @@ namespace Incise
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate void incise_recompute(IntPtr user, uint slot, double* value, uint width);
 
+        /// <summary>How an engine works; see EngineOptions in C++.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_engine_options
         {
@@ -108,6 +109,7 @@ namespace Incise
             public byte* fronts;
         }
 
+        /// <summary>How much there is.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_counts
         {
@@ -154,6 +156,7 @@ namespace Incise
             public ulong tet_count;
         }
 
+        /// <summary>The quality of a set of tets at rest; all 0 where it is empty.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_quality
         {
@@ -170,6 +173,7 @@ namespace Incise
             public double dihedral_max_deg;
         }
 
+        /// <summary>One place where the contract is broken.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_violation
         {
@@ -178,6 +182,7 @@ namespace Incise
             public int pad;
         }
 
+        /// <summary>What looking at the mesh found.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_validity
         {
@@ -274,6 +279,7 @@ namespace Incise
             public ulong new_tets;
         }
 
+        /// <summary>A vertex that is new.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_born
         {
@@ -285,6 +291,7 @@ namespace Incise
             public fixed double current[3];
         }
 
+        /// <summary>A vertex that is another material point now.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_moved
         {
@@ -298,6 +305,7 @@ namespace Incise
             public fixed double current[3];
         }
 
+        /// <summary>A vertex that is the twin of another one.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_copied
         {
@@ -305,6 +313,7 @@ namespace Incise
             public uint source;
         }
 
+        /// <summary>A tet that is gone.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_consumed
         {
@@ -312,6 +321,7 @@ namespace Incise
             public fixed uint vertices[4];
         }
 
+        /// <summary>A tet that is new.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_produced
         {
@@ -321,6 +331,7 @@ namespace Incise
             public int region;
         }
 
+        /// <summary>A tet that lives on with other vertices.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_rewired
         {
@@ -329,6 +340,7 @@ namespace Incise
             public fixed uint vertices[4];
         }
 
+        /// <summary>A face that is two boundary sides now, or, in the list of closed ones, a wall that is joined again.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_opened
         {
@@ -337,6 +349,7 @@ namespace Incise
             public uint tag;
         }
 
+        /// <summary>One change of a step of maintenance.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_edit
         {
@@ -346,6 +359,7 @@ namespace Incise
             public uint produced_end;
         }
 
+        /// <summary>What an attribute is.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_attribute_spec
         {
@@ -359,6 +373,7 @@ namespace Incise
             public IntPtr user;
         }
 
+        /// <summary>How a body is computed.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_body_options
         {
@@ -376,6 +391,7 @@ namespace Incise
             public double crumb;
         }
 
+        /// <summary>What the tissue of a region is made of.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_material
         {
@@ -388,6 +404,7 @@ namespace Incise
             public double cut_friction;
         }
 
+        /// <summary>How a simulation works.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_simulation_options
         {
@@ -412,7 +429,7 @@ namespace Incise
             public double stiffness;
         }
 
-        /// <summary>edge; a: from the edge to the back of the blade; radius: thickness</summary>
+        /// <summary>Something that presses on the body; lengths in the unit of the mesh.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_tool
         {
@@ -441,6 +458,7 @@ namespace Incise
             public ulong n_tools;
         }
 
+        /// <summary>What a frame did.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_frame_report
         {
@@ -459,6 +477,7 @@ namespace Incise
             public ulong n_hook_forces;
         }
 
+        /// <summary>A body as it stands.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_simulation_state
         {
@@ -500,6 +519,7 @@ namespace Incise
             public double cut_friction;
         }
 
+        /// <summary>How a blade in the hand feels; see HapticToolOptions in C++.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_haptic_options
         {
@@ -529,6 +549,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern IntPtr incise_last_error();
 
+        /// <summary>The status of that call.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_last_error_code();
 
@@ -576,9 +597,11 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_write_surface(IntPtr engine, [MarshalAs(UnmanagedType.LPUTF8Str)] string path);
 
+        /// <summary>Cost: O(1).</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_counts(IntPtr engine, incise_counts* counts);
 
+        /// <summary>`which`: INCISE_TETS to INCISE_ORIGINS. Cost: O(1).</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_view(IntPtr engine, int which, incise_view* view);
 
@@ -586,6 +609,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_surface(IntPtr engine, uint* triangles, uint* tags, uint* sides, ulong room, ulong* count);
 
+        /// <summary>Cost: O(slots).</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_compact(IntPtr engine, incise_compact* arrays);
 
@@ -641,6 +665,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_undo(IntPtr engine, int* done);
 
+        /// <summary>Applies what was last taken back. `done` as above.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_redo(IntPtr engine, int* done);
 
@@ -656,6 +681,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_improve(IntPtr engine, incise_should_stop should_stop, IntPtr user, incise_report* report);
 
+        /// <summary>Cost: O(1).</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_journal(IntPtr engine, incise_journal* journal);
 
@@ -663,27 +689,35 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_counts(IntPtr engine, ulong step, incise_step_counts* counts);
 
+        /// <summary>The records of a step in [first, end), in order; the next calls likewise.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_born(IntPtr engine, ulong step, incise_born* records, ulong room, ulong* count);
 
+        /// <summary>Vertices that moved.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_moved(IntPtr engine, ulong step, incise_moved* records, ulong room, ulong* count);
 
+        /// <summary>Twins.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_copied(IntPtr engine, ulong step, incise_copied* records, ulong room, ulong* count);
 
+        /// <summary>Tets that are gone.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_consumed(IntPtr engine, ulong step, incise_consumed* records, ulong room, ulong* count);
 
+        /// <summary>New tets.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_produced(IntPtr engine, ulong step, incise_produced* records, ulong room, ulong* count);
 
+        /// <summary>Tets that live on with other vertices.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_rewired(IntPtr engine, ulong step, incise_rewired* records, ulong room, ulong* count);
 
+        /// <summary>Faces that were opened.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_opened(IntPtr engine, ulong step, incise_opened* records, ulong room, ulong* count);
 
+        /// <summary>Walls that were joined again.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_closed(IntPtr engine, ulong step, incise_opened* records, ulong room, ulong* count);
 
@@ -691,18 +725,23 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_died(IntPtr engine, ulong step, uint* records, ulong room, ulong* count);
 
+        /// <summary>Edits of a step of maintenance.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_edits(IntPtr engine, ulong step, incise_edit* records, ulong room, ulong* count);
 
+        /// <summary>Tets that its edits consumed.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_edit_consumed(IntPtr engine, ulong step, incise_consumed* records, ulong room, ulong* count);
 
+        /// <summary>Tets that its edits produced.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_edit_produced(IntPtr engine, ulong step, incise_produced* records, ulong room, ulong* count);
 
+        /// <summary>Slots of vertices that the step took.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_new_vertices(IntPtr engine, ulong step, uint* records, ulong room, ulong* count);
 
+        /// <summary>Slots of tets that the step took.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_new_tets(IntPtr engine, ulong step, uint* records, ulong room, ulong* count);
 
@@ -718,6 +757,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_cursor_move(IntPtr cursor, IntPtr engine);
 
+        /// <summary>Null is fine.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_cursor_free(IntPtr cursor);
 
@@ -741,12 +781,15 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_attributes_values(IntPtr attributes, uint id, double** values, ulong* n_values);
 
+        /// <summary>Null is fine.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_attributes_free(IntPtr attributes);
 
+        /// <summary>Writes the first `size` bytes of the default options.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_default_body_options(incise_body_options* options, uint size);
 
+        /// <summary>Writes the first `size` bytes of the default options.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_default_simulation_options(incise_simulation_options* options, uint size);
 
@@ -806,6 +849,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_undo(IntPtr simulation, int* done);
 
+        /// <summary>Applies the stroke that was last taken back.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_redo(IntPtr simulation, int* done);
 
@@ -817,6 +861,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_move_hold(IntPtr simulation, uint vertex, double* target);
 
+        /// <summary>Whether a vertex is held: `is_held` gets 1 or 0.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_is_held(IntPtr simulation, uint vertex, int* is_held);
 
@@ -824,12 +869,15 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_velocities(IntPtr simulation, double* velocities, ulong room, ulong* count);
 
+        /// <summary>Gives a vertex a velocity, m/s, and wakes it.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_set_velocity(IntPtr simulation, uint vertex, double* velocity);
 
+        /// <summary>What the 1 kHz loop goes by until the next frame. Cost: O(1).</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_haptic_snapshot(IntPtr simulation, incise_haptic_snapshot* snapshot);
 
+        /// <summary>Writes the first `size` bytes of the default options.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_default_haptic_options(incise_haptic_options* options, uint size);
 
@@ -845,6 +893,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_haptic_tool_tick(IntPtr tool, double dt, double* position, double* velocity, double* force, double* tool_position);
 
+        /// <summary>Null is fine.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_haptic_tool_free(IntPtr tool);
     }

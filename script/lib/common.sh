@@ -150,7 +150,7 @@ build_packages=(
   python3:python3 python3-numpy python3-pytest python3-meshio mypy python3-pip
 )
 # shellcheck disable=SC2034
-quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags python3:python3 python3-nibabel)
+quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags doxygen python3:python3 python3-nibabel)
 # shellcheck disable=SC2034
 model_packages=(tetgen python3:python3)
 # shellcheck disable=SC2034

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that documents, and comments that send to them, name only paths that exist. usage: document_paths.py ROOT
+"""Checks that documents, and comments that send to them, name only what exists. usage: document_paths.py ROOT
 
 What counts as a path: the target of a link; in backticks, something with a slash whose first part is a folder of the
-tree or of the sources, and a bare name of a source file. CHANGELOG.md tells of what was, and is left out.
+tree or of the sources, and a bare name of a source file. What a link has behind # must be a heading of its document, as
+GitHub names it. CHANGELOG.md tells of what was: only its links are checked.
 """
 import glob
 import os
@@ -11,10 +12,11 @@ import subprocess
 import sys
 
 PLACES = ("", "src", "include", "include/incise", "src/app", "src/sim")  # where a path in backticks may begin
-LINK = re.compile(r"\]\(([^)\s#]+)(?:#[^)]*)?\)")
+LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([A-Za-z0-9_.*{},/-]+)`")
 BARE = re.compile(r"[A-Za-z0-9_*-]+\.(h|cpp|py|cmake)$")
 IN_COMMENT = re.compile(r"\bdocs/[A-Za-z0-9_./-]+\.md\b")
+HEADING = re.compile(r"#{1,6} +(.*?) *#*$")
 MADE = ("build",)  # folders that only work makes
 
 
@@ -32,9 +34,37 @@ def alternatives(path):
     return [one for part in match[1].split(",") for one in alternatives(path[:match.start()] + part + path[match.end():])]
 
 
+def anchor_of(heading):
+    """The anchor that GitHub gives a heading: its text in small letters, spaces as hyphens, without punctuation."""
+    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
+    return re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+
+
+def prose_lines(path):
+    """Number and text of each line of a document that is not in a block of code."""
+    is_code = False
+    with open(path, encoding="utf-8") as document:
+        for number, line in enumerate(document, 1):
+            if line.startswith("```"):
+                is_code = not is_code
+            elif not is_code:
+                yield number, line.rstrip("\n")
+
+
+def anchors_of(path):
+    anchors, times = set(), {}
+    for _, line in prose_lines(path):
+        heading = HEADING.match(line)
+        if heading:
+            anchor = anchor_of(heading[1])
+            times[anchor] = times.get(anchor, 0) + 1
+            anchors.add(anchor if times[anchor] == 1 else "%s-%d" % (anchor, times[anchor] - 1))
+    return anchors
+
+
 class Tree:
     def __init__(self, root):
-        self.root, self.files = root, tracked(root)
+        self.root, self.files, self.anchors = root, tracked(root), {}
         self.names = {os.path.basename(path) for path in self.files}
         self.folders = {path.split("/")[0] for path in self.files if "/" in path} - set(MADE)
         for place in PLACES[1:]:
@@ -54,21 +84,31 @@ class Tree:
             return [text]
         return []
 
+    def leads_to(self, target, document):
+        """Whether a link of a document leads somewhere: to a file, and to a heading where it names one."""
+        path, _, anchor = target.partition("#")
+        file = os.path.normpath(os.path.join(self.root, os.path.dirname(document), path)) if path else os.path.join(
+            self.root, document)
+        if not os.path.exists(file):
+            return False
+        if not anchor or not file.endswith(".md"):
+            return True
+        if file not in self.anchors:
+            self.anchors[file] = anchors_of(file)
+        return anchor in self.anchors[file]
+
 
 def check_document(tree, path):
-    beside, is_code = os.path.dirname(path), False
-    with open(os.path.join(tree.root, path), encoding="utf-8") as document:
-        for number, line in enumerate(document, 1):
-            if line.startswith("```"):
-                is_code = not is_code
-            if is_code:
-                continue
-            for target in LINK.findall(line):
-                if "://" not in target and not os.path.exists(os.path.join(tree.root, beside, target)):
-                    yield number, target
-            for text in CODE.findall(line):
-                for missing in tree.lacks(text, beside):
-                    yield number, missing
+    beside = os.path.dirname(path)
+    for number, line in prose_lines(os.path.join(tree.root, path)):
+        for target in LINK.findall(line):
+            if "://" not in target and not target.startswith("mailto:") and not tree.leads_to(target, path):
+                yield number, target
+        if path == "CHANGELOG.md":
+            continue
+        for text in CODE.findall(line):
+            for missing in tree.lacks(text, beside):
+                yield number, missing
 
 
 def check_comments(tree, path):
@@ -82,7 +122,7 @@ def check_comments(tree, path):
 def main(root):
     tree, checked, wrong = Tree(root), 0, 0
     for path in tree.files:
-        if path.endswith(".md") and path != "CHANGELOG.md":
+        if path.endswith(".md"):
             found = check_document(tree, path)
         elif path.endswith((".h", ".cpp", ".cmake")) or os.path.basename(path) == "CMakeLists.txt":
             found = check_comments(tree, path)
@@ -92,7 +132,7 @@ def main(root):
         for number, target in found:
             wrong += 1
             print("%s:%d: there is no %s" % (path, number, target))
-    print("paths in documents: %d files, %d wrong" % (checked, wrong))
+    print("paths, links and anchors in documents: %d files, %d wrong" % (checked, wrong))
     return 1 if wrong or checked == 0 else 0
 
 

@@ -22,6 +22,8 @@ MAY_INCLUDE = {
 }
 # Modules that may use what is private to others: the paper's profile shares sweeps, templates and journal steps.
 MAY_LOOK_INTO = {"paper": ("cut", "improve")}
+# What a module is to those above it, though it is not installed: the parts that the engine calls in order.
+PARTS = ("cut/cutter.h", "improve/maintainer.h", "paper/paper_cut.h", "paper/paper_maintenance.h")
 # Folders of a module, lowest first: each may include those before it, unless they are named as parts side by side.
 ROOMS = {
     "app": ("text", "model", "scene", "recording", "jobs", "view", "hands", "session", "viewer"),
@@ -114,7 +116,7 @@ def check_module_file(root, module, path, header):
     if other is not None and other != module and other not in MAY_INCLUDE[module]:
         return "module %s must not include %s" % (module, other)
     is_private = other is not None and other != module and not header.startswith("incise/")
-    if is_private and other not in MAY_LOOK_INTO.get(module, ()) + OF_PROGRAMS:
+    if is_private and header not in PARTS and other not in MAY_LOOK_INTO.get(module, ()) + OF_PROGRAMS:
         return "%s is private to module %s" % (header, other)
     if path.startswith("include/") and other is not None and not header.startswith("incise/"):
         return "a public header includes a private one"

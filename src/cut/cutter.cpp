@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cutting pipeline: collision → incision faces → subdivision → separation (paper, Figure 1, first four boxes).
-#include "incise/cut/cutter.h"
+#include "cut/cutter.h"
 
 #include <algorithm>
 #include <array>
@@ -69,579 +69,491 @@ constexpr double kStands = 0.05;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
 
-/// All that `CutStatistics` counts.
-constexpr std::array kCounts = {&CutStatistics::steps,
-                                &CutStatistics::cut_tets,
-                                &CutStatistics::created_tets,
-                                &CutStatistics::new_vertices,
-                                &CutStatistics::copied_vertices,
-                                &CutStatistics::incision_faces,
-                                &CutStatistics::snapped_vertices,
-                                &CutStatistics::bent_vertices,
-                                &CutStatistics::crumbs_kept,
-                                &CutStatistics::pinched_edges,
-                                &CutStatistics::latent_faces,
-                                &CutStatistics::blocked_edges,
-                                &CutStatistics::sheets};
-static_assert(sizeof(CutStatistics) == kCounts.size() * sizeof(std::uint64_t), "a count is missing");
-
 }  // namespace
 
-CutStatistics& CutStatistics::operator+=(const CutStatistics& other) {
-  for (const auto count : kCounts) this->*count += other.*count;
-  return *this;
-}
-
-CutStatistics& CutStatistics::operator-=(const CutStatistics& other) {
-  for (const auto count : kCounts) this->*count -= other.*count;
-  return *this;
-}
-
-namespace {
-
-/// What a stroke that is cut step by step knows of its blade.
-struct OpenStroke {
-  enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
-
-  BladeMotion motion;
-  SweptTriangles swept;
-  MaterialBlade material;
-  EdgeDivision edge;
-  std::vector<Vec3> given_row;  // the last one
-  std::vector<Vec3> last_row;   // the same, divided
-  double spacing = 1.0;
-  Vec3 direction = Vec3::Zero();  // of the last step in the material
-  bool is_in_material = false, is_last = false;
-  bool has_ended = false;                   // a short stroke in the material
-  AtFront is_at_front = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
-  std::uint32_t tag = 1;
-};
-
-}  // namespace
-
-class Cutter::Pause {
- public:
-  std::shared_ptr<const StrokeCut::Pause> cut;
-  OpenStroke stroke;
-};
-
-class Cutter::Pipeline {
- public:
-  explicit Pipeline(CutOptions options) : options_(options), stroke_cut_(options) {}
-
-  void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
-             std::uint32_t tag) {
-    stroke_.tag = tag;
-    stroke_.swept = {};
-    stroke_.spacing = typical_spacing(mesh);
-    stroke_cut_.begin(tag, stroke_.spacing);
-    stroke_cut_.prepare(mesh, journal);
-    stroke_.given_row.assign(row.begin(), row.end());
-    stroke_.last_row = stroke_.given_row;
-    stroke_.edge = EdgeDivision(row.size());
-    stroke_.is_in_material = has_moved;
-    stroke_.is_last = false;
-    stroke_.is_at_front = OpenStroke::AtFront::kUnknown;
-    stroke_.has_ended = false;
-    stroke_.direction = Vec3::Zero();
-    if (!has_moved) {
-      stroke_.motion.begin(row, stroke_.spacing);
-      return;
-    }
-    stroke_.material.begin(mesh, stroke_cut_.surface(), row, stroke_.spacing, stroke_cut_.complex());
-    stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
-  }
-  Result<CutStatistics> step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, const Vec3& direction,
-                             bool has_moved, StageTimes& times) {
-    return guarded(mesh, journal, [&]() -> Status {
-      statistics_.steps = 1;
-      if (has_moved && !stroke_.is_in_material) {
-        enter_material(mesh);
-      }
-      stroke_.given_row.assign(row.begin(), row.end());
-      if (!stroke_.is_in_material) divide_edge(row);
-      const std::vector<Vec3> before = std::exchange(stroke_.last_row, stroke_.edge.divided(row));
-      if (stroke_.is_in_material) {
-        stroke_.direction = direction;
-        return step_in_material(mesh, journal, before, direction, times);
-      }
-      if (goes_on_shortly(mesh, stroke_.last_row)) return {};
-      return follow(
-          mesh, journal,
-          stroke_.motion.advance(stroke_.last_row, stroke_cut_.sheet(), touches(mesh), surroundings(mesh), false),
-          times);
-    });
-  }
-  Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times) {
-    return guarded(mesh, journal, [&] {
-      Status status;
-      if (stroke_.is_in_material) {
-        if (stroke_.motion.is_at_start())
-          status = cut_to(mesh, journal, stroke_.last_row, stroke_.direction, times, true);
-        stroke_.is_last = true;
-        if (status && !stroke_.has_ended)
-          status = cut_to(mesh, journal, stroke_.last_row, stroke_.direction, times, true);
-        stroke_.is_last = false;
-      } else if (goes_on_shortly(mesh, stroke_.last_row)) {
-        status = end_shortly(mesh, journal, stroke_.last_row, times);
-      } else {
-        status =
-            follow(mesh, journal, stroke_.motion.end(stroke_cut_.sheet(), touches(mesh), surroundings(mesh)), times);
-      }
-      if (status) status = follow(mesh, journal, stroke_.motion.reach_on(surroundings(mesh)), times);
-      if (status) finish_sheet(mesh, journal, times);
-      return status;
-    });
-  }
-  [[nodiscard]] std::shared_ptr<const Pause> pause(const TetMesh& mesh) const {
-    auto pause = std::make_shared<Pause>(Pause{stroke_cut_.pause(), stroke_});
-    if (stroke_.is_in_material) pause->stroke.material.find_tips(mesh, stroke_cut_.complex());
-    return pause;
-  }
-  bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, std::span<const Vec3> row,
-                 bool has_moved) {
-    const OpenStroke& paused = pause.stroke;
-    if (row.size() != paused.given_row.size()) return false;
-    if (!has_moved && !paused.is_in_material) {
-      bool stands = true;
-      for (std::size_t c = 0; c < row.size(); ++c) {
-        stands = stands && (row[c] - paused.given_row[c]).norm() <= kStands * paused.spacing;
-      }
-      return stands;
-    }
-    const std::size_t end = journal.position();
-    if (!go_on(mesh, journal, pause, first_step, has_moved, paused.tag)) return false;
-    const bool stands =
-        stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row), kStands * stroke_.spacing);
-    stroke_cut_.forget();
-    journal.take_back(mesh, end);
-    return stands;
-  }
-  bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
-             std::uint32_t tag) {
-    const std::size_t end = journal.position();
-    bool goes_on = false;
-    try {
-      goes_on = take_end_back(mesh, journal, first_step);
-      if (goes_on) take_up(mesh, journal, pause, has_moved, tag);
-    } catch (const std::bad_alloc&) {
-      goes_on = false;
-    }
-    if (!goes_on) {
-      stroke_cut_.forget();
-      journal.take_back(mesh, end);
-    }
-    return goes_on;
-  }
-  void forget() { stroke_cut_.forget(); }
-  void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
-  [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const { return stroke_cut_.is_busy(mesh, tet); }
-  [[nodiscard]] const SweptTriangles& swept() const { return stroke_.swept; }
-
-  Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
-                            StageTimes& times) {
-    if (Status status = check(stroke); !status) {
-      return status.error();
-    }
-    return guarded(mesh, journal, [&] {
-      statistics_.steps = stroke.times.size() - 1;
-      return cut_parts(mesh, journal, stroke, tag, times);
-    });
-  }
-
- private:
-  /// Takes back what ended a stroke. Returns whether all pieces stay apart.
-  bool take_end_back(TetMesh& mesh, Journal& journal, std::size_t first_step) {
-    const std::size_t end = journal.position();
-    const std::uint32_t pieces = pieces_at(mesh, journal, first_step, end);
-    for (std::size_t i = end; i-- > first_step;) reverse(mesh, journal, i);
-    return pieces_at(mesh, journal, first_step, end) == pieces;
-  }
-  /// Puts the band, the sheet and the blade of a paused stroke back.
-  void take_up(const TetMesh& mesh, const Journal& journal, const Pause& pause, bool has_moved, std::uint32_t tag) {
-    stroke_ = pause.stroke;
-    stroke_.tag = tag;
-    stroke_cut_.go_on(*pause.cut, mesh, tag);
-    stroke_cut_.prepare(mesh, journal);
-    if (has_moved && !stroke_.is_in_material) enter_material(mesh);
-  }
-  /// How many pieces there are where some steps of the journal changed something.
-  [[nodiscard]] std::uint32_t pieces_at(const TetMesh& mesh, const Journal& journal, std::size_t first,
-                                        std::size_t last) {
-    std::vector<TetId> seeds;
-    const auto add = [&](TetId tet) {
-      if (mesh.is_live(tet)) seeds.push_back(tet);
-    };
-    for (std::size_t i = first; i < last; ++i) {
-      for (const TetImage& image : journal.step(i).before.tets) add(image.id);
-      for (const TetId tet : journal.step(i).new_tets) add(tet);
-    }
-    return finder_.find(mesh, seeds);
-  }
-  /// Runs some work; where it fails, what it did is taken back.
-  template <class Work>
-  Result<CutStatistics> guarded(TetMesh& mesh, Journal& journal, Work&& work) {
-    const std::size_t start = journal.position();
-    statistics_ = {};
-    Status status;
-    try {
-      status = work();
-    } catch (const std::bad_alloc&) {
-      status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
-    }
-    if (status) return statistics_;
-    stroke_cut_.forget();
-    journal.take_back(mesh, start);
-    return status.error();
-  }
-  [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const {
-    return [&](const SweptSurface& surface) { return stroke_cut_.touches(mesh, surface); };
-  }
-  /// The body has begun to move: from now on the blade is located in the elements as they stand.
-  void enter_material(const TetMesh& mesh) {
-    stroke_.is_in_material = true;
-    stroke_.material.take_over(mesh, stroke_cut_.surface(), stroke_.last_row, stroke_.motion.front(), stroke_.spacing,
-                               stroke_cut_.complex());
-    stroke_.motion.refine(stroke_.material.shares());
-  }
-  /// Divides the blade's edge where it turns on its way to a row.
-  void divide_edge(std::span<const Vec3> row) {
-    const auto parts = stroke_.edge.divide(stroke_.last_row, stroke_.edge.divided(row), kTwist * stroke_.spacing);
-    if (parts.empty()) return;
-    stroke_.motion.refine(parts);
-    stroke_.last_row = divided(stroke_.last_row, parts);
-  }
-  /// From where the blade was to `stroke_.last_row`, in parts of at most an element.
-  Status step_in_material(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& before, const Vec3& direction,
-                          StageTimes& times) {
-    double travel = 0;
-    for (std::size_t c = 0; c < before.size(); ++c) travel = std::max(travel, (stroke_.last_row[c] - before[c]).norm());
-    if (travel > kMostParts * stroke_.spacing || stroke_.material.is_graded()) {
-      return step_from_far(mesh, journal, before, direction, times);
-    }
-    const double parts = std::clamp(std::ceil(travel / stroke_.spacing), 1.0, kMostParts);
-    for (double part = 1; part <= parts; ++part) {
-      std::vector<Vec3> row = stroke_.last_row;
-      for (std::size_t c = 0; c < row.size() && part < parts; ++c) {
-        row[c] = before[c] + (part / parts) * (stroke_.last_row[c] - before[c]);
-      }
-      if (Status status = cut_to(mesh, journal, row, direction, times); !status) return status;
-    }
-    return {};
-  }
-  /// The same for a blade that reaches far beyond the body, or goes far: away from the body it is only put in place.
-  Status step_from_far(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& before, const Vec3& direction,
-                       StageTimes& times) {
-    const std::vector<Vec3> to = stroke_.last_row;
-    const Box body = current_bounds(mesh), near = enlarged(body, kNearBody);
-    const double travel = std::max(stroke_.spacing, (body.hi - body.lo).norm() / kMostParts);
-    std::vector<Vec3> row = before;
-    for (const StepPart& part : divide_step(before, to, travel, near)) {
-      const std::vector<Vec3> from = std::exchange(row, to);
-      for (std::size_t c = 0; c < row.size() && part.end < 1; ++c) row[c] = before[c] + part.end * (to[c] - before[c]);
-      const bool is_free = stroke_cut_.complex().size() == 0;
-      if (is_free && (!part.is_near || stroke_.material.is_graded()))
-        put_in_place(mesh, journal, part.is_near ? from : row);
-      if (is_free && !part.is_near) continue;
-      if (Status status = cut_to(mesh, journal, row, direction, times); !status) return status;
-    }
-    return {};
-  }
-  /// Starts anew with a blade that has not met the body yet.
-  void put_in_place(const TetMesh& mesh, const Journal& journal, const std::vector<Vec3>& row) {
-    stroke_cut_.prepare(mesh, journal);
-    stroke_.material.begin(mesh, stroke_cut_.surface(), row, stroke_.spacing, stroke_cut_.complex());
-    stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
-  }
-  /// `ends`: a stroke that is short ends there.
-  Status cut_to(TetMesh& mesh, Journal& journal, const std::vector<Vec3>& row, const Vec3& direction, StageTimes& times,
-                bool ends = false) {
-    BladeMotion::Proposal proposal = propose(mesh, journal, row, direction, times);
-    if (proposal.surface.triangles.empty()) return {};
-    std::vector<Vec3> to;
-    for (const SosPoint& p : proposal.row) to.push_back(p.position);
-    if (goes_on_shortly(mesh, to)) {
-      stroke_.has_ended = ends;
-      return ends ? end_shortly(mesh, journal, to, times) : Status{};
-    }
-    BladeMotion::Move move;
-    move.strip = stroke_.motion.accept(proposal, surroundings(mesh));
-    stroke_.material.advance(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-    return follow(mesh, journal, std::move(move), times);
-  }
-  /// Looks for the blade in the tissue as it stands: the strip that it would cut.
-  BladeMotion::Proposal propose(const TetMesh& mesh, const Journal& journal, const std::vector<Vec3>& row,
-                                const Vec3& direction, StageTimes& times) {
-    const StageZone zone(times, Stage::kCollision);
-    stroke_cut_.prepare(mesh, journal);
-    stroke_.material.locate(mesh, stroke_cut_.surface(), stroke_cut_.complex(), row, direction, stroke_.is_last);
-    BladeMotion::Proposal proposal = stroke_.motion.propose(stroke_.material.wanted());
-    while (!proposal.surface.triangles.empty() && hold_where_it_closes(mesh, proposal)) {
-      proposal = stroke_.motion.propose(stroke_.material.wanted());
-    }
-    return proposal;
-  }
-  /// Holds the points of the blade beside which a strip would close the cut again, unless they are far ahead. Returns
-  /// whether there were any.
-  bool hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Proposal& proposal) {
-    const Strip strip(proposal.surface, {});
-    bool has_held = false;
-    for (const auto& [column, is_apart, is_left] : stroke_cut_.recrossed_columns(mesh, strip)) {
-      const double greatest = (is_left ? kTurnBack : kGiveWay) * stroke_.spacing;
-      for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
-        if (!stroke_.material.is_accepted(point)) continue;
-        if (!is_apart && stroke_.material.lead(point) > greatest) continue;
-        stroke_.material.hold(point);
-        has_held = true;
-      }
-    }
-    return has_held;
-  }
-  /// What a border of the sheet finds: an older cut to reach on into, or the end of the body.
-  [[nodiscard]] Surroundings surroundings(const TetMesh& mesh) const {
-    Surroundings found;
-    const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-    if (!older.exist()) return found;
-    found.has_older_cuts = true;
-    found.is_outside = [this, &mesh](const Vec3& place) {
-      return !locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid();
-    };
-    found.reach = [this, older, is_outside = found.is_outside](const Vec3& place, const Vec3& outwards,
-                                                               const Vec3& normal) {
-      const double along = kReachOn * stroke_.spacing, across = kReachThrough * stroke_.spacing;
-      const double beside = (options_.snap > 0 ? kBesideWall : kBesideExactly) * stroke_.spacing;
-      const auto is_open = [&](double share) {
-        const Vec3 beyond = place + share * along * outwards;
-        return older.pass(beyond, normal, beside, kInside * stroke_.spacing) || is_outside(beyond);
-      };
-      if (older.pass(place, normal, beside, kWeld * stroke_.spacing) &&
-          std::all_of(kReachSamples.begin(), kReachSamples.end(), is_open)) {
-        return along;
-      }
-      return older.meet(place - kInside * stroke_.spacing * outwards, place + kWeldThrough * stroke_.spacing * outwards)
-                 ? across
-                 : 0.0;
-    };
-    found.retreat = [this, older](const Vec3& place, const Vec3& outwards, double length) {
-      const double behind = std::min(kWeld * stroke_.spacing, length), before = kBefore * stroke_.spacing;
-      const double met = older.first_met(place - behind * outwards, place + before * outwards, kSteep);
-      return met <= 1.0 ? (1.0 - met) * (behind + before) : 0.0;
-    };
-    return found;
-  }
-  /// Whether a stroke has only begun, at the front of older cuts.
-  [[nodiscard]] bool goes_on_shortly(const TetMesh& mesh, std::span<const Vec3> row) {
-    if (!stroke_.motion.is_at_start() || options_.snap <= 0 || stroke_.is_at_front == OpenStroke::AtFront::kNo)
-      return false;
-    const std::vector<Vec3> start = stroke_.motion.front();
-    double travel = 0;
-    for (std::size_t c = 0; c < row.size(); ++c) travel = std::max(travel, (row[c] - start[c]).norm());
-    if (!(travel > 0) || travel > kCarry * stroke_.spacing) return false;
-    if (stroke_.is_at_front == OpenStroke::AtFront::kUnknown) {
-      stroke_.is_at_front = lies_at_front(mesh, start, row) ? OpenStroke::AtFront::kYes : OpenStroke::AtFront::kNo;
-    }
-    return stroke_.is_at_front == OpenStroke::AtFront::kYes;
-  }
-  /// Whether all of a row that is in the body lies at the front of older cuts, seen along its way to another row.
-  [[nodiscard]] bool lies_at_front(const TetMesh& mesh, std::span<const Vec3> start, std::span<const Vec3> row) const {
-    const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-    if (!older.exist()) return false;
-    const auto is_inside = [&](const Vec3& place) {
-      return locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid();
-    };
-    bool is_at_front = false;
-    for (std::size_t c = 0; c + 1 < row.size(); ++c) {
-      const Vec3 along = start[c + 1] - start[c];
-      const Vec3 beside = kStartShare * stroke_.spacing * along.normalized();  // the skin is near: fronts end off it
-      const double parts = std::clamp(std::ceil(along.norm() / (kStartShare * stroke_.spacing)), 1.0, kMostStarts);
-      for (double k = 0; k <= parts; ++k) {
-        const Vec3 place = start[c] + (k / parts) * along;
-        const Vec3 normal = (row[c] + (k / parts) * (row[c + 1] - row[c]) - place).cross(along);
-        const bool is_at = normal.squaredNorm() > 0 &&
-                           older.pass(place, normal, kBesideWall * stroke_.spacing, kAtFront * stroke_.spacing);
-        if (!is_at && is_inside(place) && is_inside(place - beside) && is_inside(place + beside)) return false;
-        is_at_front |= is_at;
-      }
-    }
-    return is_at_front;
-  }
-  /// Takes the front of older cuts along from one row to another. Returns how far the last of it is left behind.
-  double carry(TetMesh& mesh, Journal& journal, std::span<const Vec3> from, std::span<const Vec3> to) {
-    stroke_cut_.prepare(mesh, journal);
-    Transaction transaction(mesh, true);
-    const double left = carry_front(transaction, stroke_cut_.surface(), from, to, stroke_.spacing);
-    Step step = transaction.commit();
-    if (!step.is_empty()) journal.append(std::move(step));
-    return left;
-  }
-  /// The same for the blade as it stands; what it swept is what walls are judged by.
-  double carry_along(TetMesh& mesh, Journal& journal, std::span<const Vec3> row) {
-    note_swept(stroke_.motion.propose(row).surface);
-    return carry(mesh, journal, stroke_.motion.front(), row);
-  }
-  /// Ends a short stroke. A front that cannot follow is drawn back and cut from there; what was drawn back in vain
-  /// follows as far as it can.
-  Status end_shortly(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, StageTimes& times) {
-    if (carry_along(mesh, journal, row) <= kLag * stroke_.spacing) return {};
-    const std::vector<Vec3> back = drawn_back(stroke_.motion.front(), row);
-    static_cast<void>(carry(mesh, journal, row, back));
-    stroke_cut_.begin(stroke_.tag, stroke_.spacing);
-    stroke_cut_.prepare(mesh, journal);
-    stroke_.motion.begin(back, stroke_.spacing);
-    BladeMotion::Move move;
-    move.strip = stroke_.motion.accept(stroke_.motion.propose(row), surroundings(mesh));
-    if (stroke_.is_in_material) stroke_.material.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-    Status status = follow(mesh, journal, std::move(move), times);
-    if (status) status = follow(mesh, journal, stroke_.motion.reach_on(surroundings(mesh)), times);
-    if (!status) return status;
-    finish_sheet(mesh, journal, times);
-    static_cast<void>(carry(mesh, journal, back, row));
-    stroke_cut_.begin(stroke_.tag, stroke_.spacing);
-    stroke_.motion.begin(row, stroke_.spacing);
-    return {};
-  }
-  /// A row that is about an element behind another one, against its way.
-  [[nodiscard]] std::vector<Vec3> drawn_back(std::vector<Vec3> row, std::span<const Vec3> to) const {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t c = 0; c < row.size(); ++c) sum += to[c] - row[c];
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const Vec3 way = to[c] - row[c];
-      row[c] -= kDrawBack * stroke_.spacing * (way.squaredNorm() > 0 ? way : sum).normalized();
-    }
-    return row;
-  }
-  void finish_sheet(TetMesh& mesh, Journal& journal, StageTimes& times) {
-    stroke_cut_.finish(mesh, journal, rules(), statistics_, times);
-    ++statistics_.sheets;
-  }
-  /// Cuts along what the blade's motion asks for. A strip that meets what the sheet has cut through is the first of a
-  /// new sheet, to which the one so far is an older cut.
-  Status follow(TetMesh& mesh, Journal& journal, BladeMotion::Move move, StageTimes& times) {
-    if (move.strip == nullptr) return {};
-    if (move.starts_anew || comes_back(mesh, *move.strip)) {
-      finish_sheet(mesh, journal, times);
-      stroke_cut_.begin(stroke_.tag, stroke_.spacing);
-      if (between_sheets_) between_sheets_();
-      stroke_cut_.prepare(mesh, journal);
-      if (stroke_.is_in_material) stroke_.material.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-      move.strip = stroke_.motion.lay_anew(surroundings(mesh));
-    }
-    note_swept(move.strip->surface);
-    stroke_cut_.keep_pieces(stroke_.is_in_material);
-    Status status = stroke_cut_.advance(mesh, journal, std::move(move.strip), rules(), statistics_, times);
-    if (!status) return status;
-    if (stroke_cut_.must_finish()) {
-      go_on_from_front(mesh, journal, times);
-    } else {
-      const auto pinned = stroke_.is_in_material ? stroke_.material.masters() : std::vector<std::uint32_t>();
-      stroke_cut_.bake(mesh, journal, rules(), pinned, statistics_, times);
-    }
-    return status;
-  }
-  /// Whether a strip comes back to what the sheet is done with.
-  bool comes_back(const TetMesh& mesh, const Strip& strip) {
-    if (!stroke_.is_in_material && stroke_cut_.crosses_own_cut(mesh, strip, kApart)) return true;
-    return stroke_cut_.comes_back(mesh, strip);
-  }
-  /// Finishes the sheet where it is; the next one goes on from there.
-  void go_on_from_front(TetMesh& mesh, Journal& journal, StageTimes& times) {
-    finish_sheet(mesh, journal, times);
-    stroke_cut_.begin(stroke_.tag, stroke_.spacing);
-    stroke_cut_.prepare(mesh, journal);
-    stroke_.motion.begin_anew();
-    if (stroke_.is_in_material) stroke_.material.find_masters(mesh, stroke_cut_.surface(), stroke_cut_.complex());
-  }
-  /// In a body that moves, front points keep still while they can: each that is made anew disturbs the solver.
-  [[nodiscard]] FrontRules rules() const {
-    FrontRules rules;
-    rules.reach = stroke_.is_in_material ? kPointReach * stroke_.spacing : 0.0;
-    return rules;
-  }
-  void note_swept(const SweptSurface& surface) {
-    const auto first = static_cast<std::uint32_t>(stroke_.swept.points.size());
-    for (const SosPoint& point : surface.points) stroke_.swept.points.push_back(point.position);
-    for (const SweptTriangle& triangle : surface.triangles) {
-      stroke_.swept.triangles.push_back(
-          {first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
-    }
-  }
-  /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
-  Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, StageTimes& times) {
-    stroke_.is_in_material = false;
-    const double spacing = stroke_.spacing = typical_spacing(mesh);
-    const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
-    const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
-    for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
-      if (Status status = cut_strip(mesh, journal, part_of(surface, part), tag, times); !status) return status;
-      ++statistics_.sheets;
-    }
-    return {};
-  }
-  /// One part of the sweep as a sheet of its own, in one step.
-  Status cut_strip(TetMesh& mesh, Journal& journal, SweptSurface part, std::uint32_t tag, StageTimes& times) {
-    stroke_cut_.begin(tag, stroke_.spacing);
-    auto strip = std::make_unique<Strip>(std::move(part), std::vector<std::array<std::uint64_t, 2>>());
-    Status status = stroke_cut_.advance(mesh, journal, std::move(strip), rules(), statistics_, times);
-    stroke_cut_.finish(mesh, journal, rules(), statistics_, times);
-    return status;
-  }
-  static SweptSurface part_of(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles) {
-    SweptSurface part;
-    part.points = surface.points;
-    for (const std::uint32_t t : triangles) part.triangles.push_back(surface.triangles[t]);
-    return part;
-  }
-  CutOptions options_;
-  StrokeCut stroke_cut_;
-  OpenStroke stroke_;
-  PieceFinder finder_;
-  std::function<void()> between_sheets_;
-  CutStatistics statistics_;  // of the stroke being cut
-};
-
-Cutter::Cutter(CutOptions options) : pipeline_(std::make_unique<Pipeline>(options)) {}
-Cutter::Cutter(Cutter&&) noexcept = default;
-Cutter& Cutter::operator=(Cutter&&) noexcept = default;
-Cutter::~Cutter() = default;
-
-Result<CutStatistics> Cutter::cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
-                                  StageTimes& times) {
-  return pipeline_->cut(mesh, journal, stroke, tag, times);
-}
+Cutter::Cutter(CutOptions options) : options_(options), stroke_cut_(options) {}
 
 void Cutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
                    std::uint32_t tag) {
-  pipeline_->begin(mesh, journal, row, has_moved, tag);
+  stroke_.tag = tag;
+  stroke_.swept = {};
+  stroke_.spacing = typical_spacing(mesh);
+  stroke_cut_.begin(tag, stroke_.spacing);
+  stroke_cut_.prepare(mesh, journal);
+  stroke_.given_row.assign(row.begin(), row.end());
+  stroke_.last_row = stroke_.given_row;
+  stroke_.edge = EdgeDivision(row.size());
+  stroke_.is_in_material = has_moved;
+  stroke_.is_last = false;
+  stroke_.is_at_front = OpenStroke::AtFront::kUnknown;
+  stroke_.has_ended = false;
+  stroke_.direction = Vec3::Zero();
+  if (!has_moved) {
+    stroke_.motion.begin(row, stroke_.spacing);
+    return;
+  }
+  stroke_.material.begin(mesh, stroke_cut_.surface(), row, stroke_.spacing, stroke_cut_.complex());
+  stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
 }
+
 Result<CutStatistics> Cutter::step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, const Vec3& direction,
                                    bool has_moved, StageTimes& times) {
-  return pipeline_->step(mesh, journal, row, direction, has_moved, times);
+  return guarded(mesh, journal, times, [&](const CutContext& context) -> Status {
+    context.statistics.steps = 1;
+    if (has_moved && !stroke_.is_in_material) {
+      enter_material(context.mesh);
+    }
+    stroke_.given_row.assign(row.begin(), row.end());
+    if (!stroke_.is_in_material) divide_edge(row);
+    const std::vector<Vec3> before = std::exchange(stroke_.last_row, stroke_.edge.divided(row));
+    if (stroke_.is_in_material) {
+      stroke_.direction = direction;
+      return step_in_material(context, before, direction);
+    }
+    if (goes_on_shortly(context.mesh, stroke_.last_row)) return {};
+    return follow(context, stroke_.motion.advance(stroke_.last_row, stroke_cut_.sheet(), touches(context.mesh),
+                                                  surroundings(context.mesh), false));
+  });
 }
+
 Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& times) {
-  return pipeline_->end(mesh, journal, times);
+  return guarded(mesh, journal, times, [&](const CutContext& context) {
+    Status status;
+    if (stroke_.is_in_material) {
+      if (stroke_.motion.is_at_start()) status = cut_to(context, stroke_.last_row, stroke_.direction, true);
+      stroke_.is_last = true;
+      if (status && !stroke_.has_ended) status = cut_to(context, stroke_.last_row, stroke_.direction, true);
+      stroke_.is_last = false;
+    } else if (goes_on_shortly(context.mesh, stroke_.last_row)) {
+      status = end_shortly(context, stroke_.last_row);
+    } else {
+      status =
+          follow(context, stroke_.motion.end(stroke_cut_.sheet(), touches(context.mesh), surroundings(context.mesh)));
+    }
+    if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context.mesh)));
+    if (status) finish_sheet(context);
+    return status;
+  });
 }
-void Cutter::forget() {
-  pipeline_->forget();
-}
+
 std::shared_ptr<const Cutter::Pause> Cutter::pause(const TetMesh& mesh) const {
-  return pipeline_->pause(mesh);
+  auto pause = std::make_shared<Pause>(Pause{stroke_cut_.pause(), stroke_});
+  if (stroke_.is_in_material) pause->stroke.material.find_tips(mesh, stroke_cut_.complex());
+  return pause;
 }
+
 bool Cutter::may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
                        std::span<const Vec3> row, bool has_moved) {
-  return pipeline_->may_go_on(mesh, journal, pause, first_step, row, has_moved);
+  const OpenStroke& paused = pause.stroke;
+  if (row.size() != paused.given_row.size()) return false;
+  if (!has_moved && !paused.is_in_material) {
+    bool stands = true;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      stands = stands && (row[c] - paused.given_row[c]).norm() <= kStands * paused.spacing;
+    }
+    return stands;
+  }
+  const std::size_t end = journal.position();
+  if (!go_on(mesh, journal, pause, first_step, has_moved, paused.tag)) return false;
+  const bool stands =
+      stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row), kStands * stroke_.spacing);
+  stroke_cut_.forget();
+  journal.take_back(mesh, end);
+  return stands;
 }
+
 bool Cutter::go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
                    std::uint32_t tag) {
-  return pipeline_->go_on(mesh, journal, pause, first_step, has_moved, tag);
+  const std::size_t end = journal.position();
+  bool goes_on = false;
+  try {
+    goes_on = take_end_back(mesh, journal, first_step);
+    if (goes_on) take_up(mesh, journal, pause, has_moved, tag);
+  } catch (const std::bad_alloc&) {
+    goes_on = false;
+  }
+  if (!goes_on) {
+    stroke_cut_.forget();
+    journal.take_back(mesh, end);
+  }
+  return goes_on;
 }
-void Cutter::call_between_sheets(std::function<void()> between_sheets) {
-  pipeline_->call_between_sheets(std::move(between_sheets));
+
+Result<CutStatistics> Cutter::cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
+                                  StageTimes& times) {
+  if (Status status = check(stroke); !status) {
+    return status.error();
+  }
+  return guarded(mesh, journal, times, [&](const CutContext& context) {
+    context.statistics.steps = stroke.times.size() - 1;
+    return cut_parts(context, stroke, tag);
+  });
 }
-bool Cutter::is_busy(const TetMesh& mesh, TetId tet) const {
-  return pipeline_->is_busy(mesh, tet);
+
+/// Takes back what ended a stroke. Returns whether all pieces stay apart.
+bool Cutter::take_end_back(TetMesh& mesh, Journal& journal, std::size_t first_step) {
+  const std::size_t end = journal.position();
+  const std::uint32_t pieces = pieces_at(mesh, journal, first_step, end);
+  for (std::size_t i = end; i-- > first_step;) reverse(mesh, journal, i);
+  return pieces_at(mesh, journal, first_step, end) == pieces;
 }
-const SweptTriangles& Cutter::swept() const {
-  return pipeline_->swept();
+
+/// Puts the band, the sheet and the blade of a paused stroke back.
+void Cutter::take_up(const TetMesh& mesh, const Journal& journal, const Pause& pause, bool has_moved,
+                     std::uint32_t tag) {
+  stroke_ = pause.stroke;
+  stroke_.tag = tag;
+  stroke_cut_.go_on(*pause.cut, mesh, tag);
+  stroke_cut_.prepare(mesh, journal);
+  if (has_moved && !stroke_.is_in_material) enter_material(mesh);
+}
+
+/// How many pieces there are where some steps of the journal changed something.
+std::uint32_t Cutter::pieces_at(const TetMesh& mesh, const Journal& journal, std::size_t first, std::size_t last) {
+  std::vector<TetId> seeds;
+  const auto add = [&](TetId tet) {
+    if (mesh.is_live(tet)) seeds.push_back(tet);
+  };
+  for (std::size_t i = first; i < last; ++i) {
+    for (const TetImage& image : journal.step(i).before.tets) add(image.id);
+    for (const TetId tet : journal.step(i).new_tets) add(tet);
+  }
+  return finder_.find(mesh, seeds);
+}
+
+/// Runs some work; where it fails, what it did is taken back.
+template <class Work>
+Result<CutStatistics> Cutter::guarded(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work) {
+  const std::size_t start = journal.position();
+  CutStatistics statistics;
+  Status status;
+  try {
+    status = work(CutContext{mesh, journal, times, statistics});
+  } catch (const std::bad_alloc&) {
+    status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
+  }
+  if (status) return statistics;
+  stroke_cut_.forget();
+  journal.take_back(mesh, start);
+  return status.error();
+}
+
+BladeMotion::Touches Cutter::touches(const TetMesh& mesh) const {
+  return [&](const SweptSurface& surface) { return stroke_cut_.touches(mesh, surface); };
+}
+
+/// The body has begun to move: from now on the blade is located in the elements as they stand.
+void Cutter::enter_material(const TetMesh& mesh) {
+  stroke_.is_in_material = true;
+  stroke_.material.take_over(mesh, stroke_cut_.surface(), stroke_.last_row, stroke_.motion.front(), stroke_.spacing,
+                             stroke_cut_.complex());
+  stroke_.motion.refine(stroke_.material.shares());
+}
+
+/// Divides the blade's edge where it turns on its way to a row.
+void Cutter::divide_edge(std::span<const Vec3> row) {
+  const auto parts = stroke_.edge.divide(stroke_.last_row, stroke_.edge.divided(row), kTwist * stroke_.spacing);
+  if (parts.empty()) return;
+  stroke_.motion.refine(parts);
+  stroke_.last_row = divided(stroke_.last_row, parts);
+}
+
+/// From where the blade was to `stroke_.last_row`, in parts of at most an element.
+Status Cutter::step_in_material(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction) {
+  double travel = 0;
+  for (std::size_t c = 0; c < before.size(); ++c) travel = std::max(travel, (stroke_.last_row[c] - before[c]).norm());
+  if (travel > kMostParts * stroke_.spacing || stroke_.material.is_graded()) {
+    return step_from_far(context, before, direction);
+  }
+  const double parts = std::clamp(std::ceil(travel / stroke_.spacing), 1.0, kMostParts);
+  for (double part = 1; part <= parts; ++part) {
+    std::vector<Vec3> row = stroke_.last_row;
+    for (std::size_t c = 0; c < row.size() && part < parts; ++c) {
+      row[c] = before[c] + (part / parts) * (stroke_.last_row[c] - before[c]);
+    }
+    if (Status status = cut_to(context, row, direction); !status) return status;
+  }
+  return {};
+}
+
+/// The same for a blade that reaches far beyond the body, or goes far: away from the body it is only put in place.
+Status Cutter::step_from_far(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction) {
+  const std::vector<Vec3> to = stroke_.last_row;
+  const Box body = current_bounds(context.mesh), near = enlarged(body, kNearBody);
+  const double travel = std::max(stroke_.spacing, (body.hi - body.lo).norm() / kMostParts);
+  std::vector<Vec3> row = before;
+  for (const StepPart& part : divide_step(before, to, travel, near)) {
+    const std::vector<Vec3> from = std::exchange(row, to);
+    for (std::size_t c = 0; c < row.size() && part.end < 1; ++c) row[c] = before[c] + part.end * (to[c] - before[c]);
+    const bool is_free = stroke_cut_.complex().size() == 0;
+    if (is_free && (!part.is_near || stroke_.material.is_graded()))
+      put_in_place(context.mesh, context.journal, part.is_near ? from : row);
+    if (is_free && !part.is_near) continue;
+    if (Status status = cut_to(context, row, direction); !status) return status;
+  }
+  return {};
+}
+
+/// Starts anew with a blade that has not met the body yet.
+void Cutter::put_in_place(const TetMesh& mesh, const Journal& journal, const std::vector<Vec3>& row) {
+  stroke_cut_.prepare(mesh, journal);
+  stroke_.material.begin(mesh, stroke_cut_.surface(), row, stroke_.spacing, stroke_cut_.complex());
+  stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
+}
+
+/// `ends`: a stroke that is short ends there.
+Status Cutter::cut_to(const CutContext& context, const std::vector<Vec3>& row, const Vec3& direction, bool ends) {
+  BladeMotion::Proposal proposal = propose(context, row, direction);
+  if (proposal.surface.triangles.empty()) return {};
+  std::vector<Vec3> to;
+  for (const SosPoint& p : proposal.row) to.push_back(p.position);
+  if (goes_on_shortly(context.mesh, to)) {
+    stroke_.has_ended = ends;
+    return ends ? end_shortly(context, to) : Status{};
+  }
+  BladeMotion::Move move;
+  move.strip = stroke_.motion.accept(proposal, surroundings(context.mesh));
+  stroke_.material.advance(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
+  return follow(context, std::move(move));
+}
+
+/// Looks for the blade in the tissue as it stands: the strip that it would cut.
+BladeMotion::Proposal Cutter::propose(const CutContext& context, const std::vector<Vec3>& row, const Vec3& direction) {
+  const StageZone zone(context.times, Stage::kCollision);
+  stroke_cut_.prepare(context.mesh, context.journal);
+  stroke_.material.locate(context.mesh, stroke_cut_.surface(), stroke_cut_.complex(), row, direction, stroke_.is_last);
+  BladeMotion::Proposal proposal = stroke_.motion.propose(stroke_.material.wanted());
+  while (!proposal.surface.triangles.empty() && hold_where_it_closes(context.mesh, proposal)) {
+    proposal = stroke_.motion.propose(stroke_.material.wanted());
+  }
+  return proposal;
+}
+
+/// Holds the points of the blade beside which a strip would close the cut again, unless they are far ahead. Returns
+/// whether there were any.
+bool Cutter::hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Proposal& proposal) {
+  const Strip strip(proposal.surface, {});
+  bool has_held = false;
+  for (const auto& [column, is_apart, is_left] : stroke_cut_.recrossed_columns(mesh, strip)) {
+    const double greatest = (is_left ? kTurnBack : kGiveWay) * stroke_.spacing;
+    for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
+      if (!stroke_.material.is_accepted(point)) continue;
+      if (!is_apart && stroke_.material.lead(point) > greatest) continue;
+      stroke_.material.hold(point);
+      has_held = true;
+    }
+  }
+  return has_held;
+}
+
+/// What a border of the sheet finds: an older cut to reach on into, or the end of the body.
+Surroundings Cutter::surroundings(const TetMesh& mesh) const {
+  Surroundings found;
+  const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+  if (!older.exist()) return found;
+  found.has_older_cuts = true;
+  found.is_outside = [this, &mesh](const Vec3& place) {
+    return !locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid();
+  };
+  found.reach = [this, older, is_outside = found.is_outside](const Vec3& place, const Vec3& outwards,
+                                                             const Vec3& normal) {
+    const double along = kReachOn * stroke_.spacing, across = kReachThrough * stroke_.spacing;
+    const double beside = (options_.snap > 0 ? kBesideWall : kBesideExactly) * stroke_.spacing;
+    const auto is_open = [&](double share) {
+      const Vec3 beyond = place + share * along * outwards;
+      return older.pass(beyond, normal, beside, kInside * stroke_.spacing) || is_outside(beyond);
+    };
+    if (older.pass(place, normal, beside, kWeld * stroke_.spacing) &&
+        std::all_of(kReachSamples.begin(), kReachSamples.end(), is_open)) {
+      return along;
+    }
+    return older.meet(place - kInside * stroke_.spacing * outwards, place + kWeldThrough * stroke_.spacing * outwards)
+               ? across
+               : 0.0;
+  };
+  found.retreat = [this, older](const Vec3& place, const Vec3& outwards, double length) {
+    const double behind = std::min(kWeld * stroke_.spacing, length), before = kBefore * stroke_.spacing;
+    const double met = older.first_met(place - behind * outwards, place + before * outwards, kSteep);
+    return met <= 1.0 ? (1.0 - met) * (behind + before) : 0.0;
+  };
+  return found;
+}
+
+/// Whether a stroke has only begun, at the front of older cuts.
+bool Cutter::goes_on_shortly(const TetMesh& mesh, std::span<const Vec3> row) {
+  if (!stroke_.motion.is_at_start() || options_.snap <= 0 || stroke_.is_at_front == OpenStroke::AtFront::kNo)
+    return false;
+  const std::vector<Vec3> start = stroke_.motion.front();
+  double travel = 0;
+  for (std::size_t c = 0; c < row.size(); ++c) travel = std::max(travel, (row[c] - start[c]).norm());
+  if (!(travel > 0) || travel > kCarry * stroke_.spacing) return false;
+  if (stroke_.is_at_front == OpenStroke::AtFront::kUnknown) {
+    stroke_.is_at_front = lies_at_front(mesh, start, row) ? OpenStroke::AtFront::kYes : OpenStroke::AtFront::kNo;
+  }
+  return stroke_.is_at_front == OpenStroke::AtFront::kYes;
+}
+
+/// Whether all of a row that is in the body lies at the front of older cuts, seen along its way to another row.
+bool Cutter::lies_at_front(const TetMesh& mesh, std::span<const Vec3> start, std::span<const Vec3> row) const {
+  const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+  if (!older.exist()) return false;
+  const auto is_inside = [&](const Vec3& place) {
+    return locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid();
+  };
+  bool is_at_front = false;
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    const Vec3 along = start[c + 1] - start[c];
+    const Vec3 beside = kStartShare * stroke_.spacing * along.normalized();  // the skin is near: fronts end off it
+    const double parts = std::clamp(std::ceil(along.norm() / (kStartShare * stroke_.spacing)), 1.0, kMostStarts);
+    for (double k = 0; k <= parts; ++k) {
+      const Vec3 place = start[c] + (k / parts) * along;
+      const Vec3 normal = (row[c] + (k / parts) * (row[c + 1] - row[c]) - place).cross(along);
+      const bool is_at = normal.squaredNorm() > 0 &&
+                         older.pass(place, normal, kBesideWall * stroke_.spacing, kAtFront * stroke_.spacing);
+      if (!is_at && is_inside(place) && is_inside(place - beside) && is_inside(place + beside)) return false;
+      is_at_front |= is_at;
+    }
+  }
+  return is_at_front;
+}
+
+/// Takes the front of older cuts along from one row to another. Returns how far the last of it is left behind.
+double Cutter::carry(const CutContext& context, std::span<const Vec3> from, std::span<const Vec3> to) {
+  stroke_cut_.prepare(context.mesh, context.journal);
+  Transaction transaction(context.mesh, true);
+  const double left = carry_front(transaction, stroke_cut_.surface(), from, to, stroke_.spacing);
+  context.journal.append_if_changed(transaction.commit());
+  return left;
+}
+
+/// The same for the blade as it stands; what it swept is what walls are judged by.
+double Cutter::carry_along(const CutContext& context, std::span<const Vec3> row) {
+  note_swept(stroke_.motion.propose(row).surface);
+  return carry(context, stroke_.motion.front(), row);
+}
+
+/// Ends a short stroke. A front that cannot follow is drawn back and cut from there; what was drawn back in vain
+/// follows as far as it can.
+Status Cutter::end_shortly(const CutContext& context, std::span<const Vec3> row) {
+  if (carry_along(context, row) <= kLag * stroke_.spacing) return {};
+  const std::vector<Vec3> back = drawn_back(stroke_.motion.front(), row);
+  static_cast<void>(carry(context, row, back));
+  stroke_cut_.begin(stroke_.tag, stroke_.spacing);
+  stroke_cut_.prepare(context.mesh, context.journal);
+  stroke_.motion.begin(back, stroke_.spacing);
+  BladeMotion::Move move;
+  move.strip = stroke_.motion.accept(stroke_.motion.propose(row), surroundings(context.mesh));
+  if (stroke_.is_in_material) stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
+  Status status = follow(context, std::move(move));
+  if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context.mesh)));
+  if (!status) return status;
+  finish_sheet(context);
+  static_cast<void>(carry(context, back, row));
+  stroke_cut_.begin(stroke_.tag, stroke_.spacing);
+  stroke_.motion.begin(row, stroke_.spacing);
+  return {};
+}
+
+/// A row that is about an element behind another one, against its way.
+std::vector<Vec3> Cutter::drawn_back(std::vector<Vec3> row, std::span<const Vec3> to) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t c = 0; c < row.size(); ++c) sum += to[c] - row[c];
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const Vec3 way = to[c] - row[c];
+    row[c] -= kDrawBack * stroke_.spacing * (way.squaredNorm() > 0 ? way : sum).normalized();
+  }
+  return row;
+}
+
+void Cutter::finish_sheet(const CutContext& context) {
+  stroke_cut_.finish(context, rules());
+  ++context.statistics.sheets;
+}
+
+/// Cuts along what the blade's motion asks for. A strip that meets what the sheet has cut through is the first of a
+/// new sheet, to which the one so far is an older cut.
+Status Cutter::follow(const CutContext& context, BladeMotion::Move move) {
+  if (move.strip == nullptr) return {};
+  if (move.starts_anew || comes_back(context.mesh, *move.strip)) {
+    finish_sheet(context);
+    stroke_cut_.begin(stroke_.tag, stroke_.spacing);
+    if (between_sheets_) between_sheets_();
+    stroke_cut_.prepare(context.mesh, context.journal);
+    if (stroke_.is_in_material)
+      stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    move.strip = stroke_.motion.lay_anew(surroundings(context.mesh));
+  }
+  note_swept(move.strip->surface);
+  stroke_cut_.keep_pieces(stroke_.is_in_material);
+  Status status = stroke_cut_.advance(context, std::move(move.strip), rules());
+  if (!status) return status;
+  if (stroke_cut_.must_finish()) {
+    go_on_from_front(context);
+  } else {
+    const auto pinned = stroke_.is_in_material ? stroke_.material.masters() : std::vector<std::uint32_t>();
+    stroke_cut_.bake(context, rules(), pinned);
+  }
+  return status;
+}
+
+/// Whether a strip comes back to what the sheet is done with.
+bool Cutter::comes_back(const TetMesh& mesh, const Strip& strip) {
+  if (!stroke_.is_in_material && stroke_cut_.crosses_own_cut(mesh, strip, kApart)) return true;
+  return stroke_cut_.comes_back(mesh, strip);
+}
+
+/// Finishes the sheet where it is; the next one goes on from there.
+void Cutter::go_on_from_front(const CutContext& context) {
+  finish_sheet(context);
+  stroke_cut_.begin(stroke_.tag, stroke_.spacing);
+  stroke_cut_.prepare(context.mesh, context.journal);
+  stroke_.motion.begin_anew();
+  if (stroke_.is_in_material) stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
+}
+
+/// In a body that moves, front points keep still while they can: each that is made anew disturbs the solver.
+FrontRules Cutter::rules() const {
+  FrontRules rules;
+  rules.reach = stroke_.is_in_material ? kPointReach * stroke_.spacing : 0.0;
+  return rules;
+}
+
+void Cutter::note_swept(const SweptSurface& surface) {
+  const auto first = static_cast<std::uint32_t>(stroke_.swept.points.size());
+  for (const SosPoint& point : surface.points) stroke_.swept.points.push_back(point.position);
+  for (const SweptTriangle& triangle : surface.triangles) {
+    stroke_.swept.triangles.push_back(
+        {first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
+  }
+}
+
+/// The parts of a sweep that meet each other are cut one after the other, in the order of time.
+Status Cutter::cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
+  stroke_.is_in_material = false;
+  const double spacing = stroke_.spacing = typical_spacing(context.mesh);
+  const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
+  const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
+  for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
+    if (Status status = cut_strip(context, part_of(surface, part), tag); !status) return status;
+    ++context.statistics.sheets;
+  }
+  return {};
+}
+
+/// One part of the sweep as a sheet of its own, in one step.
+Status Cutter::cut_strip(const CutContext& context, SweptSurface part, std::uint32_t tag) {
+  stroke_cut_.begin(tag, stroke_.spacing);
+  auto strip = std::make_unique<Strip>(std::move(part), std::vector<std::array<std::uint64_t, 2>>());
+  Status status = stroke_cut_.advance(context, std::move(strip), rules());
+  stroke_cut_.finish(context, rules());
+  return status;
+}
+
+SweptSurface Cutter::part_of(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles) {
+  SweptSurface part;
+  part.points = surface.points;
+  for (const std::uint32_t t : triangles) part.triangles.push_back(surface.triangles[t]);
+  return part;
 }
 
 }  // namespace v0

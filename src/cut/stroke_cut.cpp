@@ -77,71 +77,68 @@ void StrokeCut::go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag
   tags_.first = pause.first_tag_;
 }
 
-Status StrokeCut::advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> next, const FrontRules& rules,
-                          CutStatistics& statistics, StageTimes& times) {
+Status StrokeCut::advance(const CutContext& context, std::unique_ptr<Strip> next, const FrontRules& rules) {
   if (next->sheet.triangle_count() == 0) return {};
   const Strip& strip = sheet_.add(std::move(next));
   {
-    const StageZone zone(times, Stage::kCollision);
-    collide(mesh, journal, strip);
-    flag(mesh, strip);
-    walk_.keep_front(mesh, complex_, strip.row);
-    choose_on(mesh, *met_, {snap(), spacing_}, statistics);
-    place_front(mesh, *met_, rules, statistics);
-    count_cut(statistics);
+    const StageZone zone(context.times, Stage::kCollision);
+    collide(context, strip);
+    flag(context.mesh, strip);
+    walk_.keep_front(context.mesh, complex_, strip.row);
+    choose_on(context.mesh, *met_, {snap(), spacing_}, context.statistics);
+    place_front(context.mesh, *met_, rules, context.statistics);
+    count_cut(context.statistics);
   }
-  if (std::size_t{mesh.tet_slots()} + kMostChildren * complex_.dirty().size() >= TetMesh::kMaxTets) {
+  if (std::size_t{context.mesh.tet_slots()} + kMostChildren * complex_.dirty().size() >= TetMesh::kMaxTets) {
     return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
   }
   if (complex_.dirty().empty()) return {};
   for (const std::uint32_t index : *met_) {
     if (complex_[index].is_pinched || complex_[index].has_latent_faces) complex_.mark_dirty(index);
   }
-  const StageZone zone(times, Stage::kSubdivide);
-  rebuild(mesh, journal, true, statistics);
+  const StageZone zone(context.times, Stage::kSubdivide);
+  rebuild(context, true);
   return {};
 }
 
 /// Finds what the strip meets and crosses; edges crossed twice are bisected in between and looked at again. Not where
 /// earlier strips have been: how they pass the new edges would not be known.
-void StrokeCut::collide(TetMesh& mesh, Journal& journal, const Strip& strip) {
+void StrokeCut::collide(const CutContext& context, const Strip& strip) {
   first_look_ = step_ + 1;
   for (unsigned round = 0;; ++round) {
     ++step_;
-    surface_.follow(mesh, journal);
-    met_ = &walk_.find(mesh, strip, surface_, complex_, step_);
+    surface_.follow(context.mesh, context.journal);
+    met_ = &walk_.find(context.mesh, strip, surface_, complex_, step_);
     complex_.set_scope(*met_);
-    crossed_ = &crossings_.find(mesh, strip, *met_, complex_, step_);
-    const std::vector<BetweenCrossings> twice = find_doubly_crossed(mesh, strip, *crossed_, complex_, kGrazeShare);
-    if (twice.empty() || round == kMaxBisectionRounds || !bisect(mesh, journal, twice)) {
+    crossed_ = &crossings_.find(context.mesh, strip, *met_, complex_, step_);
+    const std::vector<BetweenCrossings> twice =
+        find_doubly_crossed(context.mesh, strip, *crossed_, complex_, kGrazeShare);
+    if (twice.empty() || round == kMaxBisectionRounds || !bisect(context, twice)) {
       return;
     }
   }
 }
 
-bool StrokeCut::bisect(TetMesh& mesh, Journal& journal, const std::vector<BetweenCrossings>& between) {
-  Transaction transaction(mesh);
+bool StrokeCut::bisect(const CutContext& context, const std::vector<BetweenCrossings>& between) {
+  Transaction transaction(context.mesh);
   std::vector<TetId> ring;
   for (const BetweenCrossings& place : between) {
     const ClosedEdge edge = complex_.edges()[place.edge];
-    if (complex_[place.master].split == nullptr || mesh.is_overshared_at_load(edge.a, edge.b)) continue;
+    if (complex_[place.master].split == nullptr || context.mesh.is_overshared_at_load(edge.a, edge.b)) continue;
     bool is_whole = !complex_.has_copies(edge.a) && !complex_.has_copies(edge.b);
     complex_.for_each_around(place.edge, [&](std::uint32_t master) {
       is_whole &= !complex_[master].is_divided() && complex_[master].first_met >= first_look_;
     });
     if (!is_whole) continue;
     const SplitEdgePlan plan =
-        plan_split_edge(mesh, edge.a, edge.b, complex_.children(complex_[place.master])[0], place.t);
+        plan_split_edge(context.mesh, edge.a, edge.b, complex_.children(complex_[place.master])[0], place.t);
     if (!plan) continue;
     for (const TetId tet : plan.ring) {
       if (const std::uint32_t master = complex_.find(tet); master != Master::kNone) complex_.release(master);
     }
     apply(transaction, plan);
   }
-  Step step = transaction.commit();
-  if (step.is_empty()) return false;
-  journal.append(std::move(step));
-  return true;
+  return context.journal.append_if_changed(transaction.commit());
 }
 
 void StrokeCut::refresh_around(std::uint32_t edge) {
@@ -300,25 +297,25 @@ void StrokeCut::count_cut(CutStatistics& statistics) {
   }
 }
 
-void StrokeCut::rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, CutStatistics& statistics) {
-  const std::size_t tets = mesh.tet_count(), vertices = mesh.vertex_count();
-  Transaction transaction(mesh);
+void StrokeCut::rebuild(const CutContext& context, bool closes_pinched) {
+  const std::size_t tets = context.mesh.tet_count(), vertices = context.mesh.vertex_count();
+  Transaction transaction(context.mesh);
   const RebuildStatistics done = rebuild_.run(
       transaction, complex_, sheet_, {tags_, snap() > 0, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
   Step step = transaction.commit();
-  statistics.created_tets += mesh.tet_count() - tets;
-  statistics.new_vertices += mesh.vertex_count() - vertices;
-  statistics.copied_vertices += done.copied_vertices;
+  context.statistics.created_tets += context.mesh.tet_count() - tets;
+  context.statistics.new_vertices += context.mesh.vertex_count() - vertices;
+  context.statistics.copied_vertices += done.copied_vertices;
   // A step may close more sides than it opens; the sum over a stroke counts what is open at its end.
   const auto opened = static_cast<std::int64_t>(done.opened_sides) - static_cast<std::int64_t>(done.closed_sides);
-  statistics.incision_faces += static_cast<std::uint64_t>(opened / 2);
-  statistics.crumbs_kept += done.crumbs_kept;
-  statistics.latent_faces += done.latent_faces;
+  context.statistics.incision_faces += static_cast<std::uint64_t>(opened / 2);
+  context.statistics.crumbs_kept += done.crumbs_kept;
+  context.statistics.latent_faces += done.latent_faces;
   must_finish_ = done.left_pinched > 0;
   for (const auto& [from, to] : rebuild_.renamed()) {
     for (OnVertex& on : on_) on.vertex = on.vertex == from ? to : on.vertex;
   }
-  if (!step.is_empty()) journal.append(std::move(step));
+  context.journal.append_if_changed(std::move(step));
 }
 
 /// For each crossing whether the divided masters around its edge are of more than one piece.
@@ -511,44 +508,42 @@ void StrokeCut::settle_front(const TetMesh& mesh, const FrontRules& rules, CutSt
 }
 
 /// What the sheet does to these masters is known: their vertices land, and their front points move to their last place.
-void StrokeCut::settle(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics) {
-  settle_front(mesh, rules, statistics);
-  if (!complex_.dirty().empty()) rebuild(mesh, journal, true, statistics);
-  land(mesh, journal, statistics);
-  place_front_points(mesh, sheet_, wake_, kFinalMargin, complex_);
-  if (!complex_.dirty().empty()) rebuild(mesh, journal, true, statistics);
-  if (make_idle_cones_whole(mesh)) rebuild(mesh, journal, true, statistics);
+void StrokeCut::settle(const CutContext& context, const FrontRules& rules) {
+  settle_front(context.mesh, rules, context.statistics);
+  if (!complex_.dirty().empty()) rebuild(context, true);
+  land(context);
+  place_front_points(context.mesh, sheet_, wake_, kFinalMargin, complex_);
+  if (!complex_.dirty().empty()) rebuild(context, true);
+  if (make_idle_cones_whole(context.mesh)) rebuild(context, true);
 }
 
-void StrokeCut::bake(TetMesh& mesh, Journal& journal, const FrontRules& rules, std::span<const std::uint32_t> pinned,
-                     CutStatistics& statistics, StageTimes& times) {
-  const StageZone zone(times, Stage::kSeparate);
-  bake_behind(mesh, journal, rules, pinned, statistics);
-  complex_.hold_vertices(mesh);
+void StrokeCut::bake(const CutContext& context, const FrontRules& rules, std::span<const std::uint32_t> pinned) {
+  const StageZone zone(context.times, Stage::kSeparate);
+  bake_behind(context, rules, pinned);
+  complex_.hold_vertices(context.mesh);
 }
 
-void StrokeCut::bake_behind(TetMesh& mesh, Journal& journal, const FrontRules& rules,
-                            std::span<const std::uint32_t> pinned, CutStatistics& statistics) {
-  wake_.find(mesh, complex_, sheet_.strips().back()->row, (keeps_pieces_ ? kMovingBand : kBand) * spacing_, pinned);
+void StrokeCut::bake_behind(const CutContext& context, const FrontRules& rules, std::span<const std::uint32_t> pinned) {
+  wake_.find(context.mesh, complex_, sheet_.strips().back()->row, (keeps_pieces_ ? kMovingBand : kBand) * spacing_,
+             pinned);
   if (wake_.settling().empty()) return;
-  settle(mesh, journal, rules, statistics);
+  settle(context, rules);
   if (wake_.let_go(complex_) == 0) return;
   walk_.forget_released(complex_);
   std::erase_if(snapping_.coincident, [&](VertexId v) { return !complex_.is_on(v); });
 }
 
-void StrokeCut::finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics,
-                       StageTimes& times) {
-  const StageZone zone(times, Stage::kSeparate);
-  wake_.find(mesh, complex_, {}, 0.0, {});
-  settle(mesh, journal, rules, statistics);
+void StrokeCut::finish(const CutContext& context, const FrontRules& rules) {
+  const StageZone zone(context.times, Stage::kSeparate);
+  wake_.find(context.mesh, complex_, {}, 0.0, {});
+  settle(context, rules);
   for (std::uint32_t i = 0; i < complex_.size(); ++i) {
     if (complex_[i].split != nullptr && (complex_[i].is_pinched || complex_[i].has_latent_faces))
       complex_.mark_dirty(i);
   }
   if (!complex_.dirty().empty()) {
-    rebuild(mesh, journal, false, statistics);
-    part_edges(mesh, journal, statistics);
+    rebuild(context, false);
+    part_edges(context);
   }
   forget();
 }
@@ -587,26 +582,25 @@ bool StrokeCut::make_idle_cones_whole(const TetMesh& mesh) {
 }
 
 /// The vertices that took part in the cut move onto its sheet, once nothing near them is open.
-void StrokeCut::land(TetMesh& mesh, Journal& journal, CutStatistics& statistics) {
+void StrokeCut::land(const CutContext& context) {
   const auto waits = [&](const OnVertex& on) { return wake_.is_near(on.vertex); };
   const auto first = std::stable_partition(on_.begin(), on_.end(), waits);
   if (first == on_.end()) return;
   const std::vector<OnVertex> landing(first, on_.end());
   on_.erase(first, on_.end());
-  Transaction transaction(mesh, true);
-  statistics.bent_vertices += move_on_vertices(transaction, sheet_, snap(), landing, complex_);
-  Step step = transaction.commit();
-  if (!step.is_empty()) journal.append(std::move(step));
+  Transaction transaction(context.mesh, true);
+  context.statistics.bent_vertices += move_on_vertices(transaction, sheet_, snap(), landing, complex_);
+  context.journal.append_if_changed(transaction.commit());
 }
 
-void StrokeCut::part_edges(TetMesh& mesh, Journal& journal, CutStatistics& statistics) {
-  const std::size_t tets = mesh.tet_count(), vertices = mesh.vertex_count();
-  Transaction transaction(mesh);
-  statistics.pinched_edges += part_pinched_edges(transaction, rebuild_.opened(), walker_);
+void StrokeCut::part_edges(const CutContext& context) {
+  const std::size_t tets = context.mesh.tet_count(), vertices = context.mesh.vertex_count();
+  Transaction transaction(context.mesh);
+  context.statistics.pinched_edges += part_pinched_edges(transaction, rebuild_.opened(), walker_);
   Step step = transaction.commit();
-  statistics.created_tets += mesh.tet_count() - tets;
-  statistics.new_vertices += mesh.vertex_count() - vertices;
-  if (!step.is_empty()) journal.append(std::move(step));
+  context.statistics.created_tets += context.mesh.tet_count() - tets;
+  context.statistics.new_vertices += context.mesh.vertex_count() - vertices;
+  context.journal.append_if_changed(std::move(step));
 }
 
 }  // namespace v0

@@ -6,6 +6,7 @@
 
 #include "cut/closed_complex.h"
 #include "cut/contact_walk.h"
+#include "cut/cut_context.h"
 #include "cut/front_points.h"
 #include "cut/older_walls.h"
 #include "cut/rebuild.h"
@@ -39,16 +40,14 @@ class StrokeCut {
   /// Finds the mesh's surface ahead of the first touch. Cost: O(tets) once, then O(edits since).
   void prepare(const TetMesh& mesh, const Journal& journal) { surface_.follow(mesh, journal); }
   /// Cuts along one more strip, and appends what changed to the journal: at most one step, and one for each round of
-  /// bisections of edges that the strip passes through twice. Adds to `statistics`.
+  /// bisections of edges that the strip passes through twice.
   /// Errors: kOutOfMemory where ids would run out; the last strip is then not cut.
   /// Cost: O(tets that the strip meets).
-  Status advance(TetMesh& mesh, Journal& journal, std::unique_ptr<Strip> strip, const FrontRules& rules,
-                 CutStatistics& statistics, StageTimes& times);
+  Status advance(const CutContext& context, std::unique_ptr<Strip> strip, const FrontRules& rules);
   /// Settles what the blade has left behind, and lets go of it as far as the cut can no longer see it: its tets are
   /// ordinary ones from then on. `pinned`: masters that are kept all the same. Appends journal steps, as `finish` does
   /// for what is left in the end. Cost: O(masters kept), and that of what is settled.
-  void bake(TetMesh& mesh, Journal& journal, const FrontRules& rules, std::span<const std::uint32_t> pinned,
-            CutStatistics& statistics, StageTimes& times);
+  void bake(const CutContext& context, const FrontRules& rules, std::span<const std::uint32_t> pinned);
   /// A column of a strip that would close the cut again.
   struct RecrossedColumn {
     std::uint32_t column;
@@ -75,7 +74,7 @@ class StrokeCut {
   /// Cost: O(band + strips).
   void go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag);
   /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
-  void finish(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics, StageTimes& times);
+  void finish(const CutContext& context, const FrontRules& rules);
   /// Forgets a sheet whose cut was taken back.
   void forget();
 
@@ -91,8 +90,8 @@ class StrokeCut {
   [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
 
  private:
-  void collide(TetMesh& mesh, Journal& journal, const Strip& strip);
-  bool bisect(TetMesh& mesh, Journal& journal, const std::vector<BetweenCrossings>& between);
+  void collide(const CutContext& context, const Strip& strip);
+  bool bisect(const CutContext& context, const std::vector<BetweenCrossings>& between);
   void flag(const TetMesh& mesh, const Strip& strip);
   /// Where a strip crosses an edge, once.
   struct Crossed {
@@ -116,20 +115,19 @@ class StrokeCut {
   void place_front(const TetMesh& mesh, std::span<const std::uint32_t> masters, const FrontRules& given,
                    CutStatistics& statistics);
   void count_cut(CutStatistics& statistics);
-  void rebuild(TetMesh& mesh, Journal& journal, bool closes_pinched, CutStatistics& statistics);
+  void rebuild(const CutContext& context, bool closes_pinched);
   void let_go_of_older_cut(const TetMesh& mesh);
   [[nodiscard]] bool is_idle_cone(const TetMesh& mesh, const Master& master) const;
   bool make_idle_cones_whole(const TetMesh& mesh);
-  void bake_behind(TetMesh& mesh, Journal& journal, const FrontRules& rules, std::span<const std::uint32_t> pinned,
-                   CutStatistics& statistics);
-  void settle(TetMesh& mesh, Journal& journal, const FrontRules& rules, CutStatistics& statistics);
+  void bake_behind(const CutContext& context, const FrontRules& rules, std::span<const std::uint32_t> pinned);
+  void settle(const CutContext& context, const FrontRules& rules);
   [[nodiscard]] bool may_let_go(std::uint32_t edge) const;
   [[nodiscard]] bool is_at_border(std::uint32_t edge) const;
   void settle_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
   void choose_on(const TetMesh& mesh, std::span<const std::uint32_t> masters, const SnapRules& rules,
                  CutStatistics& statistics);
-  void land(TetMesh& mesh, Journal& journal, CutStatistics& statistics);
-  void part_edges(TetMesh& mesh, Journal& journal, CutStatistics& statistics);
+  void land(const CutContext& context);
+  void part_edges(const CutContext& context);
   [[nodiscard]] double snap() const { return options_.snap; }
   [[nodiscard]] double beside() const { return snap() > 0 ? kBesideWall : kBesideExactly; }
 

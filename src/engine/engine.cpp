@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <string>
 #include <utility>
 
+#include "cut/cutter.h"
+#include "improve/maintainer.h"
 #include "incise/mesh/bounds.h"
-#include "incise/paper/paper_cut.h"
-#include "incise/paper/paper_maintenance.h"
+#include "paper/paper_cut.h"
+#include "paper/paper_maintenance.h"
 
 namespace incise {
 inline namespace v0 {
@@ -44,21 +47,96 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
-  if (!(options.cut.snap >= 0.0 && options.cut.snap <= 0.4)) {
-    return Error{ErrorCode::kBadArgument, "the snapping distance must lie in [0, 0.4] of the mean edge length", {}};
-  }
-  if (options.threads < 1 || options.threads > 256) {
-    return Error{ErrorCode::kBadArgument, "the number of threads must lie in [1, 256]", {}};
-  }
-  if (options.log && mesh.folds_over_at_load() && (options.maintain.merge || options.maintain.improve)) {
-    options.log(LogLevel::kWarning,
-                "the mesh folds over itself: it is cut, but not maintained; mend its inverted tets");
-  }
-  return Engine(std::move(mesh), std::move(options));
-}
+/// Holds the parts of an engine, and calls them in the order of the pipeline.
+class Engine::Conductor {
+ public:
+  Conductor(TetMesh mesh, EngineOptions options);
 
-Engine::Engine(TetMesh mesh, EngineOptions options)
+  [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const Journal& journal() const { return journal_; }
+  [[nodiscard]] const EngineOptions& options() const { return options_; }
+  [[nodiscard]] std::uint32_t stroke_count() const { return stroke_count_; }
+  [[nodiscard]] std::uint32_t next_stroke() const { return earlier_strokes_ + stroke_count_ + 1; }
+  [[nodiscard]] bool is_in_stroke() const { return is_in_stroke_; }
+  [[nodiscard]] bool has_maintenance() const;
+  [[nodiscard]] Status check_pose(const BladePose& pose) const;
+
+  Result<StrokeReport> cut(const Stroke& stroke);
+  Result<std::uint32_t> begin_stroke(const BladePose& pose);
+  Result<StepReport> step(const BladePose& pose);
+  Result<StrokeReport> end_stroke();
+  Status set_positions(std::span<const Vec3> positions);
+  Result<MaintainReport> maintain(std::uint64_t work_units, const ShouldStop& should_stop);
+  Result<MaintainReport> improve(const ShouldStop& should_stop);
+  bool undo();
+  bool redo();
+  Status keep_undo(std::size_t operations);
+
+ private:
+  /// From where a stroke that starts where the last one ended goes on.
+  struct Continuation {
+    std::shared_ptr<const Cutter::Pause> pause;  ///< null: from nowhere
+    std::size_t first_step = 0;                  ///< of those that ended the last one
+  };
+
+  /// A stroke, or an `improve`, with all that followed it.
+  struct Operation {
+    std::size_t end = 0;  ///< journal position after it
+    bool is_stroke = true;
+    Continuation continuation = {};
+  };
+
+  /// The stroke under way.
+  struct OpenStroke {
+    StrokeReport report;
+    std::size_t first_step = 0;
+    std::vector<BladePose> poses;  ///< the first; for the paper's profile all
+    std::size_t steps = 0;         ///< taken so far
+    Continuation from = {};        ///< until its first step
+    Continuation to = {};          ///< once it has ended
+  };
+
+  [[nodiscard]] std::string name_of_next_pose() const;
+  Status check_steps(std::size_t first_step);
+  void take_back(std::size_t first_step);
+  void forget_lost_redo();
+  void trim_history();
+  [[nodiscard]] bool is_paper() const { return options_.cut.profile == Profile::kPaper; }
+  [[nodiscard]] bool maintains() const;
+  void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step, const IsLocked& is_locked = {});
+  [[nodiscard]] IsLocked busy() const;
+  void maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times);
+  void go_on_from_last_stroke();
+  Status close_stroke();
+  void maintain_between_sheets(MaintainStatistics& sum, StageTimes& times);
+  Error abort_stroke(std::size_t first_step, Error error);
+  Result<StrokeReport> end_stroke_as_paper();
+  MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop,
+                              const IsLocked& is_locked = {});
+  void push_operation(bool is_stroke) { push_operation(is_stroke, Continuation()); }
+  void push_operation(bool is_stroke, Continuation continuation);
+
+  TetMesh mesh_;
+  Journal journal_;
+  EngineOptions options_;
+  Cutter cutter_;
+  Maintainer maintainer_;
+  std::size_t paper_first_step_ = kNothingWaits;  // of the strokes that the paper's maintenance has not seen
+  std::deque<Operation> operations_;
+  std::size_t kept_operations_ = static_cast<std::size_t>(-1);
+  std::size_t oldest_position_ = 0;  // of the journal, that undo leads back to
+  std::vector<Operation> undone_;    // what redo would apply, last first
+  std::uint32_t stroke_count_ = 0;
+  std::uint32_t earlier_strokes_ = 0;  // the highest tag of the mesh that was taken
+  OpenStroke open_;
+  bool is_in_stroke_ = false;
+  bool has_moved_ = false;  // the body stands otherwise than at rest
+  Box rest_box_, box_;      // around the body at load, and as it stands
+
+  static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);
+};
+
+Engine::Conductor::Conductor(TetMesh mesh, EngineOptions options)
     : mesh_(std::move(mesh)),
       options_(std::move(options)),
       cutter_(options_.cut),
@@ -67,7 +145,7 @@ Engine::Engine(TetMesh mesh, EngineOptions options)
       rest_box_(rest_bounds(mesh_)),
       box_(rest_box_) {}
 
-Result<StrokeReport> Engine::cut(const Stroke& stroke) {
+Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   if (is_in_stroke_) {
     return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
   }
@@ -108,13 +186,13 @@ Result<StrokeReport> Engine::cut(const Stroke& stroke) {
 }
 
 /// What a call committed is checked by whom the options name.
-Status Engine::check_steps(std::size_t first_step) {
+Status Engine::Conductor::check_steps(std::size_t first_step) {
   const bool has_steps = journal_.position() > first_step;
   return has_steps && options_.check_step ? options_.check_step(mesh_, journal_, first_step) : Status{};
 }
 
 /// After a call that failed: as the mesh was before its first step.
-void Engine::take_back(std::size_t first_step) {
+void Engine::Conductor::take_back(std::size_t first_step) {
   journal_.take_back(mesh_, first_step);
   cutter_.forget();
   maintainer_.forget(first_step);
@@ -123,7 +201,7 @@ void Engine::take_back(std::size_t first_step) {
 }
 
 /// What was undone before a call that then failed has left the journal for its steps.
-void Engine::forget_lost_redo() {
+void Engine::Conductor::forget_lost_redo() {
   if (!undone_.empty() && undone_.front().end > journal_.size()) {
     undone_.clear();
   }
@@ -165,17 +243,17 @@ Error in_stroke(const std::string& call) {
 
 }  // namespace
 
-std::string Engine::name_of_next_pose() const {
+std::string Engine::Conductor::name_of_next_pose() const {
   return "pose " + std::to_string(is_in_stroke_ ? open_.steps + 1 : 0) + " of stroke " + std::to_string(next_stroke());
 }
 
-Status Engine::check_pose(const BladePose& pose) const {
+Status Engine::Conductor::check_pose(const BladePose& pose) const {
   const std::string name = name_of_next_pose();
   if (Status status = check(pose, name); !status) return status;
   return check_reach(pose.edge, box_, name);
 }
 
-Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
+Result<std::uint32_t> Engine::Conductor::begin_stroke(const BladePose& pose) {
   if (is_in_stroke_) {
     return Error{ErrorCode::kBadArgument, "a stroke is under way; end it first", {}};
   }
@@ -200,7 +278,7 @@ Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
   return open_.report.stroke;
 }
 
-Result<StepReport> Engine::step(const BladePose& pose) {
+Result<StepReport> Engine::Conductor::step(const BladePose& pose) {
   if (!is_in_stroke_) {
     return no_stroke();
   }
@@ -243,7 +321,7 @@ Result<StepReport> Engine::step(const BladePose& pose) {
 }
 
 /// Before its first step a stroke that starts where the last one ended takes over the cut.
-void Engine::go_on_from_last_stroke() {
+void Engine::Conductor::go_on_from_last_stroke() {
   if (!open_.from.pause) return;
   const Continuation from = std::exchange(open_.from, {});
   if (!cutter_.go_on(mesh_, journal_, *from.pause, from.first_step, has_moved_, open_.report.stroke)) {
@@ -252,17 +330,17 @@ void Engine::go_on_from_last_stroke() {
 }
 
 /// Where the blade comes back to what it cut, it must find the mesh in shape: what it crosses twice would be slivers.
-void Engine::maintain_between_sheets(MaintainStatistics& sum, StageTimes& times) {
+void Engine::Conductor::maintain_between_sheets(MaintainStatistics& sum, StageTimes& times) {
   cutter_.call_between_sheets([&, this] { maintain_wake(busy(), sum, times); });
 }
 
 /// The band around the front of the stroke under way.
-IsLocked Engine::busy() const {
+IsLocked Engine::Conductor::busy() const {
   return [this](TetId tet) { return cutter_.is_busy(mesh_, tet); };
 }
 
 /// Maintains what the stroke has cut so far, but for what is locked.
-void Engine::maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times) {
+void Engine::Conductor::maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times) {
   take_up(cutter_.swept(), open_.report.stroke, open_.first_step, is_locked);
   sum += maintain(options_.maintain.work_units, times, {}, is_locked);
   open_.first_step = journal_.position();
@@ -270,14 +348,14 @@ void Engine::maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, S
 
 /// A step that failed leaves the stroke as it was before; what it had found out about the mesh is lost, so that the
 /// stroke ends there.
-Error Engine::abort_stroke(std::size_t first_step, Error error) {
+Error Engine::Conductor::abort_stroke(std::size_t first_step, Error error) {
   is_in_stroke_ = false;
   take_back(first_step);
   push_operation(true);
   return error;
 }
 
-Result<StrokeReport> Engine::end_stroke() {
+Result<StrokeReport> Engine::Conductor::end_stroke() {
   if (!is_in_stroke_) {
     return no_stroke();
   }
@@ -295,7 +373,7 @@ Result<StrokeReport> Engine::end_stroke() {
 }
 
 /// Cuts to where the blade was last, and maintains what is left.
-Status Engine::close_stroke() {
+Status Engine::Conductor::close_stroke() {
   if (open_.from.pause) {  // it took no step
     open_.to = open_.from;
     return {};
@@ -317,7 +395,7 @@ Status Engine::close_stroke() {
 }
 
 /// The paper's profile cuts a stroke as a whole, once its sweep is known.
-Result<StrokeReport> Engine::end_stroke_as_paper() {
+Result<StrokeReport> Engine::Conductor::end_stroke_as_paper() {
   is_in_stroke_ = false;
   if (open_.poses.size() < 2) {  // the blade was lifted where it was put down
     push_operation(true);
@@ -331,7 +409,7 @@ Result<StrokeReport> Engine::end_stroke_as_paper() {
   return cut(stroke);
 }
 
-Status Engine::set_positions(std::span<const Vec3> positions) {
+Status Engine::Conductor::set_positions(std::span<const Vec3> positions) {
   if (positions.size() != mesh_.vertex_slots()) {
     return Error{ErrorCode::kBadArgument,
                  "positions must be given for all " + std::to_string(mesh_.vertex_slots()) + " vertex slots",
@@ -355,8 +433,8 @@ Status Engine::set_positions(std::span<const Vec3> positions) {
 }
 
 /// Hands the surroundings of a fresh cut to whoever maintains the mesh.
-void Engine::take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step,
-                     const IsLocked& is_locked) {
+void Engine::Conductor::take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step,
+                                const IsLocked& is_locked) {
   if (!maintains()) {
     return;
   }
@@ -368,12 +446,12 @@ void Engine::take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t
   maintainer_.take_up(mesh_, journal_, first_step, is_locked);
 }
 
-bool Engine::maintains() const {
+bool Engine::Conductor::maintains() const {
   return (options_.maintain.merge || options_.maintain.improve) && !mesh_.folds_over_at_load();
 }
 
-MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop,
-                                    const IsLocked& is_locked) {
+MaintainStatistics Engine::Conductor::maintain(std::uint64_t work_units, StageTimes& times,
+                                               const ShouldStop& should_stop, const IsLocked& is_locked) {
   if (!is_paper()) {
     return maintainer_.run(mesh_, journal_, work_units, times, should_stop, is_locked);
   }
@@ -384,7 +462,7 @@ MaintainStatistics Engine::maintain(std::uint64_t work_units, StageTimes& times,
   return maintain_as_paper(mesh_, journal_, first_step, options_.maintain, times);
 }
 
-Result<MaintainReport> Engine::maintain(std::uint64_t work_units, const ShouldStop& should_stop) {
+Result<MaintainReport> Engine::Conductor::maintain(std::uint64_t work_units, const ShouldStop& should_stop) {
   if (is_in_stroke_) {
     return in_stroke("maintain");
   }
@@ -401,11 +479,11 @@ Result<MaintainReport> Engine::maintain(std::uint64_t work_units, const ShouldSt
   return report;
 }
 
-bool Engine::has_maintenance() const {
+bool Engine::Conductor::has_maintenance() const {
   return is_paper() ? paper_first_step_ != kNothingWaits : maintainer_.has_work();
 }
 
-Result<MaintainReport> Engine::improve(const ShouldStop& should_stop) {
+Result<MaintainReport> Engine::Conductor::improve(const ShouldStop& should_stop) {
   if (is_in_stroke_) {
     return in_stroke("improve");
   }
@@ -425,7 +503,7 @@ Result<MaintainReport> Engine::improve(const ShouldStop& should_stop) {
   return report;
 }
 
-void Engine::push_operation(bool is_stroke, Continuation continuation) {
+void Engine::Conductor::push_operation(bool is_stroke, Continuation continuation) {
   operations_.push_back({journal_.position(), is_stroke, std::move(continuation)});
   if (operations_.size() > kKeptContinuations) {
     operations_[operations_.size() - kKeptContinuations - 1].continuation = {};
@@ -435,7 +513,7 @@ void Engine::push_operation(bool is_stroke, Continuation continuation) {
   trim_history();
 }
 
-Status Engine::keep_undo(std::size_t operations) {
+Status Engine::Conductor::keep_undo(std::size_t operations) {
   if (operations == 0) {
     return Error{ErrorCode::kBadArgument,
                  "the history keeps at least 1 operation: followers need the steps of the last one",
@@ -447,7 +525,7 @@ Status Engine::keep_undo(std::size_t operations) {
 }
 
 /// Whoever in the engine reads the journal has read what is forgotten, or keeps it from being so.
-void Engine::trim_history() {
+void Engine::Conductor::trim_history() {
   if (operations_.size() <= kept_operations_) {
     return;
   }
@@ -460,7 +538,7 @@ void Engine::trim_history() {
   journal_.trim(std::min(oldest_position_, paper_first_step_));
 }
 
-bool Engine::undo() {
+bool Engine::Conductor::undo() {
   if (is_in_stroke_) {  // what is cut so far becomes an operation, as it stands
     is_in_stroke_ = false;
     cutter_.forget();
@@ -481,7 +559,7 @@ bool Engine::undo() {
   return true;
 }
 
-bool Engine::redo() {
+bool Engine::Conductor::redo() {
   if (is_in_stroke_ || undone_.empty()) {
     return false;
   }
@@ -492,6 +570,82 @@ bool Engine::redo() {
     journal_.redo(mesh_);
   }
   return true;
+}
+
+// --- the engine itself
+
+Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
+  if (!(options.cut.snap >= 0.0 && options.cut.snap <= 0.4)) {
+    return Error{ErrorCode::kBadArgument, "the snapping distance must lie in [0, 0.4] of the mean edge length", {}};
+  }
+  if (options.threads < 1 || options.threads > 256) {
+    return Error{ErrorCode::kBadArgument, "the number of threads must lie in [1, 256]", {}};
+  }
+  if (options.log && mesh.folds_over_at_load() && (options.maintain.merge || options.maintain.improve)) {
+    options.log(LogLevel::kWarning,
+                "the mesh folds over itself: it is cut, but not maintained; mend its inverted tets");
+  }
+  return Engine(std::make_unique<Conductor>(std::move(mesh), std::move(options)));
+}
+
+Engine::Engine(std::unique_ptr<Conductor> conductor) : conductor_(std::move(conductor)) {}
+Engine::Engine(Engine&&) noexcept = default;
+Engine& Engine::operator=(Engine&&) noexcept = default;
+Engine::~Engine() = default;
+
+const TetMesh& Engine::mesh() const {
+  return conductor_->mesh();
+}
+const Journal& Engine::journal() const {
+  return conductor_->journal();
+}
+const EngineOptions& Engine::options() const {
+  return conductor_->options();
+}
+std::uint32_t Engine::stroke_count() const {
+  return conductor_->stroke_count();
+}
+std::uint32_t Engine::next_stroke() const {
+  return conductor_->next_stroke();
+}
+bool Engine::is_in_stroke() const {
+  return conductor_->is_in_stroke();
+}
+bool Engine::has_maintenance() const {
+  return conductor_->has_maintenance();
+}
+Status Engine::check_pose(const BladePose& pose) const {
+  return conductor_->check_pose(pose);
+}
+Result<StrokeReport> Engine::cut(const Stroke& stroke) {
+  return conductor_->cut(stroke);
+}
+Result<std::uint32_t> Engine::begin_stroke(const BladePose& pose) {
+  return conductor_->begin_stroke(pose);
+}
+Result<StepReport> Engine::step(const BladePose& pose) {
+  return conductor_->step(pose);
+}
+Result<StrokeReport> Engine::end_stroke() {
+  return conductor_->end_stroke();
+}
+Status Engine::set_positions(std::span<const Vec3> positions) {
+  return conductor_->set_positions(positions);
+}
+Result<MaintainReport> Engine::maintain(std::uint64_t work_units, const ShouldStop& should_stop) {
+  return conductor_->maintain(work_units, should_stop);
+}
+Result<MaintainReport> Engine::improve(const ShouldStop& should_stop) {
+  return conductor_->improve(should_stop);
+}
+bool Engine::undo() {
+  return conductor_->undo();
+}
+bool Engine::redo() {
+  return conductor_->redo();
+}
+Status Engine::keep_undo(std::size_t operations) {
+  return conductor_->keep_undo(operations);
 }
 
 }  // namespace v0

@@ -12,7 +12,7 @@ namespace {
 /// The cubic B-spline has variance 1/3 and reaches from -2 to 2.
 const double kDeviation = 1 / std::sqrt(3.0);
 constexpr double kReach = 2;
-/// Wide kernels look at every n-th voxel: so many to a standard deviation are enough.
+/// Voxels per standard deviation that wide kernels look at; they skip the others.
 constexpr double kPerDeviation = 1.2;
 constexpr std::size_t kMostTaps = 20;
 

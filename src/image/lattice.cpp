@@ -9,7 +9,7 @@ inline namespace v0 {
 namespace image {
 namespace {
 
-/// Labels are thin where their two sides are nearer than so many spacings.
+/// Distance in spacings below which the two sides of a label make it thin.
 constexpr double kThin = 3;
 /// Two sides lie opposite each other where their normals are turned against each other at least so far (cosine).
 constexpr double kOpposite = 0.5;

@@ -14,8 +14,8 @@
 #include "image/mend_manifold.h"
 #include "image/peel_flat.h"
 #include "image/tet_labels.h"
+#include "improve/maintainer.h"
 #include "incise/geom/quality.h"
-#include "incise/improve/maintainer.h"
 
 namespace incise {
 inline namespace v0 {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint32_t kLeaf = 8;
-/// Triangles count as one dipole from so many radii on.
+/// Distance in radii from which on triangles count as one dipole.
 constexpr double kFar = 2.5;
 
 /// Of t in [0, 1]: t = tan(2a) is brought down twice to tan(a / 2) < 0.2, where the series ends soon.

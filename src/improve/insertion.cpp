@@ -12,7 +12,7 @@ inline namespace v0 {
 
 namespace {
 
-/// A cavity has at most so many tets.
+/// The most tets of a cavity.
 constexpr std::size_t kMostTets = 16;
 constexpr unsigned kNewtonSteps = 6;
 /// A new vertex must make the worst tet better by this share: it makes the mesh larger for good.

@@ -10,7 +10,7 @@
 namespace incise {
 inline namespace v0 {
 
-/// Puts a vertex in where nothing else makes a bad tet better. Keeps scratch memory.
+/// Inserts a vertex where nothing else makes a bad tet better. Keeps scratch memory.
 class VertexInserter {
  public:
   /// Tries to replace a tet and some of its neighbours by tets around one new vertex: inside, or on an edge of a

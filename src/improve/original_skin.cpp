@@ -14,11 +14,11 @@ namespace {
 
 /// Cells of neighbouring levels differ by this power of two.
 constexpr int kLevelStep = 2;
-/// What is smaller than a search by more than so many levels is not found: it is 65536 times as small.
+/// Levels by which an element may be smaller than a search that still finds it: 65536 times as small.
 constexpr int kCoarserLevels = 8;
-/// Original vertices count as a piece's own within so many tolerances of it.
+/// Distance in tolerances within which original vertices count as a piece's own.
 constexpr double kOwn = 3.0;
-/// Pieces that lie further off than so many tolerances are held to that.
+/// Distance in tolerances to which pieces that lie further off are held.
 constexpr double kFarthest = 8.0;
 
 /// The level whose cells are just as wide as an extent, or wider.

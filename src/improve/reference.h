@@ -38,7 +38,7 @@ class References {
   void extend(std::uint32_t stroke, std::span<const Vec3> points, std::span<const TriangleTree::Triangle> triangles);
 
   /// Measures how far the walls of a stroke lie from its sweep right after the cut, by samples of `opened`, those of
-  /// earlier calls included: no further may they lie from it later.
+  /// earlier calls included: later they may lie no further from it.
   void measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened);
 
   /// Whether the sweep of a stroke is known.

@@ -10,7 +10,7 @@ namespace {
 
 /// So many edges are split in one trial.
 constexpr unsigned kSplits = 2;
-/// A trial ends once it has spent so many units of work, 2.5 ms; nine in ten take less.
+/// Units of work after which a trial ends, 2.5 ms; nine in ten take less.
 constexpr std::uint64_t kMostWork = 25'000;
 /// All that a trial has touched must be better than the tet was by this share.
 constexpr double kLeastTrialGain = 0.1;

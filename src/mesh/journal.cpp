@@ -14,10 +14,15 @@ void Journal::append(Step step) {
   ++position_;
 }
 
-void Journal::take_back(TetMesh& mesh, std::size_t position) {
-  while (position_ > position && undo(mesh)) {
-  }
-  steps_.resize(position_ - first_);
+bool Journal::append_if_changed(Step step) {
+  if (step.is_empty()) return false;
+  append(std::move(step));
+  return true;
+}
+
+void Journal::take_back(TetMesh& mesh, std::size_t position) noexcept {
+  while (position_ > std::max(position, first_)) revert(mesh, steps_[--position_ - first_]);
+  while (steps_.size() > position_ - first_) steps_.pop_back();
 }
 
 void Journal::trim(std::size_t position) {
@@ -94,8 +99,16 @@ bool Journal::undo(TetMesh& mesh) {
   if (position_ == first_) {
     return false;
   }
-  Step& step = steps_[--position_ - first_];
+  Step& step = steps_[position_ - 1 - first_];
   step.after = image_of(mesh, step, mesh.free_tets_, mesh.free_vertices_);
+  revert(mesh, step);
+  --position_;
+  return true;
+}
+
+/// Puts all slots back to how they were before a step. Lists only shrink, or grow to where they have been: nothing is
+/// allocated.
+void Journal::revert(TetMesh& mesh, const Step& step) noexcept {
   for (const TetId id : step.new_tets) {
     if (mesh.is_live(id)) {
       mesh.tet_vertices_[id] = kNoVertices;
@@ -111,7 +124,6 @@ bool Journal::undo(TetMesh& mesh) {
     }
   }
   restore(mesh, step, step.before);
-  return true;
 }
 
 bool Journal::redo(TetMesh& mesh) {

@@ -33,16 +33,16 @@ Transaction::~Transaction() {
 
 void Transaction::touch(TetId tet) {
   if (tet_mark_[tet.value] == 0) {
-    tet_mark_[tet.value] = kTouched;
     step_.before.tets.push_back({tet, mesh_.tet_vertices_[tet], mesh_.tet_links_[tet], mesh_.tet_region_[tet]});
+    tet_mark_[tet.value] = kTouched;
   }
 }
 
 void Transaction::touch(VertexId vertex) {
   if (vertex_mark_[vertex.value] == 0) {
-    vertex_mark_[vertex.value] = kTouched;
     step_.before.vertices.push_back({vertex, mesh_.rest_[vertex], mesh_.current_[vertex], mesh_.vertex_tet_[vertex],
                                      mesh_.vertex_origin_[vertex], mesh_.vertex_shape_[vertex]});
+    vertex_mark_[vertex.value] = kTouched;
   }
 }
 
@@ -51,14 +51,21 @@ std::uint32_t Transaction::take_tet_slot() {
   if (mesh_.free_tets_.empty()) {
     slot = append_tet_slot();
   } else {
-    slot = mesh_.free_tets_.back();
-    mesh_.free_tets_.pop_back();
-    if (mesh_.free_tets_.size() < step_.free_tets_common) {
-      --step_.free_tets_common;
-      step_.before.free_tets.push_back(slot);
-    }
+    slot = pop_free_slot(mesh_.free_tets_, step_.free_tets_common, step_.before.free_tets);
   }
   note_taken(TetId(slot));
+  return slot;
+}
+
+/// Takes the last slot of a free list; what is part of the list as it was goes to `before`.
+std::uint32_t Transaction::pop_free_slot(GrowArray<std::uint32_t>& free, std::size_t& common,
+                                         std::vector<std::uint32_t>& before) {
+  const std::uint32_t slot = free.back();
+  if (free.size() == common) {
+    before.push_back(slot);
+    --common;
+  }
+  free.pop_back();
   return slot;
 }
 
@@ -75,8 +82,8 @@ std::uint32_t Transaction::append_tet_slot() {
 
 void Transaction::note_taken(TetId tet) {
   tet_mark_.ensure(std::size_t{tet.value} + 1);
-  tet_mark_[tet.value] = kFirstNew + static_cast<std::uint32_t>(step_.new_tets.size());
   step_.new_tets.push_back(tet);
+  tet_mark_[tet.value] = kFirstNew - 1 + static_cast<std::uint32_t>(step_.new_tets.size());
 }
 
 std::uint32_t Transaction::take_vertex_slot() {
@@ -92,12 +99,7 @@ std::uint32_t Transaction::take_vertex_slot() {
       mesh_.vertex_generation_.push_back(0);
     }
   } else {
-    slot = mesh_.free_vertices_.back();
-    mesh_.free_vertices_.pop_back();
-    if (mesh_.free_vertices_.size() < step_.free_vertices_common) {
-      --step_.free_vertices_common;
-      step_.before.free_vertices.push_back(slot);
-    }
+    slot = pop_free_slot(mesh_.free_vertices_, step_.free_vertices_common, step_.before.free_vertices);
   }
   note_taken(VertexId(slot));
   ++mesh_.live_vertices_;
@@ -106,8 +108,8 @@ std::uint32_t Transaction::take_vertex_slot() {
 
 void Transaction::note_taken(VertexId vertex) {
   vertex_mark_.ensure(std::size_t{vertex.value} + 1);
-  vertex_mark_[vertex.value] = kFirstNew + static_cast<std::uint32_t>(step_.new_vertices.size());
   step_.new_vertices.push_back(vertex);
+  vertex_mark_[vertex.value] = kFirstNew - 1 + static_cast<std::uint32_t>(step_.new_vertices.size());
 }
 
 /// Takes a slot out of the middle of a free list; what stood above it, as it was, goes to `before`, the highest first.
@@ -115,7 +117,7 @@ void Transaction::take_free_slot(std::uint32_t slot, GrowArray<std::uint32_t>& f
                                  std::vector<std::uint32_t>& before) {
   std::size_t at = free.size();
   while (free[--at] != slot) assert(at > 0);
-  while (common > at) before.push_back(free[--common]);
+  for (; common > at; --common) before.push_back(free[common - 1]);
   std::copy(free.begin() + at + 1, free.end(), free.begin() + at);
   free.pop_back();
 }
@@ -123,10 +125,10 @@ void Transaction::take_free_slot(std::uint32_t slot, GrowArray<std::uint32_t>& f
 void Transaction::revive_tet(const TetImage& image, TetId parent) {
   take_free_slot(image.id.value, mesh_.free_tets_, step_.free_tets_common, step_.before.free_tets);
   note_taken(image.id);
+  parents_.push_back(parent);
   mesh_.tet_vertices_[image.id] = image.vertices;
   mesh_.tet_links_[image.id] = {};
   mesh_.tet_region_[image.id] = image.region;
-  parents_.push_back(parent);
   ++mesh_.live_tets_;
 }
 
@@ -200,27 +202,27 @@ TetId Transaction::add_tet_beside(const TetVertices& vertices, TetId parent, std
 }
 
 void Transaction::fill_tet(TetId id, const TetVertices& vertices, TetId parent) {
+  parents_.push_back(parent);
   mesh_.tet_vertices_[id] = vertices;
   mesh_.tet_links_[id] = {};
   mesh_.tet_region_[id] = mesh_.tet_region_[parent];
-  parents_.push_back(parent);
   ++mesh_.live_tets_;
 }
 
 void Transaction::remove_tet(TetId tet) {
   touch(tet);
+  removed_tets_.push_back(tet);
   mesh_.tet_vertices_[tet] = kNoVertices;
   ++mesh_.tet_generation_[tet];
-  removed_tets_.push_back(tet);
   --mesh_.live_tets_;
 }
 
 void Transaction::remove_vertex(VertexId vertex) {
   touch(vertex);
+  removed_vertices_.push_back(vertex);
   mesh_.vertex_shape_[vertex] = shape::kDead;
   mesh_.vertex_tet_[vertex] = TetId();
   ++mesh_.vertex_generation_[vertex];
-  removed_vertices_.push_back(vertex);
   --mesh_.live_vertices_;
 }
 
@@ -390,25 +392,29 @@ void Transaction::clear_marks() {
 
 Step Transaction::commit() {
   assert(is_open_);
-  is_open_ = false;
   record_tets();
   record_vertices();
   record_opened();
   record_closed();
-  std::reverse(step_.before.free_tets.begin(), step_.before.free_tets.end());
-  std::reverse(step_.before.free_vertices.begin(), step_.before.free_vertices.end());
   release_slots();
-  clear_marks();
+  close();
   return std::move(step_);
 }
 
-void Transaction::rollback() {
+void Transaction::rollback() noexcept {
   if (!is_open_) {
     return;
   }
-  Journal journal;
-  journal.append(commit());
-  journal.undo(mesh_);
+  close();
+  Journal::revert(mesh_, step_);
+}
+
+/// From here on nothing can fail.
+void Transaction::close() noexcept {
+  is_open_ = false;
+  std::reverse(step_.before.free_tets.begin(), step_.before.free_tets.end());
+  std::reverse(step_.before.free_vertices.begin(), step_.before.free_vertices.end());
+  clear_marks();
 }
 
 }  // namespace v0

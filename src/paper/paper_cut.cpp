@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The profile paper: what a stroke swept is cut part by part, each as a whole, by bisection and Algorithms 1 and 2
 // (docs/internals.md, 3.12).
-#include "incise/paper/paper_cut.h"
+#include "paper/paper_cut.h"
 
 #include <algorithm>
 #include <new>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cut/constants.h"
+#include "cut/cut_context.h"
 #include "cut/pinched_edges.h"
 #include "cut/spacing.h"
 #include "cut/sweep.h"
@@ -27,28 +28,19 @@ namespace {
 
 /// Two crossings of one edge closer than this share of it are one graze, not two sheets.
 constexpr double kGrazeShare = 0.02;
-/// A tet falls apart into so many children at most.
+/// The most children of a tet.
 constexpr std::size_t kMostChildren = 16;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
-
-void append(Journal& journal, Transaction& transaction) {
-  Step step = transaction.commit();
-  if (!step.is_empty()) {
-    journal.append(std::move(step));
-  }
-}
 
 /// Cuts along a sheet as the paper does, after the fact: one part of a sweep.
 class SheetCut {
  public:
   explicit SheetCut(unsigned threads) : threads_(threads) {}
 
-  /// Appends up to two journal steps: the cut, and the repair of edges that two fans of tets share. Adds to
-  /// `statistics`. Errors: kOutOfMemory where ids would run out. Cost: one pass over the mesh, then O(cut tets ·
-  /// rounds).
-  Status cut(TetMesh& mesh, Journal& journal, const Sheet& sheet, std::uint32_t tag, CutStatistics& statistics,
-             StageTimes& times);
+  /// Appends up to two journal steps: the cut, and the repair of edges that two fans of tets share. Errors:
+  /// kOutOfMemory where ids would run out. Cost: one pass over the mesh, then O(cut tets · rounds).
+  Status cut(const CutContext& context, const Sheet& sheet, std::uint32_t tag);
 
  private:
   void find_contact(Transaction& transaction, const Sheet& sheet, StageTimes& times);
@@ -57,8 +49,7 @@ class SheetCut {
   Subdivision divide(Transaction& transaction, CutStatistics& statistics, StageTimes& times);
   void separate(Transaction& transaction, const Subdivision& subdivision, std::uint32_t tag, CutStatistics& statistics,
                 StageTimes& times);
-  void part_edges(TetMesh& mesh, Journal& journal, const Subdivision& subdivision, CutStatistics& statistics,
-                  StageTimes& times);
+  void part_edges(const CutContext& context, const Subdivision& subdivision);
 
   unsigned threads_;
   Neighbourhood near_;
@@ -66,22 +57,22 @@ class SheetCut {
   StarWalker walker_;
 };
 
-Status SheetCut::cut(TetMesh& mesh, Journal& journal, const Sheet& sheet, std::uint32_t tag, CutStatistics& statistics,
-                     StageTimes& times) {
-  const std::size_t tets_before = mesh.tet_count();
-  Transaction transaction(mesh);
-  find_contact(transaction, sheet, times);
-  if (std::size_t{mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
+Status SheetCut::cut(const CutContext& context, const Sheet& sheet, std::uint32_t tag) {
+  CutStatistics& statistics = context.statistics;
+  const std::size_t tets_before = context.mesh.tet_count();
+  Transaction transaction(context.mesh);
+  find_contact(transaction, sheet, context.times);
+  if (std::size_t{context.mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
     return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
   }
   const std::size_t coincident = near_.on.size();
-  const Subdivision subdivision = divide(transaction, statistics, times);
-  separate(transaction, subdivision, tag, statistics, times);
+  const Subdivision subdivision = divide(transaction, statistics, context.times);
+  separate(transaction, subdivision, tag, statistics, context.times);
   statistics.snapped_vertices += coincident;
   statistics.new_vertices += transaction.new_vertices().size();
-  append(journal, transaction);
-  part_edges(mesh, journal, subdivision, statistics, times);
-  statistics.created_tets += mesh.tet_count() - tets_before;
+  context.journal.append_if_changed(transaction.commit());
+  part_edges(context, subdivision);
+  statistics.created_tets += context.mesh.tet_count() - tets_before;
   return {};
 }
 
@@ -111,13 +102,12 @@ void SheetCut::separate(Transaction& transaction, const Subdivision& subdivision
   statistics.pinched_edges += separation.pinched_edges;
 }
 
-void SheetCut::part_edges(TetMesh& mesh, Journal& journal, const Subdivision& subdivision, CutStatistics& statistics,
-                          StageTimes& times) {
-  const StageZone zone(times, Stage::kSeparate);
-  Transaction transaction(mesh);
-  statistics.pinched_edges += part_pinched_edges(transaction, subdivision.incision, walker_);
-  statistics.new_vertices += transaction.new_vertices().size();
-  append(journal, transaction);
+void SheetCut::part_edges(const CutContext& context, const Subdivision& subdivision) {
+  const StageZone zone(context.times, Stage::kSeparate);
+  Transaction transaction(context.mesh);
+  context.statistics.pinched_edges += part_pinched_edges(transaction, subdivision.incision, walker_);
+  context.statistics.new_vertices += transaction.new_vertices().size();
+  context.journal.append_if_changed(transaction.commit());
 }
 
 /// Finds the crossings of the mesh's edges with the sheet; edges crossed twice are bisected in between and retried.
@@ -151,14 +141,13 @@ void SheetCut::bisect(Transaction& transaction, const CutEdge& edge, double t) {
 }
 
 /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
-Status cut_parts(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag, unsigned threads,
-                 CutStatistics& statistics, StageTimes& times) {
+Status cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag, unsigned threads) {
   SheetCut cut(threads);
-  const double spacing = typical_spacing(mesh);
+  const double spacing = typical_spacing(context.mesh);
   const SweptSurface surface = sweep(stroke, kOwnSlit * spacing);
   for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
-    if (Status status = cut.cut(mesh, journal, Sheet(surface, part), tag, statistics, times); !status) return status;
-    ++statistics.sheets;
+    if (Status status = cut.cut(context, Sheet(surface, part), tag); !status) return status;
+    ++context.statistics.sheets;
   }
   return {};
 }
@@ -173,7 +162,7 @@ Result<CutStatistics> cut_as_paper(TetMesh& mesh, Journal& journal, const Stroke
   statistics.steps = stroke.times.size() - 1;
   Status status;
   try {
-    status = cut_parts(mesh, journal, stroke, tag, threads, statistics, times);
+    status = cut_parts({mesh, journal, times, statistics}, stroke, tag, threads);
   } catch (const std::bad_alloc&) {
     status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "incise/paper/paper_maintenance.h"
+#include "paper/paper_maintenance.h"
 
 #include "paper/face_swap.h"
 #include "paper/paper_boundary_laplacian.h"
@@ -17,10 +17,7 @@ template <class Stage>
 MaintainStatistics as_step(TetMesh& mesh, Journal& journal, Stage&& stage) {
   Transaction transaction(mesh, /*keeps_edits=*/true);
   const MaintainStatistics done = stage(transaction);
-  Step step = transaction.commit();
-  if (!step.is_empty()) {
-    journal.append(std::move(step));
-  }
+  journal.append_if_changed(transaction.commit());
   return done;
 }
 

@@ -65,6 +65,7 @@ void for_each_side(const ClosedComplex& complex, Visit&& visit) {
   }
 }
 
+// T14
 TEST(FrontPoints, stand_in_the_odd_faces_and_every_odd_face_is_pierced_by_the_border) {
   Random random(1);
   for (unsigned run = 0; run < 20; ++run) {

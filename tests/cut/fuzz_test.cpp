@@ -118,6 +118,7 @@ TetSoup bunny() {
   return {};
 }
 
+// T7
 TEST(PlaneFuzz, on_a_kuhn_cube_gives_the_oracles_pieces_without_snapping) {
   compare_with_oracle(kuhn_cube(5), 1, runs());
 }
@@ -129,6 +130,7 @@ TEST(PlaneFuzz, on_the_bunny_gives_the_oracles_pieces_without_snapping) {
   if (soup.tets.empty()) GTEST_SKIP() << "no models/bunny.mesh and no INCISE_CORPUS: the bunny is not cut";
   compare_with_oracle(soup, 3, bunny_runs());
 }
+// T8
 TEST(PlaneFuzz, on_a_kuhn_cube_is_valid_at_the_default) {
   cut_at_the_default(kuhn_cube(5), 1, runs());
 }
@@ -141,6 +143,7 @@ TEST(PlaneFuzz, on_the_bunny_is_valid_at_the_default) {
   cut_at_the_default(soup, 3, bunny_runs());
 }
 
+// T9
 TEST(PlaneFuzz, fifty_planes_after_another_stay_valid) {
   for (const TetSoup& soup : {kuhn_cube(3), jittered_cube(3, 9)}) {
     Random random(50);

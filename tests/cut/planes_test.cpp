@@ -191,7 +191,7 @@ TEST(Planes, through_three_scattered_points_give_sound_tets_at_the_default) {
   cut_through_three_points(jittered_cube(4, 4), 0.2, 200, 4);
 }
 
-// --- T11, T13: crossing cuts
+// --- T11: crossing cuts
 // ------------------------------------------------------------------------------------------------
 
 TEST(Planes, that_cross_in_time_order_give_four_pieces) {

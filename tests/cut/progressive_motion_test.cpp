@@ -146,6 +146,7 @@ TEST_P(Motion, that_twists_divides_the_body_along_a_helicoid) {
 // --- back and forth
 // -------------------------------------------------------------------------------------------------------------
 
+// T17
 TEST(BackAndForth, makes_the_walls_of_the_monotone_cut) {
   for (const TetSoup& soup : {kuhn_cube(5), jittered_cube(6, 66)}) {
     SteppedEngine monotone(soup);
@@ -194,6 +195,7 @@ TEST_P(Motion, back_and_forth_divides_the_body_once) {
   }
 }
 
+// T19
 TEST_P(Motion, with_tremor_makes_one_sheet) {
   for (const std::uint64_t seed : {71U, 72U, 73U}) {
     SCOPED_TRACE(seed);
@@ -230,6 +232,7 @@ TEST_P(Motion, with_tremor_on_the_spot_makes_no_piece) {
 // --- sweeps beside themselves
 // ---------------------------------------------------------------------------------------------------
 
+// T20
 TEST_P(Motion, in_u_shape_cuts_a_slab_out) {
   const double spacing = 0.2, x = 0.45;
   // A blade that turns back closer than that moves in its own slit, or cuts crumbs; in one step it may (`Strokes`).
@@ -246,6 +249,7 @@ TEST_P(Motion, in_u_shape_cuts_a_slab_out) {
   }
 }
 
+// T21
 TEST_P(Motion, over_the_same_surface_again_changes_nothing) {
   for (const double offset : {0.0, 1e-15, 1e-9, 1e-4}) {
     // Without snapping, 1e-4 is a cut of its own.
@@ -396,6 +400,7 @@ void expect_through_cut_of_waving_body(const TetSoup& soup, const SteppedOptions
   EXPECT_LE(walls.mean, 0.08 * stepped.h());
 }
 
+// T16
 TEST_P(Motion, through_a_body_that_waves_divides_it) {
   for (const double amplitude : {0.15, 0.3, 0.6}) {
     for (const unsigned frames : {15U, 60U, 250U}) {
@@ -529,6 +534,7 @@ double inverted_share(const TetMesh& mesh, const std::vector<Vec3>& positions) {
   return count / static_cast<double>(mesh.tet_count());
 }
 
+// T32
 TEST_P(Motion, through_a_body_with_inverted_tets_completes) {
   for (const std::uint64_t seed : {86U, 87U, 88U, 89U}) {
     SCOPED_TRACE(seed);

@@ -88,6 +88,7 @@ INSTANTIATE_TEST_SUITE_P(settings, Progressive,
 // --- where cuts end
 // -----------------------------------------------------------------------------------------------------------------
 
+// T14
 TEST_P(Progressive, planes_that_stop_inside_end_where_the_blade_stands) {
   for (const double depth : {0.17, 0.3, 0.5, 0.63, 0.88}) {
     SCOPED_TRACE(depth);
@@ -222,6 +223,7 @@ TEST_P(Progressive, every_step_cuts_up_to_the_blade) {
 // --- any number of steps
 // ------------------------------------------------------------------------------------------------------------
 
+// T15
 TEST(StepCounts, do_not_change_a_partial_cut) {
   for (const TetSoup& soup : {kuhn_cube(5), jittered_cube(6, 42)}) {
     SteppedEngine reference(soup);
@@ -287,6 +289,7 @@ class NoMotion : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(snaps, NoMotion, testing::Values(0.0, 0.2),
                          [](const auto& snap) { return snap.param > 0 ? "snap" : "no_snap"; });
 
+// T18
 TEST_P(NoMotion, of_a_blade_outside_changes_nothing) {
   SteppedEngine stepped(kuhn_cube(4), {GetParam(), false});
   std::vector<BladePose> poses = poses_of(

@@ -144,6 +144,7 @@ void change_round_after_round(Random& random, std::uint64_t seed, double flag_sh
   expect_undone(body, hashes);
 }
 
+// T5
 TEST(Rebuild, makes_a_valid_mesh_of_any_flags_round_after_round) {
   Random random(4);
   for (const double flag_share : {0.05, 0.2, 0.5, 0.8, 1.0}) {
@@ -169,6 +170,7 @@ TetSoup one_tet() {
   return soup;
 }
 
+// T5
 TEST(Rebuild, divides_a_tet_by_any_pattern_into_any_other) {
   Random random(5);
   for (unsigned flags = 0; flags < 64; ++flags) {
@@ -188,6 +190,7 @@ TEST(Rebuild, divides_a_tet_by_any_pattern_into_any_other) {
   }
 }
 
+// T6
 TEST(Rebuild, gives_one_corner_against_three_four_children_and_two_against_two_six) {
   const auto count_children = [](std::initializer_list<unsigned> edges) {
     FlaggedBody body(one_tet());

@@ -61,6 +61,7 @@ TEST_P(Strokes, along_an_arc_give_two_pieces_of_the_right_volumes) {
   }
 }
 
+// T10
 TEST_P(Strokes, of_a_coring_cylinder_give_a_core_and_a_ring) {
   const Vec3 centre(0.5, 0.5, 0);
   const double area = area_inside(arc_path(centre, 0.31, 0, 1, 32));
@@ -99,6 +100,7 @@ TEST_P(Strokes, of_a_cylinder_in_several_steps_give_a_core) {
   EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
 }
 
+// T13
 TEST_P(Strokes, three_by_two_curved_sheets_give_twelve_pieces) {
   Engine engine = engine_on(jittered_cube(6, 15));
   for (const double c : {0.22, 0.48, 0.77}) cut(engine, profile_stroke(parabola(c, 0.12), kLow, kHigh));
@@ -112,6 +114,7 @@ TEST_P(Strokes, three_by_two_curved_sheets_give_twelve_pieces) {
 // --- sweeps that meet themselves
 // --------------------------------------------------------------------------------------------
 
+// T12
 TEST_P(Strokes, that_cross_themselves_in_one_sweep_give_four_pieces) {
   const std::vector<Vec3> path = {Vec3(0.47, kLow, 0), Vec3(0.47, kHigh, 0), Vec3(1.4, kHigh, 0), Vec3(1.4, 0.53, 0),
                                   Vec3(kLow, 0.53, 0)};
@@ -143,6 +146,7 @@ TEST_P(Strokes, that_loop_over_their_own_path_cut_the_loop_out) {
   EXPECT_EQ(find_components(engine.mesh()).count(), 3U);
 }
 
+// T20
 TEST_P(Strokes, in_u_shape_cut_a_slab_of_the_right_volume) {
   const double spacing = 0.2;
   for (const double gap : {2.0, 1.0, 0.5, 0.23, 0.1, 0.05}) {
@@ -223,6 +227,7 @@ TEST_P(Strokes, that_stop_and_go_or_hesitate_give_two_pieces) {
   }
 }
 
+// T18
 TEST_P(Strokes, without_motion_change_nothing) {
   const std::vector<Vec3> blade = {Vec3(0.4, 0.5, kLow), Vec3(0.45, 0.55, kHigh)};
   const std::vector<Vec3> shifted = {blade[0] + 0.25 * (blade[1] - blade[0]), blade[1] + 0.25 * (blade[1] - blade[0])};
@@ -318,6 +323,7 @@ TEST_P(Strokes, with_a_tip_at_mesh_vertices_on_edges_or_in_faces_stay_valid) {
   }
 }
 
+// T9
 TEST_P(Strokes, fifty_partial_and_curved_ones_after_another_stay_valid) {
   Random random(24);
   Engine engine = engine_on(jittered_cube(4, 25));

@@ -61,6 +61,7 @@ std::vector<Stroke> some_strokes(std::uint64_t seed, unsigned count) {
   return strokes;
 }
 
+// T33
 TEST(JournalReplay, on_a_mirror_gives_the_mesh_bit_for_bit_with_mass_and_momentum_kept) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maintenance after cuts: monotone step by step, whole at any time, the same however it is portioned.
-#include "incise/improve/maintainer.h"
+#include "improve/maintainer.h"
 
 #include "improve/maintainer_cases.h"
 

@@ -219,6 +219,7 @@ bool try_move(TetMesh& mesh, VertexId v, const Vec3& place) {
   return true;
 }
 
+// T30
 TEST(VolumeKeepingMoves, orthogonal_to_the_vector_area_keep_a_closed_surfaces_volume) {
   TetMesh mesh = build(ball(8));
   Random random(1);

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "incise/cut/cutter.h"
+#include "cut/cutter.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
@@ -249,6 +249,7 @@ void expect_both_answers(const Tally& tally) {
   EXPECT_GT(tally.refused, 20U);
 }
 
+// T31
 TEST(CollapseEveryEdge, of_an_uncut_cube) {
   expect_both_answers(try_every_edge(build(kuhn_cube(3))));
 }

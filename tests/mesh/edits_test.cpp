@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "incise/cut/cutter.h"
+#include "cut/cutter.h"
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/collapse.h"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "incise/cut/cutter.h"
+#include "cut/cutter.h"
 #include "incise/geom/predicates.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/validate.h"
@@ -104,6 +104,7 @@ TetMesh cube_with_a_wall() {
   return mesh;
 }
 
+// T34
 TEST(Swap, two_to_three_and_back_is_the_identity) {
   TetMesh mesh = build(jittered_cube(3, 1));
   const auto tets = tet_set(mesh);

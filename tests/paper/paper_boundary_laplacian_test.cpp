@@ -39,6 +39,7 @@ TEST(ContourSmoothing, keeps_the_distance_from_the_neighbours_line_and_reaches_t
   EXPECT_LT((e - Vec3(1, 0.25, 3)).norm(), 1e-15);
 }
 
+// T29
 TEST(ContourSmoothing, sends_a_collinear_vertex_to_the_middle) {
   const Vec3 a(0.1, 0.2, 0.3), b(1.7, -0.4, 2.3);
   for (const double t : {0.1, 0.5, 0.93, -0.5}) {
@@ -50,6 +51,7 @@ TEST(ContourSmoothing, stays_where_both_neighbours_are_one_point) {
   EXPECT_EQ(smooth_on_contour(Vec3(1, 2, 3), Vec3(0, 0, 0), Vec3(0, 0, 0)), Vec3(1, 2, 3));
 }
 
+// T29
 TEST(ContourSmoothing, of_a_planar_polygon_keeps_its_area) {
   Random random(2);
   std::vector<Vec3> polygon;

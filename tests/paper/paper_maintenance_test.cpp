@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's maintenance as the engine runs it: order, switches, undo, determinism, and what it must keep.
-#include "incise/paper/paper_maintenance.h"
+#include "paper/paper_maintenance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -170,6 +170,7 @@ Verdicts compare_verdicts(const CutBody& body) {
   return verdicts;
 }
 
+// T31
 TEST(SafeMerge, is_necessary_for_the_link_condition_but_not_sufficient) {
   Verdicts sum;
   for (const auto& planes : std::vector<std::vector<std::pair<Vec3, double>>>{

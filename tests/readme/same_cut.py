@@ -36,7 +36,7 @@ int main(void) {
 def blocks_of_readme():
     with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as file:
         text = file.read()
-    section = text.split("### The same cut, four times", 1)[1].split("\n### ", 1)[0]
+    section = re.split(r"\n##+ ", text.split("### The same cut, four times", 1)[1])[0]
     return dict(re.findall(r"```(\w+)\n(.*?)```", section, re.S))
 
 

@@ -47,8 +47,9 @@ extern "C" {
 /* Maintenance without a budget. */
 #define INCISE_UNLIMITED 0xFFFFFFFFFFFFFFFFu
 
+/* What a call returns: one of the numbers below. */
 typedef int32_t incise_status;
-#define INCISE_OK 0
+#define INCISE_OK 0            /* done */
 #define INCISE_BAD_ARGUMENT 1  /* an argument is outside its documented range */
 #define INCISE_BAD_FILE 2      /* a file cannot be opened, or holds not what its format promises */
 #define INCISE_UNSUPPORTED 3   /* well formed, but of a kind that Incise does not handle */
@@ -67,6 +68,7 @@ INCISE_API const char* incise_status_name(incise_status status);
 /* Of the last call on this thread that failed: one line that names the place and the remedy. Valid until the next call
  * on this thread fails. */
 INCISE_API const char* incise_last_error(void);
+/* The status of that call. */
 INCISE_API incise_status incise_last_error_code(void);
 /* The ids of the elements concerned, a few at most; what they are is in the message. Returns how many there are. */
 INCISE_API uint64_t incise_last_error_ids(uint64_t* ids, uint64_t room);
@@ -78,16 +80,17 @@ typedef struct incise_engine incise_engine;
 
 /* What the library has to say, for instance what a stroke could not do as asked. */
 typedef void (*incise_log)(void* user, int32_t level, const char* message);
-#define INCISE_LOG_DEBUG 0
-#define INCISE_LOG_INFO 1
-#define INCISE_LOG_WARNING 2
+#define INCISE_LOG_DEBUG 0   /* for developers */
+#define INCISE_LOG_INFO 1    /* worth knowing */
+#define INCISE_LOG_WARNING 2 /* something was not done as asked */
 
 /* Asked between operations of maintenance; other than 0 ends it for now, and it is not asked again. */
 typedef int32_t (*incise_should_stop)(void* user);
 
-#define INCISE_PROFILE_PAPER 0
-#define INCISE_PROFILE_INCISE 1
+#define INCISE_PROFILE_PAPER 0  /* the published method */
+#define INCISE_PROFILE_INCISE 1 /* our own; the default */
 
+/* How an engine works; see EngineOptions in C++. */
 typedef struct incise_engine_options {
   uint32_t size;
   int32_t profile;         /* INCISE_PROFILE_... */
@@ -116,7 +119,7 @@ typedef struct incise_mesh_arrays {
   uint64_t n_tets;        /* at most 2^28 */
   const int32_t* regions; /* n_tets; null: all 0 */
   const uint32_t* walls;  /* 4 n_walls: three points and the stroke, from 1, of a boundary face that a cut made */
-  uint64_t n_walls;
+  uint64_t n_walls;       /* of them */
   const int32_t* origins; /* n_points: the vertex before all cuts, below 0: none; null: points are their own */
   const uint8_t* fronts;  /* n_points: 1 where a cut ends; null: seen from the walls */
 } incise_mesh_arrays;
@@ -145,8 +148,8 @@ INCISE_API incise_status incise_engine_notes(const incise_engine* engine, char* 
 
 /* ---- the mesh, out ------------------------------------------------------------------------------------------- */
 
-#define INCISE_AT_REST 0
-#define INCISE_AS_IT_STANDS 1
+#define INCISE_AT_REST 0      /* the shape before anything deformed it */
+#define INCISE_AS_IT_STANDS 1 /* the shape that `set_positions` gave last */
 
 /* Writes the mesh in the format of the extension, with region and piece per tet, the stroke of each wall, and the
  * origin of each vertex, where the format can. No partial file is ever seen. */
@@ -158,20 +161,22 @@ INCISE_API incise_status incise_engine_write_bytes(const incise_engine* engine, 
 /* Writes skin and walls at rest as triangles: .obj, .stl, .ply or .off. */
 INCISE_API incise_status incise_engine_write_surface(const incise_engine* engine, const char* path);
 
+/* How much there is. */
 typedef struct incise_counts {
   uint32_t size;
-  uint32_t strokes;  /* applied, undone ones not counted */
-  uint64_t vertices; /* live ones */
-  uint64_t tets;
-  uint64_t vertex_slots; /* one past the highest in use */
-  uint64_t tet_slots;
-  uint64_t memory_bytes; /* of the mesh */
-  uint64_t version;      /* goes up with every call that may change the engine */
-  uint32_t next_stroke;  /* the number that the next stroke gets, or the one under way has */
-  int32_t is_in_stroke;
+  uint32_t strokes;        /* applied, undone ones not counted */
+  uint64_t vertices;       /* live ones */
+  uint64_t tets;           /* live ones */
+  uint64_t vertex_slots;   /* one past the highest in use */
+  uint64_t tet_slots;      /* likewise */
+  uint64_t memory_bytes;   /* of the mesh */
+  uint64_t version;        /* goes up with every call that may change the engine */
+  uint32_t next_stroke;    /* the number that the next stroke gets, or the one under way has */
+  int32_t is_in_stroke;    /* a stroke is under way */
   int32_t has_maintenance; /* some waits */
   int32_t pad;
 } incise_counts;
+/* Cost: O(1). */
 INCISE_API incise_status incise_engine_counts(const incise_engine* engine, incise_counts* counts);
 
 /* Arrays by slot. */
@@ -185,22 +190,24 @@ INCISE_API incise_status incise_engine_counts(const incise_engine* engine, incis
 #define INCISE_SHAPES 7             /* uint8: INCISE_SHAPE_... */
 #define INCISE_ORIGINS 8            /* uint32: the input's vertex, INCISE_NONE where a cut made it */
 
-#define INCISE_SHAPE_SKIN 1
-#define INCISE_SHAPE_WALL 2
-#define INCISE_SHAPE_FRONT 4
-#define INCISE_SHAPE_PINCHED 8
-#define INCISE_SHAPE_DEAD 128
+/* What a vertex is part of: bits. None: it is inside. */
+#define INCISE_SHAPE_SKIN 1    /* on the original surface */
+#define INCISE_SHAPE_WALL 2    /* on a cut wall */
+#define INCISE_SHAPE_FRONT 4   /* where a cut ends inside */
+#define INCISE_SHAPE_PINCHED 8 /* its tets were not face-connected at load */
+#define INCISE_SHAPE_DEAD 128  /* the slot is free */
 
 /* The engine's own memory: look, and do not write. */
 typedef struct incise_view {
   uint32_t size;
-  uint32_t stride; /* bytes per row */
-  const void* data;
-  uint64_t rows;
+  uint32_t stride;   /* bytes per row */
+  const void* data;  /* rows of the array */
+  uint64_t rows;     /* one per slot */
   uint64_t version;  /* as in incise_counts: the same number, the same rows with the same values */
   int32_t is_stable; /* 1: `data` stays where it is as long as the engine lives; 0: any call may move it */
   int32_t pad;
 } incise_view;
+/* `which`: INCISE_TETS to INCISE_ORIGINS. Cost: O(1). */
 INCISE_API incise_status incise_engine_view(const incise_engine* engine, int32_t which, incise_view* view);
 
 /* The boundary: three vertices per triangle, counter-clockwise seen from outside, its tag (0 skin, else the stroke) and
@@ -221,6 +228,7 @@ typedef struct incise_compact {
   uint64_t vertices;      /* out */
   uint64_t tet_count;     /* out */
 } incise_compact;
+/* Cost: O(slots). */
 INCISE_API incise_status incise_engine_compact(const incise_engine* engine, incise_compact* arrays);
 
 /* The face-connected pieces: label by tet slot (INCISE_NONE where free), of which `label_room` are written; tets and
@@ -232,34 +240,39 @@ INCISE_API incise_status incise_engine_pieces(const incise_engine* engine, uint3
  * Undo restores it. */
 INCISE_API incise_status incise_engine_hash(const incise_engine* engine, uint64_t* hash);
 
+/* The quality of a set of tets at rest; all 0 where it is empty. */
 typedef struct incise_quality {
   uint32_t size;
   uint32_t pad;
-  uint64_t tets;
-  uint64_t flat_tets; /* without volume to speak of; left out of what follows */
-  double lr_min;      /* longest edge over inradius: 4.899 is regular, larger is worse */
-  double lr_mean;
-  double lr_p99;
-  double lr_max;
-  double lr_over_200_pct; /* percent of the tets, flat ones included */
-  double dihedral_min_deg;
-  double dihedral_max_deg;
+  uint64_t tets;           /* measured */
+  uint64_t flat_tets;      /* without volume to speak of; left out of what follows */
+  double lr_min;           /* longest edge over inradius: 4.899 is regular, larger is worse */
+  double lr_mean;          /* arithmetic */
+  double lr_p99;           /* nearest rank */
+  double lr_max;           /* the worst */
+  double lr_over_200_pct;  /* percent of the tets, flat ones included */
+  double dihedral_min_deg; /* degree */
+  double dihedral_max_deg; /* degree */
 } incise_quality;
 /* At rest. `only_at_cuts`: of the tets with a vertex on a cut wall alone. */
 INCISE_API incise_status incise_engine_quality(const incise_engine* engine, int32_t only_at_cuts,
                                                incise_quality* quality);
 
-#define INCISE_VALIDATE_COUNTS 0
-#define INCISE_VALIDATE_TOPOLOGY 1
-#define INCISE_VALIDATE_GEOMETRY 2
+/* How much is looked at; each level has those before it. */
+#define INCISE_VALIDATE_COUNTS 0   /* counts, ids, finite positions */
+#define INCISE_VALIDATE_TOPOLOGY 1 /* links, faces, edges, stars, duplicates, too */
+#define INCISE_VALIDATE_GEOMETRY 2 /* signs of rest volumes, and the total, too */
+/* See `incise_violation_name`. */
 #define INCISE_VIOLATION_KINDS 16
 
+/* One place where the contract is broken. */
 typedef struct incise_violation {
   uint64_t ids[2]; /* slots, meaning by kind */
-  int32_t kind;
+  int32_t kind;    /* see `incise_violation_name` */
   int32_t pad;
 } incise_violation;
 
+/* What looking at the mesh found. */
 typedef struct incise_validity {
   uint32_t size;
   int32_t ok;          /* no violation at all, the input's own included */
@@ -277,37 +290,37 @@ INCISE_API const char* incise_violation_name(int32_t kind);
 /* What a call did. Counts are sums over its steps. */
 typedef struct incise_report {
   uint32_t size;
-  uint32_t stroke; /* its number: the tag of its walls; 0: none */
-  uint64_t steps;
-  uint64_t cut_tets;
-  int64_t created_tets; /* by the cut: tets after minus tets before */
-  uint64_t new_vertices;
-  uint64_t copied_vertices;
-  uint64_t incision_faces;
-  uint64_t snapped_vertices;
-  uint64_t bent_vertices;
-  uint64_t crumbs_kept;
-  uint64_t pinched_edges;
-  uint64_t latent_faces;
-  uint64_t blocked_edges;
-  uint64_t sheets;
-  uint64_t work_units; /* of maintenance, from here on */
-  uint64_t collapsed_edges;
-  uint64_t moved_vertices;
-  uint64_t removed_edges;
-  uint64_t removed_faces;
-  uint64_t inserted_vertices;
-  uint64_t peeled_tets;
-  uint64_t waiting_tets;    /* 0: all is done */
-  int64_t maintenance_tets; /* tets after minus tets before */
-  double collision_ms;      /* times are only reported; no decision reads them */
-  double subdivide_ms;
-  double separate_ms;
-  double merge_ms;
-  double improve_ms;
-  double relax_ms;
-  uint64_t journal_first; /* the call's steps in the journal: [journal_first, journal_end) */
-  uint64_t journal_end;
+  uint32_t stroke;            /* its number: the tag of its walls; 0: none */
+  uint64_t steps;             /* steps of the blade */
+  uint64_t cut_tets;          /* tets with material on both sides of the sweep */
+  int64_t created_tets;       /* by the cut: tets after minus tets before */
+  uint64_t new_vertices;      /* split points and copies */
+  uint64_t copied_vertices;   /* the copies among them */
+  uint64_t incision_faces;    /* faces opened */
+  uint64_t snapped_vertices;  /* vertices that took part in the cut */
+  uint64_t bent_vertices;     /* of these, not movable onto the sweep */
+  uint64_t crumbs_kept;       /* pieces too small to separate */
+  uint64_t pinched_edges;     /* edges bisected because both their fans kept both ends */
+  uint64_t latent_faces;      /* incision faces that stayed joined */
+  uint64_t blocked_edges;     /* edges left whole beside flat tets */
+  uint64_t sheets;            /* parts of a sweep that meets itself */
+  uint64_t work_units;        /* of maintenance, from here on */
+  uint64_t collapsed_edges;   /* vertices merged into a neighbour */
+  uint64_t moved_vertices;    /* moves */
+  uint64_t removed_edges;     /* edges swapped away */
+  uint64_t removed_faces;     /* 2-3 swaps */
+  uint64_t inserted_vertices; /* vertices put in */
+  uint64_t peeled_tets;       /* flat tets taken off a surface */
+  uint64_t waiting_tets;      /* 0: all is done */
+  int64_t maintenance_tets;   /* tets after minus tets before */
+  double collision_ms;        /* times are only reported; no decision reads them */
+  double subdivide_ms;        /* division of tets */
+  double separate_ms;         /* copies of vertices */
+  double merge_ms;            /* merging of edges */
+  double improve_ms;          /* smoothing and swapping */
+  double relax_ms;            /* the solver */
+  uint64_t journal_first;     /* the call's steps in the journal: [journal_first, journal_end) */
+  uint64_t journal_end;       /* one past the last */
 } incise_report;
 
 /* A blade's motion through the rest shape: its edge as a polyline at increasing times. Each pair of times is a step. */
@@ -346,6 +359,7 @@ INCISE_API incise_status incise_engine_set_positions(incise_engine* engine, cons
 
 /* Takes the last stroke, or `improve`, back, bit for bit. `done` (may be null): 0 where there was none. */
 INCISE_API incise_status incise_engine_undo(incise_engine* engine, int32_t* done);
+/* Applies what was last taken back. `done` as above. */
 INCISE_API incise_status incise_engine_redo(incise_engine* engine, int32_t* done);
 /* Keeps no more than the last `operations` (at least 1) for undo. */
 INCISE_API incise_status incise_engine_keep_undo(incise_engine* engine, uint64_t operations);
@@ -368,112 +382,134 @@ typedef struct incise_journal {
   uint64_t position;      /* steps applied so far */
   uint64_t end;           /* one past the last that is kept, undone ones included */
   uint64_t newest_serial; /* the highest given so far */
-  uint64_t memory_bytes;
+  uint64_t memory_bytes;  /* of all steps that are kept */
 } incise_journal;
+/* Cost: O(1). */
 INCISE_API incise_status incise_engine_journal(const incise_engine* engine, incise_journal* journal);
 
 /* How many records a step has. They apply in the order of the members. */
 typedef struct incise_step_counts {
   uint32_t size;
   uint32_t pad;
-  uint64_t serial; /* kept through undo and redo; no other step gets it */
-  uint64_t born;
-  uint64_t moved;
-  uint64_t copied;
-  uint64_t consumed;
-  uint64_t produced;
-  uint64_t rewired;
-  uint64_t opened;
-  uint64_t closed;
-  uint64_t died;
-  uint64_t edits; /* of maintenance: 0 where the lists above tell the whole order */
-  uint64_t edit_consumed;
-  uint64_t edit_produced;
-  uint64_t new_vertices; /* slots taken by the step */
-  uint64_t new_tets;
+  uint64_t serial;        /* kept through undo and redo; no other step gets it */
+  uint64_t born;          /* new vertices */
+  uint64_t moved;         /* vertices that are other material points now */
+  uint64_t copied;        /* twins */
+  uint64_t consumed;      /* tets that are gone */
+  uint64_t produced;      /* new tets */
+  uint64_t rewired;       /* tets that live on with other vertices */
+  uint64_t opened;        /* faces that are two boundary sides now */
+  uint64_t closed;        /* walls that are joined again */
+  uint64_t died;          /* vertices that are gone */
+  uint64_t edits;         /* of maintenance: 0 where the lists above tell the whole order */
+  uint64_t edit_consumed; /* tets of all edits */
+  uint64_t edit_produced; /* tets of all edits */
+  uint64_t new_vertices;  /* slots taken by the step */
+  uint64_t new_tets;      /* likewise */
 } incise_step_counts;
 /* `step` in [first, end). */
 INCISE_API incise_status incise_engine_step_counts(const incise_engine* engine, uint64_t step,
                                                    incise_step_counts* counts);
 
+/* A vertex that is new. */
 typedef struct incise_born {
-  uint32_t id;
+  uint32_t id;         /* slot */
   uint32_t parents[4]; /* those not used are INCISE_NONE */
   uint32_t pad;
   double weights[4]; /* sum to 1 */
-  double rest[3];
-  double current[3];
+  double rest[3];    /* length unit */
+  double current[3]; /* length unit */
 } incise_born;
+/* A vertex that is another material point now. */
 typedef struct incise_moved {
-  uint32_t id;
+  uint32_t id;       /* slot */
   uint32_t basis[4]; /* the tet that held the new place before the move */
   uint32_t pad;
-  double weights[4]; /* in it; may be negative */
-  double old_rest[3];
-  double rest[3];
-  double old_current[3];
-  double current[3];
+  double weights[4];     /* in it; may be negative */
+  double old_rest[3];    /* before, length unit */
+  double rest[3];        /* after, length unit */
+  double old_current[3]; /* before, length unit */
+  double current[3];     /* after, length unit */
 } incise_moved;
+/* A vertex that is the twin of another one. */
 typedef struct incise_copied {
-  uint32_t id;
-  uint32_t source;
+  uint32_t id;     /* slot */
+  uint32_t source; /* slot of the vertex that was copied */
 } incise_copied;
+/* A tet that is gone. */
 typedef struct incise_consumed {
-  uint32_t id;
-  uint32_t vertices[4];
+  uint32_t id;          /* slot */
+  uint32_t vertices[4]; /* as they were */
 } incise_consumed;
+/* A tet that is new. */
 typedef struct incise_produced {
-  uint32_t id;
-  uint32_t parent;
-  uint32_t vertices[4];
-  int32_t region;
+  uint32_t id;          /* slot */
+  uint32_t parent;      /* the consumed tet whose material it takes */
+  uint32_t vertices[4]; /* positive in this order */
+  int32_t region;       /* label, its parent's */
 } incise_produced;
+/* A tet that lives on with other vertices. */
 typedef struct incise_rewired {
-  uint32_t id;
-  uint32_t old_vertices[4];
-  uint32_t vertices[4];
+  uint32_t id;              /* slot */
+  uint32_t old_vertices[4]; /* before */
+  uint32_t vertices[4];     /* after */
 } incise_rewired;
+/* A face that is two boundary sides now, or, in the list of closed ones, a wall that is joined again. */
 typedef struct incise_opened {
-  uint32_t a; /* a side: tet * 4 + side */
-  uint32_t b;
-  uint32_t tag;
+  uint32_t a;   /* a side: tet * 4 + side */
+  uint32_t b;   /* the other tet's side */
+  uint32_t tag; /* the stroke */
 } incise_opened;
-#define INCISE_EDIT_MOVE 0
-#define INCISE_EDIT_REMESH 1
+#define INCISE_EDIT_MOVE 0   /* a vertex moved */
+#define INCISE_EDIT_REMESH 1 /* the tets of a cavity gave way to others */
+/* One change of a step of maintenance. */
 typedef struct incise_edit {
-  uint32_t kind;
-  uint32_t vertex; /* move: index into moved; remesh: into born where one was put in, else INCISE_NONE */
-  uint32_t consumed_end;
-  uint32_t produced_end;
+  uint32_t kind;         /* INCISE_EDIT_... */
+  uint32_t vertex;       /* move: index into moved; remesh: into born where one was put in, else INCISE_NONE */
+  uint32_t consumed_end; /* one past its last tet in the list of consumed tets of edits */
+  uint32_t produced_end; /* likewise */
 } incise_edit;
 
+/* The records of a step in [first, end), in order; the next calls likewise. */
 INCISE_API incise_status incise_engine_step_born(const incise_engine* engine, uint64_t step, incise_born* records,
                                                  uint64_t room, uint64_t* count);
+/* Vertices that moved. */
 INCISE_API incise_status incise_engine_step_moved(const incise_engine* engine, uint64_t step, incise_moved* records,
                                                   uint64_t room, uint64_t* count);
+/* Twins. */
 INCISE_API incise_status incise_engine_step_copied(const incise_engine* engine, uint64_t step, incise_copied* records,
                                                    uint64_t room, uint64_t* count);
+/* Tets that are gone. */
 INCISE_API incise_status incise_engine_step_consumed(const incise_engine* engine, uint64_t step,
                                                      incise_consumed* records, uint64_t room, uint64_t* count);
+/* New tets. */
 INCISE_API incise_status incise_engine_step_produced(const incise_engine* engine, uint64_t step,
                                                      incise_produced* records, uint64_t room, uint64_t* count);
+/* Tets that live on with other vertices. */
 INCISE_API incise_status incise_engine_step_rewired(const incise_engine* engine, uint64_t step, incise_rewired* records,
                                                     uint64_t room, uint64_t* count);
+/* Faces that were opened. */
 INCISE_API incise_status incise_engine_step_opened(const incise_engine* engine, uint64_t step, incise_opened* records,
                                                    uint64_t room, uint64_t* count);
+/* Walls that were joined again. */
 INCISE_API incise_status incise_engine_step_closed(const incise_engine* engine, uint64_t step, incise_opened* records,
                                                    uint64_t room, uint64_t* count);
 /* Slots of vertices. */
 INCISE_API incise_status incise_engine_step_died(const incise_engine* engine, uint64_t step, uint32_t* records,
                                                  uint64_t room, uint64_t* count);
+/* Edits of a step of maintenance. */
 INCISE_API incise_status incise_engine_step_edits(const incise_engine* engine, uint64_t step, incise_edit* records,
                                                   uint64_t room, uint64_t* count);
+/* Tets that its edits consumed. */
 INCISE_API incise_status incise_engine_step_edit_consumed(const incise_engine* engine, uint64_t step,
                                                           incise_consumed* records, uint64_t room, uint64_t* count);
+/* Tets that its edits produced. */
 INCISE_API incise_status incise_engine_step_edit_produced(const incise_engine* engine, uint64_t step,
                                                           incise_produced* records, uint64_t room, uint64_t* count);
+/* Slots of vertices that the step took. */
 INCISE_API incise_status incise_engine_step_new_vertices(const incise_engine* engine, uint64_t step, uint32_t* records,
                                                          uint64_t room, uint64_t* count);
+/* Slots of tets that the step took. */
 INCISE_API incise_status incise_engine_step_new_tets(const incise_engine* engine, uint64_t step, uint32_t* records,
                                                      uint64_t room, uint64_t* count);
 
@@ -489,6 +525,7 @@ INCISE_API incise_status incise_cursor_way(const incise_cursor* cursor, const in
                                            uint64_t* position);
 /* The follower has caught up. */
 INCISE_API incise_status incise_cursor_move(incise_cursor* cursor, const incise_engine* engine);
+/* Null is fine. */
 INCISE_API incise_status incise_cursor_free(incise_cursor* cursor);
 
 /* ---- attributes ---------------------------------------------------------------------------------------------- */
@@ -496,8 +533,8 @@ INCISE_API incise_status incise_cursor_free(incise_cursor* cursor);
 /* Values on vertices or tets that follow an engine's mesh through its journal. */
 typedef struct incise_attributes incise_attributes;
 
-#define INCISE_AT_VERTICES 0
-#define INCISE_AT_TETS 1
+#define INCISE_AT_VERTICES 0 /* one value per vertex */
+#define INCISE_AT_TETS 1     /* one value per tet */
 #define INCISE_INTERPOLATE 0 /* a field: velocity, temperature */
 #define INCISE_INHERIT 1     /* a label */
 #define INCISE_CONSERVE 2    /* an amount: its sum is kept */
@@ -506,6 +543,7 @@ typedef struct incise_attributes incise_attributes;
 /* Computes the value of one element. It may read the engine (views, counts) and nothing else of it. */
 typedef void (*incise_recompute)(void* user, uint32_t slot, double* value, uint32_t width);
 
+/* What an attribute is. */
 typedef struct incise_attribute_spec {
   uint32_t size;
   int32_t domain;             /* INCISE_AT_... */
@@ -530,6 +568,7 @@ INCISE_API incise_status incise_attributes_follow(incise_attributes* attributes,
 /* The values by slot * width, to read and to write: `n_values` numbers, until the next `follow` or `add`. */
 INCISE_API incise_status incise_attributes_values(incise_attributes* attributes, uint32_t id, double** values,
                                                   uint64_t* n_values);
+/* Null is fine. */
 INCISE_API incise_status incise_attributes_free(incise_attributes* attributes);
 
 /* ---- simulation ---------------------------------------------------------------------------------------------- */
@@ -537,9 +576,10 @@ INCISE_API incise_status incise_attributes_free(incise_attributes* attributes);
 /* An elastic body that is cut while it deforms, frame by frame. */
 typedef struct incise_simulation incise_simulation;
 
-#define INCISE_BLOCK_DESCENT 0
-#define INCISE_POSITION_BASED 1
+#define INCISE_BLOCK_DESCENT 0  /* each vertex goes to its least energy */
+#define INCISE_POSITION_BASED 1 /* sequential XPBD: bounded, but too soft */
 
+/* How a body is computed. */
 typedef struct incise_body_options {
   uint32_t size;
   int32_t relaxation;  /* INCISE_BLOCK_DESCENT or INCISE_POSITION_BASED */
@@ -554,10 +594,12 @@ typedef struct incise_body_options {
   int32_t coarse;      /* substeps begin on a coarse lattice */
   double crumb;        /* length unit^3: smaller tets only resist stretch; 0: chosen */
 } incise_body_options;
+/* Writes the first `size` bytes of the default options. */
 INCISE_API incise_status incise_default_body_options(incise_body_options* options, uint32_t size);
 
+/* What the tissue of a region is made of. */
 typedef struct incise_material {
-  int32_t region;
+  int32_t region;      /* label of the tets */
   int32_t is_fallback; /* other than 0: of every region that no other one names; `region` is not read */
   double density;      /* kg/m^3 */
   double young;        /* Pa */
@@ -566,9 +608,10 @@ typedef struct incise_material {
   double cut_friction; /* N per m of engaged edge */
 } incise_material;
 
+/* How a simulation works. */
 typedef struct incise_simulation_options {
   uint32_t size;
-  uint32_t n_materials;
+  uint32_t n_materials;                /* of `materials` */
   const incise_engine_options* engine; /* null: the default, with a frame's budget of maintenance */
   const incise_body_options* body;     /* null: the default */
   const incise_material* materials;    /* null: soft tissue everywhere */
@@ -576,6 +619,7 @@ typedef struct incise_simulation_options {
   double contact_stiffness;            /* N/m per touched vertex; 0: ten times the tissue's own */
   double flat_height;                  /* of the blade behind its edge; 0: the flat touches nothing */
 } incise_simulation_options;
+/* Writes the first `size` bytes of the default options. */
 INCISE_API incise_status incise_default_simulation_options(incise_simulation_options* options, uint32_t size);
 
 /* A body at rest, held by nothing yet; see `incise_simulation_hold`. */
@@ -602,48 +646,50 @@ INCISE_API const incise_engine* incise_simulation_engine(const incise_simulation
 typedef struct incise_hook {
   uint32_t id; /* the same from frame to frame */
   uint32_t pad;
-  double position[3];
-  double radius;    /* above 0 */
-  double stiffness; /* N/m per vertex, above 0 */
+  double position[3]; /* length unit */
+  double radius;      /* above 0 */
+  double stiffness;   /* N/m per vertex, above 0 */
 } incise_hook;
 
 #define INCISE_TOOL_BALL 0  /* a: centre, radius */
 #define INCISE_TOOL_ROD 1   /* a, b: ends, radius */
 #define INCISE_TOOL_PLANE 2 /* a: unit normal; the body stays where a . x >= offset */
 #define INCISE_TOOL_FLAT 3  /* edge; a: from the edge to the back of the blade; radius: thickness */
+/* Something that presses on the body; lengths in the unit of the mesh. */
 typedef struct incise_tool {
-  int32_t kind;
+  int32_t kind; /* INCISE_TOOL_... */
   uint32_t pad;
-  double a[3];
-  double b[3];
-  double radius;
-  double offset;
+  double a[3];        /* by kind */
+  double b[3];        /* by kind */
+  double radius;      /* by kind */
+  double offset;      /* of a plane */
   const double* edge; /* 3 n_edge */
-  uint64_t n_edge;
+  uint64_t n_edge;    /* points of the flat's edge, at least 2 */
 } incise_tool;
 
 /* Everything that the hands hold, where it is at the end of the frame. */
 typedef struct incise_frame_input {
   uint32_t size;
   uint32_t pad;
-  const double* blade;     /* 3 n_blade points of the edge; null: no blade */
-  uint64_t n_blade;        /* at least 2, and the same through a stroke */
-  const double* direction; /* 3: where the edge cuts; null: where it moves */
-  const incise_hook* hooks;
-  uint64_t n_hooks;
-  const incise_tool* tools;
-  uint64_t n_tools;
+  const double* blade;      /* 3 n_blade points of the edge; null: no blade */
+  uint64_t n_blade;         /* at least 2, and the same through a stroke */
+  const double* direction;  /* 3: where the edge cuts; null: where it moves */
+  const incise_hook* hooks; /* grips in this frame */
+  uint64_t n_hooks;         /* their number */
+  const incise_tool* tools; /* what presses in this frame */
+  uint64_t n_tools;         /* their number */
 } incise_frame_input;
 
+/* What a frame did. */
 typedef struct incise_frame_report {
   uint32_t size;
-  uint32_t stroke; /* under way, of this simulation's from 1; 0: none */
-  int32_t blade_touches;
-  int32_t blade_yields;  /* somewhere the tissue gave way */
-  double blade_force[3]; /* of the tissue on the edge, N */
-  double engaged_length; /* of the edge, m */
-  double fracture_work;  /* J, in this frame, as the next two */
-  double friction_work;
+  uint32_t stroke;          /* under way, of this simulation's from 1; 0: none */
+  int32_t blade_touches;    /* some of the edge is in the tissue, or presses on it */
+  int32_t blade_yields;     /* somewhere the tissue gave way */
+  double blade_force[3];    /* of the tissue on the edge, N */
+  double engaged_length;    /* of the edge, m */
+  double fracture_work;     /* J, in this frame, as the next two */
+  double friction_work;     /* rubbed off while cutting */
   double tool_work;         /* that the hand did with the edge */
   uint64_t contacts;        /* vertices that tools touch */
   uint64_t active_vertices; /* that were awake */
@@ -669,29 +715,31 @@ INCISE_API incise_status incise_simulation_settle(incise_simulation* simulation,
 /* As the scene says. Errors: bad argument without a scene. */
 INCISE_API incise_status incise_simulation_settle_scene(incise_simulation* simulation, uint32_t* frames);
 
+/* A body as it stands. */
 typedef struct incise_simulation_state {
   uint32_t size;
   uint32_t pad;
-  uint64_t frames;       /* done */
-  uint64_t scene_frames; /* that the scene's script has; 0 without a scene */
-  double frame_seconds;
-  double length_unit; /* metres */
-  double mass;        /* kg, as what follows in SI units */
-  double momentum[3];
-  double elastic; /* energies, J */
-  double kinetic;
-  double potential;
-  double held;
-  double pulled;
-  double force_on_holds[3];
-  uint64_t inverted_tets; /* as the body stands */
-  uint64_t hash;          /* of mesh and body */
+  uint64_t frames;          /* done */
+  uint64_t scene_frames;    /* that the scene's script has; 0 without a scene */
+  double frame_seconds;     /* s */
+  double length_unit;       /* metres */
+  double mass;              /* kg, as what follows in SI units */
+  double momentum[3];       /* kg m/s */
+  double elastic;           /* energies, J */
+  double kinetic;           /* of motion */
+  double potential;         /* of gravity */
+  double held;              /* in the springs that hold vertices */
+  double pulled;            /* in the pulls */
+  double force_on_holds[3]; /* N */
+  uint64_t inverted_tets;   /* as the body stands */
+  uint64_t hash;            /* of mesh and body */
 } incise_simulation_state;
 /* Cost: O(tets). */
 INCISE_API incise_status incise_simulation_look(const incise_simulation* simulation, incise_simulation_state* state);
 
 /* As of engines. The tissue stays where it stands. */
 INCISE_API incise_status incise_simulation_undo(incise_simulation* simulation, int32_t* done);
+/* Applies the stroke that was last taken back. */
 INCISE_API incise_status incise_simulation_redo(incise_simulation* simulation, int32_t* done);
 
 /* Holds a vertex where it stands: rigidly (infinite stiffness), or by a spring of N/m; 0 lets it go. */
@@ -699,11 +747,13 @@ INCISE_API incise_status incise_simulation_hold(incise_simulation* simulation, u
 /* Where a held vertex is to be: x y z. */
 INCISE_API incise_status incise_simulation_move_hold(incise_simulation* simulation, uint32_t vertex,
                                                      const double* target);
+/* Whether a vertex is held: `is_held` gets 1 or 0. */
 INCISE_API incise_status incise_simulation_is_held(const incise_simulation* simulation, uint32_t vertex,
                                                    int32_t* is_held);
 /* Velocities of all vertex slots, m/s: x y z each. */
 INCISE_API incise_status incise_simulation_velocities(const incise_simulation* simulation, double* velocities,
                                                       uint64_t room, uint64_t* count);
+/* Gives a vertex a velocity, m/s, and wakes it. */
 INCISE_API incise_status incise_simulation_set_velocity(incise_simulation* simulation, uint32_t vertex,
                                                         const double* velocity);
 
@@ -713,9 +763,9 @@ INCISE_API incise_status incise_simulation_set_velocity(incise_simulation* simul
  * it to the other thread as you like. */
 typedef struct incise_haptic_snapshot {
   uint32_t size;
-  int32_t touches;
-  uint64_t serial; /* 0: nothing known yet */
-  int32_t ruptured;
+  int32_t touches;  /* other than 0: some of the edge is in the tissue */
+  uint64_t serial;  /* 0: nothing known yet */
+  int32_t ruptured; /* other than 0: the tissue yields at the edge */
   int32_t pad;
   double tool_position[3];     /* m */
   double force[3];             /* N, of the tissue on the tool */
@@ -727,11 +777,13 @@ typedef struct incise_haptic_snapshot {
   double toughness;            /* J/m^2 */
   double cut_friction;         /* N/m */
 } incise_haptic_snapshot;
+/* What the 1 kHz loop goes by until the next frame. Cost: O(1). */
 INCISE_API incise_status incise_simulation_haptic_snapshot(const incise_simulation* simulation,
                                                            incise_haptic_snapshot* snapshot);
 
 /* The blade in the hand at 1 kHz: coupling, rupture, passivity. Its own thread's; no call allocates but the first. */
 typedef struct incise_haptic_tool incise_haptic_tool;
+/* How a blade in the hand feels; see HapticToolOptions in C++. */
 typedef struct incise_haptic_options {
   uint32_t size;
   uint32_t pad;
@@ -742,6 +794,7 @@ typedef struct incise_haptic_options {
   double max_force;          /* N, above 0 */
   double physics_period;     /* s */
 } incise_haptic_options;
+/* Writes the first `size` bytes of the default options. */
 INCISE_API incise_status incise_default_haptic_options(incise_haptic_options* options, uint32_t size);
 /* `options` null: the default. */
 INCISE_API incise_status incise_haptic_tool_create(const incise_haptic_options* options, incise_haptic_tool** tool);
@@ -751,6 +804,7 @@ INCISE_API incise_status incise_haptic_tool_accept(incise_haptic_tool* tool, con
  * `tool_position` is not null, where the physics moves its blade to (m); 3 numbers each. */
 INCISE_API incise_status incise_haptic_tool_tick(incise_haptic_tool* tool, double dt, const double* position,
                                                  const double* velocity, double* force, double* tool_position);
+/* Null is fine. */
 INCISE_API incise_status incise_haptic_tool_free(incise_haptic_tool* tool);
 
 #ifdef __cplusplus

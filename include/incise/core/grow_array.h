@@ -87,7 +87,8 @@ class ReservedBlock {
 template <class T>
 class GrowArray {
  public:
-  static constexpr std::size_t kReservedCount = detail::ReservedBlock<T>::kReservedCount;
+  static constexpr std::size_t kReservedCount =
+      detail::ReservedBlock<T>::kReservedCount;  ///< elements that have their place reserved
 
   GrowArray() = default;
   GrowArray(const GrowArray& other) { assign(other); }
@@ -176,6 +177,7 @@ template <class T>
 class ZeroedArray {
  public:
   ZeroedArray() = default;
+  /// With elements [0, count) addressable.
   explicit ZeroedArray(std::size_t count) { ensure(count); }
   /// A copy starts all zero: marks belong to one search on one object.
   ZeroedArray(const ZeroedArray& /*other*/) {}

@@ -13,6 +13,7 @@ inline namespace v0 {
 /// Not cryptographic: it guards replay and undo. Cost: about 1 ns per 8 bytes.
 class StateHash {
  public:
+  /// Adds a word to the sequence.
   void add(std::uint64_t word) {
     state_ = (state_ ^ word) * 0x9E3779B97F4A7C15ULL;
     state_ ^= state_ >> 29U;
@@ -23,6 +24,7 @@ class StateHash {
     std::memcpy(&bits, &number, sizeof bits);
     add(bits);
   }
+  /// The hash of all that was added so far.
   [[nodiscard]] std::uint64_t value() const {
     std::uint64_t h = state_ ^ (state_ >> 32U);
     h *= 0xD6E8FEB86659FD93ULL;

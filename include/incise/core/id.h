@@ -16,12 +16,13 @@ inline constexpr std::uint32_t kInvalidIndex = 0xFFFFFFFFU;
 /// an element across steps also keeps the slot's generation (see `TetMesh::generation`).
 template <class Tag>
 struct Id {
-  std::uint32_t value = kInvalidIndex;
+  std::uint32_t value = kInvalidIndex;  ///< the slot
 
   constexpr Id() = default;
+  /// The id of a slot.
   constexpr explicit Id(std::uint32_t slot) : value(slot) {}
 
-  [[nodiscard]] constexpr bool is_valid() const { return value != kInvalidIndex; }
+  [[nodiscard]] constexpr bool is_valid() const { return value != kInvalidIndex; }  ///< names some slot
   friend constexpr bool operator==(Id a, Id b) { return a.value == b.value; }
   friend constexpr bool operator!=(Id a, Id b) { return a.value != b.value; }
   friend constexpr bool operator<(Id a, Id b) { return a.value < b.value; }
@@ -30,7 +31,9 @@ struct Id {
 struct VertexTag;
 struct TetTag;
 
+/// A vertex of a mesh.
 using VertexId = Id<VertexTag>;
+/// A tet of a mesh.
 using TetId = Id<TetTag>;
 
 }  // namespace v0

@@ -11,7 +11,9 @@ inline namespace v0 {
 template <class IdType, class T>
 class IdArray : public GrowArray<T> {
  public:
+  /// The element of a slot, which must be below `size()`.
   T& operator[](IdType id) { return GrowArray<T>::operator[](id.value); }
+  /// The same, to read.
   const T& operator[](IdType id) const { return GrowArray<T>::operator[](id.value); }
 };
 

@@ -30,11 +30,13 @@ void parallel_blocks(std::size_t count, unsigned threads,
 /// thread, they run one after the other. Cost: about 1 µs per call once the second thread is awake.
 class WorkPair {
  public:
+  /// On up to `threads` threads, at least 1; more than two are of no use.
   explicit WorkPair(unsigned threads);
   WorkPair(WorkPair&&) noexcept;
   WorkPair& operator=(WorkPair&&) noexcept;
   ~WorkPair();
 
+  /// Runs both and waits for both.
   void run(const std::function<void()>& first, const std::function<void()>& second);
 
  private:

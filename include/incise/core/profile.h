@@ -11,15 +11,17 @@ inline namespace v0 {
 /// The stages of the pipeline (paper, Figure 1), in the order in which a step runs them.
 enum class Stage : unsigned char { kCollision, kSubdivide, kSeparate, kMerge, kImprove, kRelax, kCount };
 
+/// The names of the stages in reports, by `Stage`.
 inline constexpr std::array<const char*, 6> kStageNames = {"collision", "subdivide", "separate",
                                                            "merge",     "improve",   "relax"};
 
 /// Milliseconds spent in each stage. Times are only reported; no decision reads them.
 struct StageTimes {
-  std::array<double, static_cast<std::size_t>(Stage::kCount)> ms{};
+  std::array<double, static_cast<std::size_t>(Stage::kCount)> ms{};  ///< by `Stage`
 
-  double& operator[](Stage stage) { return ms[static_cast<std::size_t>(stage)]; }
-  const double& operator[](Stage stage) const { return ms[static_cast<std::size_t>(stage)]; }
+  double& operator[](Stage stage) { return ms[static_cast<std::size_t>(stage)]; }              ///< ms
+  const double& operator[](Stage stage) const { return ms[static_cast<std::size_t>(stage)]; }  ///< ms
+  /// The sum over all stages, ms.
   [[nodiscard]] double total() const {
     double sum = 0;
     for (const double stage_ms : ms) {
@@ -45,6 +47,7 @@ struct StageTimes {
 /// Adds the time from its construction to its destruction to one stage.
 class StageZone {
  public:
+  /// Starts the clock; `times` must outlive it.
   StageZone(StageTimes& times, Stage stage) : times_(times), stage_(stage), start_(Clock::now()) {}
   StageZone(const StageZone&) = delete;
   StageZone& operator=(const StageZone&) = delete;

@@ -22,27 +22,37 @@ enum class ErrorCode : std::uint8_t {
 
 /// What went wrong, where, and how to mend it.
 struct Error {
-  ErrorCode code = ErrorCode::kInternal;
-  std::string message;                  ///< one line that names the place and the remedy
-  std::vector<std::uint64_t> ids = {};  ///< offending elements (at most a few), meaning given by the message
+  ErrorCode code = ErrorCode::kInternal;  ///< which kind of failure
+  std::string message;                    ///< one line that names the place and the remedy
+  std::vector<std::uint64_t> ids = {};    ///< offending elements (at most a few), meaning given by the message
 };
 
 /// Either a value or an error. The library never throws across its public API.
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : value_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
+  /// Success, with its value.
+  Result(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+  /// A failure.
   Result(Error error) : error_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
+  /// Whether there is a value.
   [[nodiscard]] bool ok() const { return value_.has_value(); }
+  /// The same as `ok`.
   explicit operator bool() const { return ok(); }
   /// The value; only where `ok()`.
   T& value() & { return *value_; }
+  /// The same, to read.
   const T& value() const& { return *value_; }
+  /// The same, to be moved from.
   T&& value() && { return std::move(*value_); }
+  /// The value; only where `ok()`.
   T& operator*() & { return *value_; }
+  /// The value; only where `ok()`.
   const T& operator*() const& { return *value_; }
+  /// A member of the value; only where `ok()`.
   T* operator->() { return &*value_; }
+  /// A member of the value; only where `ok()`.
   const T* operator->() const { return &*value_; }
   /// The error; only where not `ok()`.
   [[nodiscard]] const Error& error() const { return error_; }
@@ -55,11 +65,16 @@ class [[nodiscard]] Result {
 /// The result of a call that returns nothing but success.
 class [[nodiscard]] Status {
  public:
+  /// Success.
   Status() = default;
+  /// A failure.
   Status(Error error) : error_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
+  /// Whether all went well.
   [[nodiscard]] bool ok() const { return !error_.has_value(); }
+  /// The same as `ok`.
   explicit operator bool() const { return ok(); }
+  /// The error; only where not `ok()`.
   [[nodiscard]] const Error& error() const { return *error_; }
 
  private:

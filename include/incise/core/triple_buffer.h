@@ -17,6 +17,7 @@ inline namespace v0 {
 template <class T>
 class TripleBuffer {
  public:
+  /// With a value to be seen until one is published.
   explicit TripleBuffer(const T& initial = T{}) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
   TripleBuffer(const TripleBuffer&) = delete;
   TripleBuffer& operator=(const TripleBuffer&) = delete;

@@ -20,7 +20,7 @@ inline namespace v0 {
 /// the earlier first point to the later second. Each pair of times is one step. Where the first and last point of
 /// every polyline are bitwise equal the edge is closed (coring). A single time sweeps nothing.
 struct Stroke {
-  std::string name;
+  std::string name;                      ///< for messages; may be empty
   std::vector<double> times;             ///< s, strictly increasing, `n_times`
   std::vector<std::vector<Vec3>> edges;  ///< `n_times × n_points`, n_points ≥ 2 and the same at all times
 };
@@ -28,8 +28,8 @@ struct Stroke {
 /// Whether a stroke keeps the promises above, has at least two times and is finite; the error names the time and point.
 Status check(const Stroke& stroke);
 
-/// A blade keeps within so many times the greatest side of the body's box from that box. Beyond, the rounding of a
-/// point that far away could move the cut by a noticeable share of an element.
+/// The greatest distance of a blade from the body's box, in units of the longest side of that box. Rounding of a point
+/// that is further away could move the cut by a noticeable share of an element.
 inline constexpr double kGreatestReach = 1e6;
 
 /// Whether a stroke keeps within `kGreatestReach` of a body; the error names stroke, time and point. True where the
@@ -40,7 +40,7 @@ Status check_reach(std::span<const Vec3> edge, const Box& body, const std::strin
 
 /// The triangles that a stroke sweeps, without empty ones.
 struct SweptTriangles {
-  std::vector<Vec3> points;
+  std::vector<Vec3> points;                             ///< in the rest shape, length unit
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `points`
 };
 

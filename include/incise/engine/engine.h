@@ -2,18 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "incise/core/log.h"
 #include "incise/core/profile.h"
 #include "incise/core/result.h"
-#include "incise/cut/cutter.h"
 #include "incise/cut/options.h"
 #include "incise/cut/stroke.h"
-#include "incise/improve/maintainer.h"
+#include "incise/improve/options.h"
 #include "incise/mesh/journal.h"
 #include "incise/mesh/step_check.h"
 #include "incise/mesh/tet_mesh.h"
@@ -21,20 +19,21 @@
 namespace incise {
 inline namespace v0 {
 
+/// How an engine works.
 struct EngineOptions {
-  CutOptions cut;
-  MaintainOptions maintain;
-  LogSink log;           ///< hears what a stroke could not do as asked
-  unsigned threads = 1;  ///< that search the mesh, in [1, 256]; the result does not depend on it
-  /// Looks at what each call committed: at the cut, and at its maintenance. Where it returns an error the call is taken
-  /// back and returns it. `TouchedCheck` in builds with assertions; empty, and for nothing, in others.
+  CutOptions cut;            ///< how the blade cuts
+  MaintainOptions maintain;  ///< what is done to the mesh behind the blade
+  LogSink log;               ///< told where a stroke was not done as asked
+  unsigned threads = 1;      ///< that search the mesh, in [1, 256]; the result does not depend on it
+  /// Checks what each call committed, after the cut and after its maintenance. Where it returns an error, the call is
+  /// taken back and returns that error. `TouchedCheck` in builds with assertions; empty, and without cost, in others.
   StepCheck check_step = default_step_check();
 };
 
 /// What one stroke did.
 struct StrokeReport {
-  CutStatistics cut;
-  MaintainStatistics maintain;
+  CutStatistics cut;            ///< what cutting did
+  MaintainStatistics maintain;  ///< what maintenance did
   StageTimes times;             ///< summed over the stroke
   std::vector<double> step_ms;  ///< one entry for each step; one for a stroke that was cut as a whole
   std::uint32_t stroke = 0;     ///< its number: the tag of the walls that it made; see `Engine::next_stroke`
@@ -48,15 +47,15 @@ struct BladePose {
 
 /// What one step of the blade did.
 struct StepReport {
-  CutStatistics cut;
+  CutStatistics cut;            ///< what cutting did
   MaintainStatistics maintain;  ///< of what the blade has left behind
-  StageTimes times;
+  StageTimes times;             ///< ms by stage
 };
 
 /// What maintenance between strokes did.
 struct MaintainReport {
-  MaintainStatistics maintain;
-  StageTimes times;
+  MaintainStatistics maintain;  ///< counts
+  StageTimes times;             ///< ms by stage
 };
 
 /// Owns a mesh and orders the pipeline on it: collision → subdivide → separate → merge → improve (paper, Figure 1).
@@ -64,9 +63,9 @@ struct MaintainReport {
 /// A stroke is cut as a whole (`cut`) or step by step as the blade moves (`begin_stroke`, `step`, `end_stroke`), in a
 /// body at rest or one that moves (`set_positions`). After each step the mesh is valid and cut up to the blade, inside
 /// elements. The profile `paper` knows whole strokes alone: its steps cut nothing, `end_stroke` does.
-/// Maintenance follows the blade, but for a band around the front of its cut, and ends with the stroke, each call
-/// within `MaintainOptions::work_units`; what the budget leaves undone waits for the next one or `maintain`. One
-/// writer; const reads from any thread between calls. A call either takes effect as a whole or not at all; where it
+/// Maintenance follows the blade at a small distance, a band around the front of the cut, and ends with the stroke.
+/// Each call spends at most `MaintainOptions::work_units`; what is left undone waits for the next call or `maintain`.
+/// One writer; const reads from any thread between calls. A call either takes effect as a whole or not at all; where it
 /// fails with kOutOfMemory or with what `EngineOptions::check_step` says (kInternal), what `redo` could apply is
 /// forgotten.
 class Engine {
@@ -74,14 +73,21 @@ class Engine {
   /// Takes the mesh. Errors: kBadArgument for options out of range. Cost: O(tets).
   static Result<Engine> create(TetMesh mesh, EngineOptions options = {});
 
-  [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
-  [[nodiscard]] const Journal& journal() const { return journal_; }
-  [[nodiscard]] const EngineOptions& options() const { return options_; }
+  Engine(Engine&&) noexcept;
+  Engine& operator=(Engine&&) noexcept;
+  ~Engine();
+
+  /// The mesh; to be read between calls.
+  [[nodiscard]] const TetMesh& mesh() const;
+  /// What each step changed; to be read between calls.
+  [[nodiscard]] const Journal& journal() const;
+  /// As given to `create`.
+  [[nodiscard]] const EngineOptions& options() const;
   /// Strokes applied so far (undone ones not counted).
-  [[nodiscard]] std::uint32_t stroke_count() const { return stroke_count_; }
+  [[nodiscard]] std::uint32_t stroke_count() const;
   /// The number that the next stroke gets, or the one under way has: one above those applied, which go on from the
   /// highest tag of the mesh that was taken; 1 for a fresh engine on a body without walls.
-  [[nodiscard]] std::uint32_t next_stroke() const { return earlier_strokes_ + stroke_count_ + 1; }
+  [[nodiscard]] std::uint32_t next_stroke() const;
 
   /// Cuts along the whole stroke, in the rest shape. A blade that misses changes nothing and is no error.
   /// Errors: kBadArgument for a malformed stroke, one that leaves the body's surroundings (`check_reach`), or while
@@ -108,7 +114,8 @@ class Engine {
   /// Whether a pose is sound, with at least two points, and keeps within reach of the body as it stands
   /// (`check_reach`), as `begin_stroke` and `step` ask. The error says which pose of which stroke it would be.
   [[nodiscard]] Status check_pose(const BladePose& pose) const;
-  [[nodiscard]] bool is_in_stroke() const { return is_in_stroke_; }
+  /// Whether a stroke is under way: begun, and not ended.
+  [[nodiscard]] bool is_in_stroke() const;
 
   /// Tells where the body stands now: `positions[slot]` for every vertex slot, dead ones ignored. Finite, in the mesh's
   /// length unit; the rest shape stays. At any time, between the steps of a stroke too; no operation for undo.
@@ -141,69 +148,9 @@ class Engine {
   Status keep_undo(std::size_t operations);
 
  private:
-  /// From where a stroke that starts where the last one ended goes on.
-  struct Continuation {
-    std::shared_ptr<const Cutter::Pause> pause;  ///< null: from nowhere
-    std::size_t first_step = 0;                  ///< of those that ended the last one
-  };
-
-  /// A stroke, or an `improve`, with all that followed it.
-  struct Operation {
-    std::size_t end = 0;  ///< journal position after it
-    bool is_stroke = true;
-    Continuation continuation = {};
-  };
-
-  /// The stroke under way.
-  struct OpenStroke {
-    StrokeReport report;
-    std::size_t first_step = 0;
-    std::vector<BladePose> poses;  ///< the first; for the paper's profile all
-    std::size_t steps = 0;         ///< taken so far
-    Continuation from = {};        ///< until its first step
-    Continuation to = {};          ///< once it has ended
-  };
-
-  Engine(TetMesh mesh, EngineOptions options);
-
-  [[nodiscard]] std::string name_of_next_pose() const;
-  Status check_steps(std::size_t first_step);
-  void take_back(std::size_t first_step);
-  void forget_lost_redo();
-  void trim_history();
-  [[nodiscard]] bool is_paper() const { return options_.cut.profile == Profile::kPaper; }
-  [[nodiscard]] bool maintains() const;
-  void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step, const IsLocked& is_locked = {});
-  [[nodiscard]] IsLocked busy() const;
-  void maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times);
-  void go_on_from_last_stroke();
-  Status close_stroke();
-  void maintain_between_sheets(MaintainStatistics& sum, StageTimes& times);
-  Error abort_stroke(std::size_t first_step, Error error);
-  Result<StrokeReport> end_stroke_as_paper();
-  MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop,
-                              const IsLocked& is_locked = {});
-  void push_operation(bool is_stroke) { push_operation(is_stroke, Continuation()); }
-  void push_operation(bool is_stroke, Continuation continuation);
-
-  TetMesh mesh_;
-  Journal journal_;
-  EngineOptions options_;
-  Cutter cutter_;
-  Maintainer maintainer_;
-  std::size_t paper_first_step_ = kNothingWaits;  // of the strokes that the paper's maintenance has not seen
-  std::deque<Operation> operations_;
-  std::size_t kept_operations_ = static_cast<std::size_t>(-1);
-  std::size_t oldest_position_ = 0;  // of the journal, that undo leads back to
-  std::vector<Operation> undone_;    // what redo would apply, last first
-  std::uint32_t stroke_count_ = 0;
-  std::uint32_t earlier_strokes_ = 0;  // the highest tag of the mesh that was taken
-  OpenStroke open_;
-  bool is_in_stroke_ = false;
-  bool has_moved_ = false;  // the body stands otherwise than at rest
-  Box rest_box_, box_;      // around the body at load, and as it stands
-
-  static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);
+  class Conductor;  // holds the parts, and calls them in order
+  explicit Engine(std::unique_ptr<Conductor> conductor);
+  std::unique_ptr<Conductor> conductor_;
 };
 
 }  // namespace v0

@@ -20,18 +20,19 @@ inline namespace v0 {
 /// of it; what a stroke leaves when it ends is spread over some frames, without a hitch.
 inline constexpr std::uint64_t kFrameWorkUnits = 20'000;
 
+/// What a body is made of, and how it is computed.
 struct SimulationOptions {
   /// `engine.maintain.work_units` is the budget of each frame: a stroke's maintenance goes on in the frames after it.
   EngineOptions engine = {{}, {.work_units = kFrameWorkUnits}, {}, 1};
-  BodyOptions body;
-  Materials materials;
+  BodyOptions body;                 ///< how the body finds its balance
+  Materials materials;              ///< what its regions are made of
   double frame_seconds = 1.0 / 60;  ///< in (0, 1]
   double contact_stiffness = 0;     ///< N/m per touched vertex; 0: ten times what the tissue itself has
   double flat_height = 0;           ///< of the blade behind its edge, length unit; 0: the flat touches nothing
 };
 
-/// A grip on the tissue: a hook, a pair of forceps. It takes hold, where it first appears, of all vertices within
-/// `radius` of where it is, and lets go where it appears no more.
+/// A grip on the tissue: a hook, a pair of forceps. In the first frame that names it, it takes hold of all vertices
+/// within `radius` of its position; in the first frame that does not, it lets go.
 struct Hook {
   std::uint32_t id = 0;          ///< the same from frame to frame, and once per frame
   Vec3 position = Vec3::Zero();  ///< length unit
@@ -41,10 +42,10 @@ struct Hook {
 
 /// What the hands do in one frame: everything that they hold, where it is at the end of the frame.
 struct FrameInput {
-  /// The blade. Its first frame puts it in place and cuts nothing; frame by frame it cuts on; where it is gone, the
-  /// stroke has ended. All poses of a stroke have the same number of points.
+  /// The blade. Its first frame puts it in place and cuts nothing; each frame after that cuts on; the first frame
+  /// without it ends the stroke. All poses of a stroke have the same number of points.
   std::optional<BladePose> blade;
-  std::vector<Hook> hooks;
+  std::vector<Hook> hooks;  ///< what grips the tissue in this frame
   std::vector<Tool> tools;  ///< what presses on the surface in this frame, tables and walls included
 };
 
@@ -61,12 +62,12 @@ struct BladeState {
 
 /// What one frame did.
 struct FrameReport {
-  CutStatistics cut;
-  MaintainStatistics maintain;
-  StageTimes times;      ///< relax: solver and following; the others as the engine has them
-  double follow_ms = 0;  ///< of `times`' relax: what it took the solver to follow the mesh
-  AdvanceReport relax;
-  BladeState blade;
+  CutStatistics cut;              ///< what the blade did
+  MaintainStatistics maintain;    ///< what maintenance did
+  StageTimes times;               ///< relax: solver and following; the others as the engine has them
+  double follow_ms = 0;           ///< of `times`' relax: what it took the solver to follow the mesh
+  AdvanceReport relax;            ///< what relaxation did
+  BladeState blade;               ///< forces and work at the edge
   std::vector<Vec3> hook_forces;  ///< of the tissue on each hook of the input, N
   std::uint32_t stroke = 0;       ///< the stroke under way, of this simulation's from 1; 0: none
   std::size_t contacts = 0;       ///< vertices that tools touch
@@ -93,21 +94,27 @@ class Simulation {
   /// stroke ends there. Cost: the relaxation's, plus O(tets that the blade touches), plus O(vertices), about 5 ns each.
   Result<FrameReport> frame(const FrameInput& input);
 
-  /// Lets the body come to rest under gravity and its holds, before anything is done to it: frames without input and
-  /// with velocities halved, until nothing moves faster than `speed` m/s, at most `max_frames`. Returns the frames.
+  /// Lets the body come to rest under gravity and its holds, before anything is done to it: makes frames without input,
+  /// with velocities halved, until nothing moves faster than `speed` m/s, at most `max_frames` of them. Returns how
+  /// many frames it made.
   Result<unsigned> settle(unsigned max_frames, double speed = 1e-4);
 
   /// Takes the last stroke back, with its maintenance; a stroke under way as well. The tissue stays where it stands.
   /// Returns false where there is none.
   bool undo();
+  /// Applies the stroke that was last taken back. Returns false where there is none.
   bool redo();
   /// Keeps no more than the last `operations` strokes for undo; see `Engine::keep_undo`. The body and the blade follow
   /// each frame and lose nothing. Errors: kBadArgument for 0.
   Status keep_undo(std::size_t operations);
 
+  /// As given to `create`.
   [[nodiscard]] const SimulationOptions& options() const;
+  /// The engine, to read: journal, strokes.
   [[nodiscard]] const Engine& engine() const;
+  /// The mesh as it stands after the last frame.
   [[nodiscard]] const TetMesh& mesh() const;
+  /// The body: masses, velocities, energies.
   [[nodiscard]] const DeformableBody& body() const;
   /// To hold and release vertices; follow the journal by `frame` alone.
   [[nodiscard]] DeformableBody& body();

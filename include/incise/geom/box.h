@@ -14,6 +14,7 @@ struct Box {
   Vec3 lo = Vec3::Constant(std::numeric_limits<double>::infinity());   ///< least corner
   Vec3 hi = Vec3::Constant(-std::numeric_limits<double>::infinity());  ///< greatest corner
 
+  /// Whether no point lies in it.
   [[nodiscard]] bool is_empty() const { return !(lo.x() <= hi.x() && lo.y() <= hi.y() && lo.z() <= hi.z()); }
 
   /// Grows to hold a point.

@@ -29,8 +29,8 @@ double longest_edge_over_inradius(const Vec3& a, const Vec3& b, const Vec3& c, c
 
 /// Cosines of the least and the greatest dihedral angle: `of_least` >= `of_greatest`.
 struct DihedralCosines {
-  double of_least;
-  double of_greatest;
+  double of_least;     ///< near 1 where an angle is near 0
+  double of_greatest;  ///< near -1 where an angle is near 180°
 };
 
 /// Finds the extreme dihedral angles without libm; compare cosines instead of angles.
@@ -41,8 +41,8 @@ DihedralCosines dihedral_cosines(const Vec3& a, const Vec3& b, const Vec3& c, co
 
 /// Least and greatest dihedral angle in degrees; for reports.
 struct DihedralExtremes {
-  double least;
-  double greatest;
+  double least;     ///< degree
+  double greatest;  ///< degree
 };
 
 /// Finds the extreme dihedral angles in degrees: 70.529 both for the regular tet. For reports: uses acos.

@@ -18,6 +18,7 @@ inline namespace v0 {
 /// and equal answers, in equal order, on every target.
 class TriangleTree {
  public:
+  /// Indices of three points.
   using Triangle = std::array<std::uint32_t, 3>;
 
   /// The answer to `closest`.
@@ -40,6 +41,7 @@ class TriangleTree {
   /// Cost: O(n log n), about 0.5 µs per triangle at 100 000; about 140 bytes each. The arguments are not kept.
   TriangleTree(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles);
 
+  /// The number of triangles.
   [[nodiscard]] std::size_t size() const { return leaves_.size(); }
   /// The box of all triangles; empty where there is none.
   [[nodiscard]] Box bounds() const { return nodes_.empty() ? Box() : nodes_.front().box; }

@@ -16,7 +16,7 @@ namespace image {
 
 /// A segmented scan as its file has it, placed in RAS millimetres.
 struct ImageFile {
-  LabelImage image;
+  LabelImage image;                ///< labels, and where the voxels lie
   std::string format_name;         ///< for people, for instance "NIfTI-1, 16-bit integers, gzipped"
   std::string placed_by;           ///< what said where the voxels lie, for instance "sform" or "space directions, LPS"
   std::vector<std::string> notes;  ///< what was missing or left out, in words

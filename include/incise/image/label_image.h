@@ -26,9 +26,11 @@ struct LabelImage {
   std::vector<std::uint16_t> voxels;  ///< `size[0]·size[1]·size[2]`, i fastest: indices into `labels`
   std::vector<std::int32_t> labels;   ///< rising; at most `kMostLabels`
 
+  /// Where voxel (i, j, k) stands in `voxels`; each below its `size`.
   [[nodiscard]] std::size_t index(std::size_t i, std::size_t j, std::size_t k) const {
     return (k * size[1] + j) * size[0] + i;
   }
+  /// The label of voxel (i, j, k).
   [[nodiscard]] std::int32_t label(std::size_t i, std::size_t j, std::size_t k) const {
     return labels[voxels[index(i, j, k)]];
   }

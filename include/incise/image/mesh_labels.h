@@ -19,7 +19,7 @@ namespace image {
 struct MeshLabelsOptions {
   double size = 0;          ///< edge of the lattice's cubes at interfaces, mm, above 0; tets have edges of about that
   double smooth = 0.7;      ///< standard deviation of the smoothing of interfaces, voxels, in [0.4, 10]
-  double grade = 0.5;       ///< edges grow by so much per mm away from interfaces, in [0, 10]; 0: not at all
+  double grade = 0.5;       ///< growth of edges per mm of distance from interfaces, in [0, 10]; 0: none
   int most_halvings = 2;    ///< of `size` where a label is thinner than three spacings, in [0, 4]; never below a voxel
   double least_island = 0;  ///< islands of less volume join what is around them, mm³; 0: an eighth of size³
   bool improve = true;      ///< maintain the mesh at the end, see `Maintainer`
@@ -31,11 +31,11 @@ struct MeshLabelsOptions {
 
 /// What became of a label.
 struct LabelOutcome {
-  std::int32_t label = 0;
+  std::int32_t label = 0;    ///< as in the image
   std::uint64_t voxels = 0;  ///< that were to be meshed, after islands were joined
   double image_volume = 0;   ///< of these, or as told, mm³
-  std::uint64_t tets = 0;
-  double volume = 0;  ///< of these, mm³
+  std::uint64_t tets = 0;    ///< of this label
+  double volume = 0;         ///< of these, mm³
 };
 
 /// Tets of a label image.
@@ -44,9 +44,9 @@ struct LabelMesh {
   std::vector<LabelOutcome> labels;   ///< of all labels but 0, rising
   std::uint64_t island_voxels = 0;    ///< that were given to what was around them
   std::uint64_t relabelled_tets = 0;  ///< so that no label touches itself in an edge or a point alone
-  std::uint64_t pinched_points = 0;   ///< where that could not be had; 0 but for images finer than the lattice
+  std::uint64_t pinched_points = 0;   ///< where that could not be had; 0 except for images finer than the lattice
   double finest_size = 0;             ///< edge of the smallest cubes, mm
-  MaintainStatistics maintain;
+  MaintainStatistics maintain;        ///< what maintenance did at the end
 };
 
 /// Makes tets of all labels but 0 of a segmented scan: conforming where labels meet, without gaps between them.

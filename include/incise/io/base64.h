@@ -14,6 +14,7 @@ namespace io {
 /// Reads bytes in order from raw or base64 text; streams that are padded and then go on are joined.
 class ByteSource {
  public:
+  /// `text` as the file has it; `base64`: encoded, else raw bytes.
   ByteSource(std::string_view text, bool base64) : text_(text), base64_(base64) {}
 
   /// An upper bound of the bytes that are left.

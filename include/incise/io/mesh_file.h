@@ -31,10 +31,10 @@ enum class Format : std::uint8_t {
 
 /// A mesh as its file has it: nothing is reordered, turned, merged or dropped.
 struct MeshFile {
-  Format format = Format::kMedit;
-  std::string format_name;  ///< for people, for instance "Gmsh MSH 2.2 ASCII"
-  bool gzipped = false;
-  MeshData data;
+  Format format = Format::kMedit;        ///< the family
+  std::string format_name;               ///< for people, for instance "Gmsh MSH 2.2 ASCII"
+  bool gzipped = false;                  ///< the file was compressed
+  MeshData data;                         ///< points, tets, triangles and labels
   bool ten_node = false;                 ///< tets had mid-edge nodes: their four corners are in `data`
   std::vector<std::uint32_t> mid_nodes;  ///< rising: points that are only mid-edge nodes of tets
   std::size_t file_vertices = 0;         ///< vertices in the file, mid-edge nodes included
@@ -104,7 +104,7 @@ inline constexpr const char* kFormatNames = "mesh, msh41, msh41-binary, msh22, v
 [[nodiscard]] Status write_mesh(const std::filesystem::path& path, const MeshData& data,
                                 const WriteOptions& options = {});
 
-/// The files that `write_mesh` makes: the path itself, but for TetGen's pair. Cost: O(1).
+/// The files that `write_mesh` makes: the path itself, except for TetGen's pair. Cost: O(1).
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path,
                                                             const WriteOptions& options = {});
 

@@ -17,18 +17,18 @@ namespace io {
 
 /// What a mesh file is, without its arrays.
 struct MeshSource {
-  std::string file;
-  std::string format;          ///< for people, for instance "Gmsh MSH 2.2 ASCII", with "gzipped" where it is
-  std::uint64_t vertices = 0;  ///< of the file, mid-edge nodes included
-  std::uint64_t tets = 0;      ///< of the file
-  bool ten_node = false;
+  std::string file;                ///< its path, as given
+  std::string format;              ///< for people, for instance "Gmsh MSH 2.2 ASCII", with "gzipped" where it is
+  std::uint64_t vertices = 0;      ///< of the file, mid-edge nodes included
+  std::uint64_t tets = 0;          ///< of the file
+  bool ten_node = false;           ///< tets had mid-edge nodes
   std::vector<std::string> notes;  ///< what was turned, dropped or left out, in words
 };
 
 /// A mesh made fit for cutting.
 struct LoadedMesh {
-  MeshSource source;
-  TetMesh mesh;
+  MeshSource source;                       ///< where it comes from, and what was mended
+  TetMesh mesh;                            ///< valid except for the defects that the file has
   std::vector<std::uint32_t> file_vertex;  ///< the file's number of each mesh vertex; empty where they are equal, or
                                            ///< where the file itself names the vertices before its cuts
 };

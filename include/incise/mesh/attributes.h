@@ -33,9 +33,11 @@ enum class Transfer : std::uint8_t {
   kRecompute,
 };
 
+/// What an attribute belongs to.
 enum class Domain : std::uint8_t { kVertex, kTet };
 
 struct AttributeTag;
+/// An attribute, in the order of `Attributes::add`.
 using AttributeId = Id<AttributeTag>;
 
 /// Computes the value of one element: the slot of a vertex or tet, and where to put its `width` numbers.
@@ -44,12 +46,12 @@ using Recompute = std::function<void(const TetMesh& mesh, std::uint32_t slot, st
 
 /// What an attribute is, for `Attributes::add`.
 struct AttributeSpec {
-  std::string name;  ///< unique, not empty
-  Domain domain = Domain::kVertex;
-  std::uint32_t width = 1;  ///< numbers per element, 1 to 64
-  Transfer transfer = Transfer::kInterpolate;
-  Recompute recompute = {};          ///< for kRecompute, and only there
-  std::vector<double> initial = {};  ///< `width` numbers that every element starts with; empty: zeros
+  std::string name;                            ///< unique, not empty
+  Domain domain = Domain::kVertex;             ///< vertices or tets
+  std::uint32_t width = 1;                     ///< numbers per element, 1 to 64
+  Transfer transfer = Transfer::kInterpolate;  ///< how it follows edits
+  Recompute recompute = {};                    ///< for kRecompute, and only there
+  std::vector<double> initial = {};            ///< `width` numbers that every element starts with; empty: zeros
 };
 
 /// Values that users and solvers attach to vertices or tets, and that follow the mesh through its journal alone.
@@ -88,14 +90,17 @@ class Attributes {
   /// this call revives get the initial value. Cost: O(n).
   Result<AttributeId> add(const TetMesh& mesh, AttributeSpec spec);
 
+  /// The number of attributes.
   [[nodiscard]] std::size_t size() const { return attributes_.size(); }
   /// The attribute with a name; invalid where there is none.
   [[nodiscard]] AttributeId find(const std::string& name) const;
+  /// As given to `add`.
   [[nodiscard]] const AttributeSpec& spec(AttributeId id) const { return attributes_[id.value].spec; }
   /// The values, indexed by slot · width + component. Valid until the next `follow` or `add`.
   [[nodiscard]] std::span<double> values(AttributeId id) {
     return {attributes_[id.value].values.data(), attributes_[id.value].values.size()};
   }
+  /// The same, to read.
   [[nodiscard]] std::span<const double> values(AttributeId id) const {
     return {attributes_[id.value].values.data(), attributes_[id.value].values.size()};
   }

@@ -11,11 +11,11 @@ inline namespace v0 {
 
 /// The plan of merging a vertex into a neighbour: the edge between them and the tets around it vanish.
 struct CollapsePlan {
-  Refusal refusal = Refusal::kNone;
-  VertexId from, into;
-  std::vector<TetId> ring;    ///< the tets around the edge: they vanish
-  std::vector<TetId> fan;     ///< the other tets of `from`: they get `into` in its place
-  std::vector<TetId> around;  ///< the star of `into`, the ring included
+  Refusal refusal = Refusal::kNone;  ///< why not; kNone: it may be applied
+  VertexId from, into;               ///< the vertex that vanishes, and the one that it merges into
+  std::vector<TetId> ring;           ///< the tets around the edge: they vanish
+  std::vector<TetId> fan;            ///< the other tets of `from`: they get `into` in its place
+  std::vector<TetId> around;         ///< the star of `into`, the ring included
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };

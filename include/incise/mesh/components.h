@@ -16,7 +16,7 @@ struct Components {
   std::vector<std::uint64_t> tet_count;  ///< `n_pieces`: live tets
   std::vector<double> volume;            ///< `n_pieces`: rest volume, cubed length units
 
-  [[nodiscard]] std::size_t count() const { return tet_count.size(); }
+  [[nodiscard]] std::size_t count() const { return tet_count.size(); }  ///< pieces
 };
 
 /// Finds the pieces that tets form through shared faces; tets that only touch at edges or vertices lie apart.

@@ -24,6 +24,7 @@ enum class DefectKind : std::uint8_t {
   kSingletonVertices,
 };
 
+/// The number of kinds.
 inline constexpr std::size_t kDefectKinds = 8;
 
 /// How many examples of each defect are kept for messages.

@@ -18,8 +18,9 @@ inline namespace v0 {
 // after. Followers that carry state from tet to tet apply the edits one by one, instead of born, moved, consumed,
 // produced and rewired; those that rebuild what changed take the lists, which give the net effect.
 
+/// A vertex that is new: where it came from, so that followers can interpolate.
 struct BornVertex {
-  VertexId id;
+  VertexId id;                      ///< its slot
   std::array<VertexId, 4> parents;  ///< unused entries are invalid
   std::array<double, 4> weights;    ///< sum to 1 over the valid parents
   Vec3 rest, current;               ///< at birth, bit for bit
@@ -27,47 +28,51 @@ struct BornVertex {
 
 /// A vertex that now stands for another material point: values that live in the material must be sampled there.
 struct MovedVertex {
-  VertexId id;
+  VertexId id;                    ///< its slot
   std::array<VertexId, 4> basis;  ///< the tet that holds (or is nearest to) the new place before the move
   std::array<double, 4> weights;  ///< barycentric coordinates of the new place in it; sum to 1, may be negative
-  Vec3 old_rest, rest, old_current, current;
+  Vec3 old_rest, rest, old_current, current;  ///< its places before and after, in the mesh's length unit
 };
 
+/// A vertex that is the twin of another one.
 struct CopiedVertex {
   VertexId id, source;  ///< the copy starts with the source's positions as they are after this step's moves
 };
 
+/// A tet that is gone.
 struct ConsumedTet {
-  TetId id;
-  TetVertices vertices;
+  TetId id;              ///< its slot, free after the step
+  TetVertices vertices;  ///< as they were
 };
 
+/// A tet that is new.
 struct ProducedTet {
-  TetId id;
-  TetId parent;  ///< the consumed tet that it lies in; of several, as at a front, the one that holds its middle
-  TetVertices vertices;
-  std::int32_t region;
+  TetId id;              ///< its slot
+  TetId parent;          ///< the consumed tet that it lies in; of several, as at a front, the one that holds its middle
+  TetVertices vertices;  ///< positive in this order
+  std::int32_t region;   ///< label, its parent's
 };
 
 /// A tet that lives on with other vertices: copies took the place of their sources.
 struct RewiredTet {
-  TetId id;
-  TetVertices old_vertices, vertices;
+  TetId id;                            ///< its slot
+  TetVertices old_vertices, vertices;  ///< before and after
 };
 
 /// A face that the step turned into two boundary sides.
 struct OpenedFace {
-  Side a, b;
+  Side a, b;          ///< of the two tets, each as its own tet sees it
   std::uint32_t tag;  ///< stroke number, as in `Link::tag`
 };
 
 /// One of the changes that a step of maintenance made, one after the other.
 struct Edit {
+  /// What an edit does.
   enum class Kind : std::uint8_t {
     kMove,    ///< a vertex moved: `moved[vertex]`; the tets around it keep their vertices
     kRemesh,  ///< the tets of a cavity gave way to others that fill the same space
   };
-  Kind kind = Kind::kMove;
+  Kind kind = Kind::kMove;               ///< which of the two
   std::uint32_t vertex = kInvalidIndex;  ///< kMove: index into `moved`; kRemesh: into `born` where one was put in
   /// kRemesh: one past its last tet in `edit_consumed` and `edit_produced`; the first one follows the edit before. A
   /// tet that lives on with another vertex stands in both.
@@ -76,27 +81,27 @@ struct Edit {
 
 /// A tet slot as it was.
 struct TetImage {
-  TetId id;
-  TetVertices vertices;
-  TetLinks links;
-  std::int32_t region;
+  TetId id;              ///< the slot
+  TetVertices vertices;  ///< the first is invalid where the slot was free
+  TetLinks links;        ///< what lay behind its sides
+  std::int32_t region;   ///< label
 };
 
 /// A vertex slot as it was.
 struct VertexImage {
-  VertexId id;
-  Vec3 rest, current;
-  TetId tet;
-  VertexId origin;
-  std::uint8_t shape;
+  VertexId id;         ///< the slot
+  Vec3 rest, current;  ///< places, in the mesh's length unit
+  TetId tet;           ///< one of its tets
+  VertexId origin;     ///< as `TetMesh::origin`
+  std::uint8_t shape;  ///< bits of `shape`
 };
 
 /// All slots that a step touched, as they stand on one side of it, with the free lists above their common part.
 struct StepImage {
-  std::vector<TetImage> tets;
-  std::vector<VertexImage> vertices;
-  std::vector<std::uint32_t> free_tets, free_vertices;
-  std::uint32_t tet_slots = 0, vertex_slots = 0;
+  std::vector<TetImage> tets;                           ///< touched slots
+  std::vector<VertexImage> vertices;                    ///< touched slots
+  std::vector<std::uint32_t> free_tets, free_vertices;  ///< the free lists above their common part
+  std::uint32_t tet_slots = 0, vertex_slots = 0;        ///< one past the highest slot in use
 };
 
 /// One committed step: the net effect of a transaction, with what is needed to invert it.
@@ -105,25 +110,26 @@ struct Step {
   /// ever gets it: a follower knows steps by it.
   std::uint64_t serial = 0;
 
-  std::vector<BornVertex> born;
-  std::vector<MovedVertex> moved;
-  std::vector<CopiedVertex> copied;
-  std::vector<ConsumedTet> consumed;
-  std::vector<ProducedTet> produced;
-  std::vector<RewiredTet> rewired;
-  std::vector<OpenedFace> opened;
-  std::vector<OpenedFace> closed;  ///< walls that are none any more, by the tet that lives on; `b` is what is behind
-  std::vector<VertexId> died;
+  std::vector<BornVertex> born;       ///< new vertices
+  std::vector<MovedVertex> moved;     ///< vertices that are other material points now
+  std::vector<CopiedVertex> copied;   ///< twins
+  std::vector<ConsumedTet> consumed;  ///< tets that are gone
+  std::vector<ProducedTet> produced;  ///< new tets
+  std::vector<RewiredTet> rewired;    ///< tets that live on with other vertices
+  std::vector<OpenedFace> opened;     ///< faces that are two boundary sides now
+  std::vector<OpenedFace> closed;     ///< walls that are none any more, by the tet that lives on; `b` is what is behind
+  std::vector<VertexId> died;         ///< vertices that are gone, those born in this step included
 
-  std::vector<Edit> edits;  ///< empty where the lists above tell the whole order
-  std::vector<ConsumedTet> edit_consumed;
+  std::vector<Edit> edits;                 ///< empty where the lists above tell the whole order
+  std::vector<ConsumedTet> edit_consumed;  ///< of all edits, one after the other
   std::vector<ProducedTet> edit_produced;  ///< `parent` is a tet consumed by the same edit
 
-  StepImage before, after;  ///< `after` is filled by the first undo
-  std::size_t free_tets_common = 0, free_vertices_common = 0;
-  std::vector<TetId> new_tets;         ///< slots taken by the step
-  std::vector<VertexId> new_vertices;  ///< slots taken by the step
+  StepImage before, after;                                     ///< `after` is filled by the first undo
+  std::size_t free_tets_common = 0, free_vertices_common = 0;  ///< length of what the free lists share before and after
+  std::vector<TetId> new_tets;                                 ///< slots taken by the step
+  std::vector<VertexId> new_vertices;                          ///< slots taken by the step
 
+  /// Whether the step changed nothing.
   [[nodiscard]] bool is_empty() const { return before.tets.empty() && before.vertices.empty() && new_tets.empty(); }
 };
 
@@ -135,6 +141,8 @@ class Journal {
  public:
   /// Appends a step and gives it the next serial; steps that were undone are dropped.
   void append(Step step);
+  /// The same for a step that changed something; others are dropped. Returns whether it did.
+  bool append_if_changed(Step step);
   /// Steps applied so far.
   [[nodiscard]] std::size_t position() const { return position_; }
   /// One past the last step that is kept, undone ones included.
@@ -155,8 +163,9 @@ class Journal {
   /// Applies the next undone step again. Returns false where there is none. Cost: O(step).
   bool redo(TetMesh& mesh);
   /// Takes the steps from `position` on back and drops them, and those that were undone: for what has failed.
-  /// `position` in [`first`, `position()`]. Cost: O(steps).
-  void take_back(TetMesh& mesh, std::size_t position);
+  /// `position` in [`first`, `position()`]. Asks for no memory, so that it works where there is none left. Cost:
+  /// O(steps).
+  void take_back(TetMesh& mesh, std::size_t position) noexcept;
   /// Forgets the applied steps before `position`, at most all; their memory is free again. They can be neither undone
   /// nor followed any more. Cost: O(steps forgotten).
   void trim(std::size_t position);
@@ -164,6 +173,9 @@ class Journal {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
+  friend class Transaction;
+
+  static void revert(TetMesh& mesh, const Step& step) noexcept;
   static void restore(TetMesh& mesh, const Step& step, const StepImage& image);
   static void count_change(bool was_live, bool is_live, std::size_t& live, std::uint32_t& generation);
 

@@ -17,6 +17,7 @@ class JournalCursor {
   /// Where the journal stands.
   explicit JournalCursor(const Journal& journal) { move_to(journal); }
 
+  /// How to catch up.
   enum class Way : std::uint8_t {
     kNone,     ///< the journal stands where the follower stands
     kForward,  ///< the steps from `position` on are new: apply them

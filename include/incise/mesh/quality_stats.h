@@ -14,15 +14,15 @@ inline namespace v0 {
 /// L/r is the longest edge over the inradius: 2√6 ≈ 4.899 for a regular tet, larger is worse. Flat tets have none;
 /// they count as bad and as flat, and stay out of the other figures.
 struct QualityStats {
-  std::uint64_t tets = 0;
+  std::uint64_t tets = 0;       ///< measured, flat ones included
   std::uint64_t flat_tets = 0;  ///< |V| ≤ `kFlatTetRatio` · L³
-  double lr_min = 0;
-  double lr_mean = 0;
-  double lr_p99 = 0;  ///< nearest rank
-  double lr_max = 0;
+  double lr_min = 0;            ///< the best
+  double lr_mean = 0;           ///< arithmetic
+  double lr_p99 = 0;            ///< nearest rank
+  double lr_max = 0;            ///< the worst
   double lr_over_200_pct = 0;   ///< percent of `tets` with L/r > 200, flat ones included
   double dihedral_min_deg = 0;  ///< degree, (0, 180)
-  double dihedral_max_deg = 0;
+  double dihedral_max_deg = 0;  ///< degree, (0, 180)
 };
 
 /// Measures the live tets for which `is_counted` holds; all where it is empty.

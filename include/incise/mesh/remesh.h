@@ -10,7 +10,7 @@ inline namespace v0 {
 
 /// A tet that fills part of a cavity.
 struct NewTet {
-  TetVertices vertices;
+  TetVertices vertices;      ///< positive in this order
   std::uint32_t parent = 0;  ///< index into the consumed tets: whose material it takes
 };
 
@@ -19,11 +19,11 @@ struct NewTet {
 /// Swaps and the removal of edges are such plans. Outer faces stay, except for two boundary faces in one plane that
 /// give way to two others there.
 struct RemeshPlan {
-  Refusal refusal = Refusal::kNone;
-  std::vector<TetId> consumed;
-  std::vector<NewTet> produced;
-  std::uint32_t tag = 0;  ///< of boundary faces that are new
-  VertexId born;          ///< the vertex that was put in for it in the same transaction, if any
+  Refusal refusal = Refusal::kNone;  ///< why not; kNone: it may be applied
+  std::vector<TetId> consumed;       ///< the tets that give way
+  std::vector<NewTet> produced;      ///< the tets that take their place
+  std::uint32_t tag = 0;             ///< of boundary faces that are new
+  VertexId born;                     ///< the vertex that was put in for it in the same transaction, if any
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
@@ -43,9 +43,9 @@ RemeshPlan plan_swap_32(const TetMesh& mesh, VertexId a, VertexId b, TetId seed)
 /// The tets around an edge (a, b) in order. Tet i lies between the vertices i and i + 1; all are (a, b, i, i + 1) with
 /// positive orientation. Where the edge lies on the boundary the first and last vertex are the ends of the fan.
 struct EdgeRing {
-  std::vector<TetId> tets;
-  std::vector<VertexId> vertices;
-  bool is_closed = false;
+  std::vector<TetId> tets;         ///< n of them; n - 1 at the boundary
+  std::vector<VertexId> vertices;  ///< n of them
+  bool is_closed = false;          ///< no boundary at the edge
 };
 
 /// Walks around an edge; `seed` is any tet that contains it. Only the face-connected ring of `seed` is found; it is

@@ -51,7 +51,7 @@ class StarWalker {
     marks_[tet.value] = epoch_;
     star_.push_back(tet);
   }
-  /// Asks for the memory that the search will look at when it comes to `tet`.
+  /// Prefetches the memory that the search will read when it comes to `tet`.
   static void prefetch(const TetMesh& mesh, TetId tet) {
     __builtin_prefetch(&mesh.vertices(tet));
     __builtin_prefetch(&mesh.links(tet));

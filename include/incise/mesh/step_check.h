@@ -19,9 +19,9 @@ inline namespace v0 {
 /// Looks at the mesh as the steps from `first_step` on left it; an error has them taken back.
 using StepCheck = std::function<Status(const TetMesh& mesh, const Journal& journal, std::size_t first_step)>;
 
-/// Checks the validity contract where steps touched the mesh: what `validate` asks for on its level kGeometry, but for
-/// live counts, duplicate tets and the total volume. It asks this of the touched tets and vertices, of the corners of
-/// these tets, and the sign of the volume of tets at moved vertices.
+/// Checks the validity contract where steps touched the mesh: what `validate` asks for on its level kGeometry, except
+/// for live counts, duplicate tets and the total volume. It asks this of the touched tets and vertices, of the corners
+/// of these tets, and the sign of the volume of tets at moved vertices.
 ///
 /// The input's own defects are passed over: tets that were flat at load, and, where the input touched itself, what is
 /// asked of edges and of whole stars. A `StepCheck`; a copy has scratch of its own. Not thread-safe.
@@ -33,6 +33,7 @@ class TouchedCheck {
   };
 
  public:
+  /// Looks at what the steps from `first_step` on touched.
   Status operator()(const TetMesh& mesh, const Journal& journal, std::size_t first_step);
 
  private:

@@ -20,9 +20,10 @@ struct Side {
   std::uint32_t value = kInvalidIndex;  ///< tet slot · 4 + side
 
   constexpr Side() = default;
+  /// Side `side`, in [0, 3], of a tet.
   constexpr Side(TetId tet, unsigned side) : value(tet.value * 4 + side) {}
-  [[nodiscard]] constexpr TetId tet() const { return TetId(value >> 2U); }
-  [[nodiscard]] constexpr unsigned side() const { return value & 3U; }
+  [[nodiscard]] constexpr TetId tet() const { return TetId(value >> 2U); }  ///< the tet that sees it
+  [[nodiscard]] constexpr unsigned side() const { return value & 3U; }      ///< in [0, 3]: the corner opposite
   friend constexpr bool operator==(Side a, Side b) { return a.value == b.value; }
   friend constexpr bool operator!=(Side a, Side b) { return a.value != b.value; }
   friend constexpr bool operator<(Side a, Side b) { return a.value < b.value; }
@@ -30,8 +31,8 @@ struct Side {
 
 /// What lies behind a side of a tet: the matching side of its neighbour, or the boundary with a tag.
 struct Link {
-  static constexpr std::uint32_t kBoundaryBit = 0x80000000U;
-  std::uint32_t value = kBoundaryBit;
+  static constexpr std::uint32_t kBoundaryBit = 0x80000000U;  ///< set: boundary
+  std::uint32_t value = kBoundaryBit;                         ///< the neighbour's `Side`, or the bit and a tag
 
   constexpr Link() = default;
   /// The other tet's view of the shared face.
@@ -42,8 +43,9 @@ struct Link {
     link.value = kBoundaryBit | tag;
     return link;
   }
-  [[nodiscard]] constexpr bool is_boundary() const { return (value & kBoundaryBit) != 0; }
-  [[nodiscard]] constexpr std::uint32_t tag() const { return value & ~kBoundaryBit; }
+  [[nodiscard]] constexpr bool is_boundary() const { return (value & kBoundaryBit) != 0; }  ///< no tet behind
+  [[nodiscard]] constexpr std::uint32_t tag() const { return value & ~kBoundaryBit; }       ///< of a boundary alone
+  /// The same face as the neighbour sees it; only where it is no boundary.
   [[nodiscard]] constexpr Side side() const {
     Side other;
     other.value = value;
@@ -53,7 +55,9 @@ struct Link {
   friend constexpr bool operator!=(Link a, Link b) { return a.value != b.value; }
 };
 
+/// The corners of a tet, in the order of `tet_tables.h`; positive: (1-0)×(2-0)·(3-0) > 0.
 using TetVertices = std::array<VertexId, 4>;
+/// What lies behind the sides of a tet; side s is opposite corner s.
 using TetLinks = std::array<Link, 4>;
 
 /// What a vertex is part of: one bit mask that snapping, collapse, flips and smoothing read alike.
@@ -68,16 +72,16 @@ inline constexpr std::uint8_t kDead = 128;   ///< the slot is free
 
 class Transaction;
 
-/// The arrays of a mesh by slot, free slots included: for those who hand them on without a copy.
+/// The arrays of a mesh by slot, free slots included: for bindings that pass them on without a copy.
 struct MeshArrays {
-  std::span<const TetVertices> tets;
-  std::span<const TetLinks> links;
-  std::span<const std::int32_t> regions;
-  std::span<const std::uint32_t> tet_generations;
-  std::span<const Vec3> rest, current;
-  std::span<const VertexId> origins;
-  std::span<const std::uint32_t> vertex_generations;
-  std::span<const std::uint8_t> shapes;
+  std::span<const TetVertices> tets;               ///< by tet slot; the first vertex is invalid where the slot is free
+  std::span<const TetLinks> links;                 ///< by tet slot
+  std::span<const std::int32_t> regions;           ///< by tet slot: labels
+  std::span<const std::uint32_t> tet_generations;  ///< by tet slot
+  std::span<const Vec3> rest, current;             ///< by vertex slot, length unit
+  std::span<const VertexId> origins;               ///< by vertex slot: see `TetMesh::origin`
+  std::span<const std::uint32_t> vertex_generations;  ///< by vertex slot
+  std::span<const std::uint8_t> shapes;               ///< by vertex slot: bits of `shape`
 };
 
 /// Bodies extend over lengths between these, in whatever unit, and no coordinate lies further from the origin: what is
@@ -116,22 +120,33 @@ class TetMesh {
   /// more.
   static Result<TetMesh> build(TetSoup soup);
 
+  /// Live tets.
   [[nodiscard]] std::size_t tet_count() const { return live_tets_; }
+  /// Live vertices.
   [[nodiscard]] std::size_t vertex_count() const { return live_vertices_; }
   /// One past the largest slot in use; loop over slots and skip those that are not live.
   [[nodiscard]] std::uint32_t tet_slots() const { return static_cast<std::uint32_t>(tet_vertices_.size()); }
+  /// The same of vertices.
   [[nodiscard]] std::uint32_t vertex_slots() const { return static_cast<std::uint32_t>(vertex_tet_.size()); }
 
+  /// Whether a slot holds a tet; any id may be asked for.
   [[nodiscard]] bool is_live(TetId tet) const { return tet.value < tet_slots() && tet_vertices_[tet][0].is_valid(); }
+  /// Whether a slot holds a vertex; any id may be asked for.
   [[nodiscard]] bool is_live(VertexId vertex) const {
     return vertex.value < vertex_slots() && (vertex_shape_[vertex] & shape::kDead) == 0;
   }
+  /// How often the slot was freed: who keeps an element over several steps compares it.
   [[nodiscard]] std::uint32_t generation(TetId tet) const { return tet_generation_[tet]; }
+  /// The same of a vertex slot.
   [[nodiscard]] std::uint32_t generation(VertexId vertex) const { return vertex_generation_[vertex]; }
 
+  /// The four corners, positive in this order.
   [[nodiscard]] const TetVertices& vertices(TetId tet) const { return tet_vertices_[tet]; }
+  /// What lies behind the four sides.
   [[nodiscard]] const TetLinks& links(TetId tet) const { return tet_links_[tet]; }
+  /// What lies behind one side.
   [[nodiscard]] Link link(Side side) const { return tet_links_[side.tet()][side.side()]; }
+  /// The label that the input gave the tet, or its parent.
   [[nodiscard]] std::int32_t region(TetId tet) const { return tet_region_[tet]; }
   /// Whether the input named more than one region.
   [[nodiscard]] bool has_regions() const { return has_regions_; }
@@ -158,7 +173,9 @@ class TetMesh {
   /// The input vertex that this one is, or was duplicated from; invalid where a cut made it. Where the input was cut
   /// before, a vertex of what was cut first, and no slot of this mesh.
   [[nodiscard]] VertexId origin(VertexId vertex) const { return vertex_origin_[vertex]; }
+  /// The place in the rest shape, length unit.
   [[nodiscard]] const Vec3& rest(VertexId vertex) const { return rest_[vertex]; }
+  /// Where the body stands now, length unit.
   [[nodiscard]] const Vec3& current(VertexId vertex) const { return current_[vertex]; }
   /// Puts every live vertex where `positions[slot]` says: where the body stands now. One entry per vertex slot; finite.
   /// No step of the journal: the rest shape, and with it the hash, stays. Not while a transaction is open.

@@ -30,6 +30,7 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 4> kEdgeOfCorners = {
 /// The three edges of side s, ascending.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kSideEdges = {{{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}}};
 
+/// The edge, in [0, 5], that shares no corner with this one.
 constexpr unsigned opposite_edge(unsigned edge) {
   return 5 - edge;
 }

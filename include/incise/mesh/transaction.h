@@ -18,7 +18,8 @@ inline namespace v0 {
 ///
 /// The members are the primitive edits that the verbs of `mesh/verbs.h` and the cutting kernel are made of. They keep
 /// no invariant by themselves; whoever uses them promises a valid mesh at `commit`. Before the first change of a slot
-/// its image is kept, so that `rollback` (or destruction without commit) restores the mesh bit for bit.
+/// its image is kept, so that `rollback` (or destruction without commit) restores the mesh bit for bit. An edit, or
+/// `commit`, that throws std::bad_alloc leaves a transaction that can only be rolled back.
 /// Slots freed here are not reused before the commit. One transaction at a time per mesh.
 class Transaction {
  public:
@@ -29,6 +30,7 @@ class Transaction {
   Transaction& operator=(const Transaction&) = delete;
   ~Transaction();
 
+  /// The mesh as it stands, with the edits so far.
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
 
   /// A new vertex at the given rest and current position; `parents` (1 to 4) and `weights` say where it came from.
@@ -42,7 +44,9 @@ class Transaction {
   TetId add_tet(const TetVertices& vertices, TetId parent);
   /// The same in a slot other than those of `reserved`, ascending. Cost: O(free slots) at most.
   TetId add_tet_beside(const TetVertices& vertices, TetId parent, std::span<const TetId> reserved);
+  /// Frees the slot of a tet; its neighbours' links are up to the caller.
   void remove_tet(TetId tet);
+  /// Frees the slot of a vertex, which no tet may name at `commit`.
   void remove_vertex(VertexId vertex);
   /// Puts a tet back into its slot, which must be free: all of the image but its links, which are boundary with tag 0
   /// until set. `parent` as for `add_tet`. Cost: O(slots that were freed since it was).
@@ -58,8 +62,11 @@ class Transaction {
   void join(Side a, Side b);
   /// Turns a face into two boundary sides with the tag of a stroke.
   void open(Side a, Side b, std::uint32_t tag);
+  /// Puts a vertex in place of the one at a corner, in [0, 3].
   void set_corner(TetId tet, unsigned corner, VertexId vertex);
+  /// Names the tet that `TetMesh::tet_of` gives.
   void set_tet_of(VertexId vertex, TetId tet);
+  /// Sets the bits of `shape`.
   void set_shape(VertexId vertex, std::uint8_t bits);
   /// Of a vertex made in this transaction.
   void set_origin(VertexId vertex, VertexId origin);
@@ -67,29 +74,35 @@ class Transaction {
   /// position and followers' values are sampled there. `rest` is that place, given exactly.
   void move(VertexId vertex, const Vec3& rest, const TetVertices& basis, const std::array<double, 4>& weights);
 
-  /// Lists the replacement of a cavity, where edits are kept: called before it with the tets that it consumes, after it
-  /// with those that it produced, their parents and the vertex that it put in, if any.
+  /// Records that a cavity is filled anew, where edits are kept: call it before with the tets that are consumed, and
+  /// `note_produced` after with those that were produced, their parents and the vertex that was put in, if any.
   void note_consumed(std::span<const TetId> tets);
+  /// The second half: `parents`, one per produced tet, are among the consumed ones.
   void note_produced(std::span<const TetId> tets, std::span<const TetId> parents, VertexId born = {});
 
   /// How much a transaction has changed so far.
   struct Sizes {
-    std::size_t old_tets = 0, new_tets = 0, removed_tets = 0, old_vertices = 0, new_vertices = 0, born = 0, opened = 0;
+    std::size_t old_tets = 0, new_tets = 0, removed_tets = 0;  ///< tets touched, made, freed
+    std::size_t old_vertices = 0, new_vertices = 0;            ///< vertices touched, made
+    std::size_t born = 0, opened = 0;                          ///< records of births, and of opened faces
   };
+  /// What it has changed so far.
   [[nodiscard]] Sizes sizes() const;
-  /// Makes room for changes in one go: those of a transaction like it.
+  /// Allocates at once what a transaction of these sizes will need.
   void reserve(const Sizes& sizes);
 
   /// Slots taken so far.
   [[nodiscard]] const std::vector<TetId>& new_tets() const { return step_.new_tets; }
+  /// The same of vertices.
   [[nodiscard]] const std::vector<VertexId>& new_vertices() const { return step_.new_vertices; }
   /// The tet, dead or alive, that a new tet takes its material from, down to a tet that lived before the transaction.
   [[nodiscard]] TetId root_parent(TetId tet) const;
 
   /// Makes the edits permanent and returns them. Cost: O(edits).
   Step commit();
-  /// Restores the mesh as it was at construction.
-  void rollback();
+  /// Restores the mesh as it was at construction, also after an edit that ran out of memory. Asks for none itself.
+  /// Cost: O(edits).
+  void rollback() noexcept;
 
  private:
   void touch(TetId tet);
@@ -101,8 +114,11 @@ class Transaction {
   void record_closed();
   void release_slots();
   void clear_marks();
+  void close() noexcept;
   std::uint32_t take_tet_slot();
   std::uint32_t take_vertex_slot();
+  static std::uint32_t pop_free_slot(GrowArray<std::uint32_t>& free, std::size_t& common,
+                                     std::vector<std::uint32_t>& before);
   static void take_free_slot(std::uint32_t slot, GrowArray<std::uint32_t>& free, std::size_t& common,
                              std::vector<std::uint32_t>& before);
   void fill_tet(TetId id, const TetVertices& vertices, TetId parent);

@@ -40,30 +40,35 @@ enum class ViolationKind : std::uint8_t {
   kVolumeDrift,         ///< total rest volume differs from the expected one
 };
 
+/// The number of kinds.
 inline constexpr std::size_t kViolationKinds = 16;
 
 /// The name of a kind in reports, for instance "nonmanifold_cut_edge".
 [[nodiscard]] std::string_view name_of(ViolationKind kind);
 
+/// One place where the contract is broken.
 struct Violation {
-  ViolationKind kind = ViolationKind::kCount;
-  std::array<std::uint64_t, 2> ids{};  ///< slots, meaning by kind; unused ones are 0
+  ViolationKind kind = ViolationKind::kCount;  ///< in which way
+  std::array<std::uint64_t, 2> ids{};          ///< slots, meaning by kind; unused ones are 0
 };
 
+/// What `validate` lists and compares.
 struct ValidateOptions {
   std::size_t max_listed = 16;      ///< violations kept with ids, over all kinds
   double expected_volume = 0;       ///< cubed length units; compared where > 0
   double volume_tolerance = 1e-12;  ///< relative; the validity contract's
 };
 
+/// What `validate` found.
 struct ValidityReport {
-  bool ok = true;  ///< no violation at all, the input's own included
-  ValidateLevel level = ValidateLevel::kCounts;
+  bool ok = true;                                       ///< no violation at all, the input's own included
+  ValidateLevel level = ValidateLevel::kCounts;         ///< as asked for
   std::array<std::uint64_t, kViolationKinds> counts{};  ///< by `ViolationKind`
   std::vector<Violation> first;                         ///< the first `max_listed`, in order of discovery
   double volume = 0;                                    ///< total rest volume, where the level is kGeometry
   double volume_error = 0;                              ///< relative to the expected one, 0 where none was given
 
+  /// Violations of one kind.
   [[nodiscard]] std::uint64_t count(ViolationKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
 };
 

@@ -23,15 +23,15 @@ enum class Refusal : std::uint8_t {
 
 /// One tet that a split replaces, with its two halves.
 struct SplitHalves {
-  TetId tet, keeps_a, keeps_b;
+  TetId tet, keeps_a, keeps_b;  ///< the tet before, and the halves with the end a and with the end b
 };
 
 /// The plan of splitting the edge (a, b) at (1-t)·a + t·b.
 struct SplitEdgePlan {
-  Refusal refusal = Refusal::kNone;
-  VertexId a, b;
-  double t = 0.5;
-  std::vector<TetId> ring;  ///< the tets around the edge
+  Refusal refusal = Refusal::kNone;  ///< why not; kNone: it may be applied
+  VertexId a, b;                     ///< the edge's ends
+  double t = 0.5;                    ///< from a to b, in (0, 1)
+  std::vector<TetId> ring;           ///< the tets around the edge
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
@@ -41,8 +41,9 @@ struct SplitEdgePlan {
 /// the other fan keeps the whole edge and must be split likewise. Cost: O(ring).
 SplitEdgePlan plan_split_edge(const TetMesh& mesh, VertexId a, VertexId b, TetId seed, double t);
 
+/// What splitting an edge made.
 struct SplitEdgeResult {
-  VertexId vertex;
+  VertexId vertex;                  ///< the new vertex
   std::vector<SplitHalves> halves;  ///< in the order of the plan's ring; corner numbers are those of the split tet
 };
 
@@ -51,9 +52,9 @@ SplitEdgeResult apply(Transaction& transaction, const SplitEdgePlan& plan);
 
 /// The plan of giving a group of tets around a vertex a copy of its own.
 struct DuplicateVertexPlan {
-  Refusal refusal = Refusal::kNone;
-  VertexId vertex;
-  std::vector<TetId> group;  ///< the tets that get the copy
+  Refusal refusal = Refusal::kNone;  ///< why not; kNone: it may be applied
+  VertexId vertex;                   ///< the vertex to be copied
+  std::vector<TetId> group;          ///< the tets that get the copy
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
@@ -68,10 +69,10 @@ VertexId apply(Transaction& transaction, const DuplicateVertexPlan& plan, std::u
 
 /// The plan of putting a vertex into a face.
 struct SplitFacePlan {
-  Refusal refusal = Refusal::kNone;
-  Side face;                        ///< as one of its tets sees it
-  std::array<double, 3> weights{};  ///< of the vertices of `face`, in the order of `TetMesh::vertices(Side)`
-  Vec3 rest = Vec3::Zero(), current = Vec3::Zero();
+  Refusal refusal = Refusal::kNone;  ///< why not; kNone: it may be applied
+  Side face;                         ///< as one of its tets sees it
+  std::array<double, 3> weights{};   ///< of the vertices of `face`, in the order of `TetMesh::vertices(Side)`
+  Vec3 rest = Vec3::Zero(), current = Vec3::Zero();  ///< of the new vertex, length unit
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
@@ -82,12 +83,13 @@ SplitFacePlan plan_split_face(const TetMesh& mesh, Side face, const std::array<d
 
 /// One tet that a split replaces. Child c is the tet with the new vertex in place of its corner c; corner numbers stay.
 struct SplitParts {
-  TetId tet;
+  TetId tet;                      ///< the tet that was split
   std::array<TetId, 4> children;  ///< by corner; invalid where the split leaves no such part
 };
 
+/// What splitting a face made.
 struct SplitFaceResult {
-  VertexId vertex;
+  VertexId vertex;                  ///< the new vertex
   std::array<SplitParts, 2> parts;  ///< the plan's tet, then the one behind its face; invalid where there is none
 };
 
@@ -96,10 +98,10 @@ SplitFaceResult apply(Transaction& transaction, const SplitFacePlan& plan);
 
 /// The plan of putting a vertex into a tet.
 struct SplitTetPlan {
-  Refusal refusal = Refusal::kNone;
-  TetId tet;
-  std::array<double, 4> weights{};  ///< of its corners
-  Vec3 rest = Vec3::Zero(), current = Vec3::Zero();
+  Refusal refusal = Refusal::kNone;                  ///< why not; kNone: it may be applied
+  TetId tet;                                         ///< the tet to be split
+  std::array<double, 4> weights{};                   ///< of its corners
+  Vec3 rest = Vec3::Zero(), current = Vec3::Zero();  ///< of the new vertex, length unit
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
@@ -107,9 +109,10 @@ struct SplitTetPlan {
 /// Plans the split of a tet into four at Σ weights · corners. `weights` as for `plan_split_face`. Cost: O(1).
 SplitTetPlan plan_split_tet(const TetMesh& mesh, TetId tet, const std::array<double, 4>& weights);
 
+/// What splitting a tet made.
 struct SplitTetResult {
-  VertexId vertex;
-  SplitParts parts;
+  VertexId vertex;   ///< the new vertex
+  SplitParts parts;  ///< the tet and its four parts
 };
 
 /// Carries a plan out; cannot fail. The vertex is interior.
@@ -117,11 +120,11 @@ SplitTetResult apply(Transaction& transaction, const SplitTetPlan& plan);
 
 /// The plan of moving a vertex.
 struct MoveVertexPlan {
-  Refusal refusal = Refusal::kNone;
-  VertexId vertex;
-  Vec3 rest = Vec3::Zero();         ///< where to, in the mesh's length unit
-  TetVertices basis;                ///< the tet of the star that holds the place, or is nearest to holding it
-  std::array<double, 4> weights{};  ///< barycentric coordinates of the place in it
+  Refusal refusal = Refusal::kNone;  ///< why not; kNone: it may be applied
+  VertexId vertex;                   ///< the vertex to be moved
+  Vec3 rest = Vec3::Zero();          ///< where to, in the mesh's length unit
+  TetVertices basis;                 ///< the tet of the star that holds the place, or is nearest to holding it
+  std::array<double, 4> weights{};   ///< barycentric coordinates of the place in it
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };

@@ -23,13 +23,14 @@ enum class Relaxation : std::uint8_t {
   kPositionBased,  ///< sequential XPBD: bounded on the worst of meshes, but too soft at few iterations
 };
 
+/// How a body is computed.
 struct BodyOptions {
-  double length_unit = 1;     ///< metres per length unit of the mesh, above 0
-  Vec3 gravity{0, 0, -9.81};  ///< m/s²
-  double damping = 0;         ///< share of the velocity lost per second, 1/s, at least 0
-  Relaxation relaxation = Relaxation::kBlockDescent;
-  unsigned substeps = 4;      ///< per `advance`, in [1, 1000]
-  unsigned iterations = 5;    ///< sweeps over all vertices per substep, in [1, 1000]
+  double length_unit = 1;                             ///< metres per length unit of the mesh, above 0
+  Vec3 gravity{0, 0, -9.81};                          ///< m/s²
+  double damping = 0;                                 ///< share of the velocity lost per second, 1/s, at least 0
+  Relaxation relaxation = Relaxation::kBlockDescent;  ///< by which method
+  unsigned substeps = 4;                              ///< per `advance`, in [1, 1000]
+  unsigned iterations = 5;                            ///< sweeps over all vertices per substep, in [1, 1000]
   double thinnest = 0.05;     ///< tets thinner than this share of their longest edge are as soft as if they were not
   double sleep_below = 1e-5;  ///< of the local edge length per `advance`: what moves less falls asleep; 0: never
   unsigned threads = 1;       ///< in [1, 256]; two are of use, and the result does not depend on them
@@ -41,20 +42,20 @@ struct BodyOptions {
 ///
 /// The point is a = Σ weights · vertices; in the mesh's length unit, as the body stands.
 struct Pull {
-  std::array<VertexId, 4> vertices{};  ///< of one tet; those without weight may be invalid
-  std::array<double, 4> weights{1, 0, 0, 0};
-  Vec3 target = Vec3::Zero();
-  Vec3 axis = Vec3::Zero();  ///< a unit vector, or zero: in all directions
-  double stiffness = 0;      ///< N/m, at least 0
-  bool pushes_only = false;  ///< with an axis: acts only where axis · (a − target) < 0
+  std::array<VertexId, 4> vertices{};         ///< of one tet; those without weight may be invalid
+  std::array<double, 4> weights{1, 0, 0, 0};  ///< barycentric, sum 1
+  Vec3 target = Vec3::Zero();                 ///< where the point is pulled to
+  Vec3 axis = Vec3::Zero();                   ///< a unit vector, or zero: in all directions
+  double stiffness = 0;                       ///< N/m, at least 0
+  bool pushes_only = false;                   ///< with an axis: acts only where axis · (a − target) < 0
   /// With an axis: N, at least 0; where the spring would pull harder it gives way, and pulls with this.
   double limit = std::numeric_limits<double>::infinity();
 };
 
 /// What following the journal changed.
 struct FollowReport {
-  std::size_t removed_tets = 0, added_tets = 0;
-  std::size_t fresh_vertices = 0;  ///< born, copied or moved
+  std::size_t removed_tets = 0, added_tets = 0;  ///< by the steps that were followed
+  std::size_t fresh_vertices = 0;                ///< born, copied or moved
 };
 
 /// What one `advance` did.
@@ -65,12 +66,12 @@ struct AdvanceReport {
 
 /// Energies in J.
 struct BodyEnergy {
-  double elastic = 0;  ///< above that of the rest shape
-  double kinetic = 0;
+  double elastic = 0;    ///< above that of the rest shape
+  double kinetic = 0;    ///< of motion
   double potential = 0;  ///< of gravity, against the origin of coordinates
   double held = 0;       ///< in the springs that hold vertices
   double pulled = 0;     ///< in the pulls, as they stand
-  [[nodiscard]] double total() const { return elastic + kinetic + potential + held + pulled; }
+  [[nodiscard]] double total() const { return elastic + kinetic + potential + held + pulled; }  ///< the sum
 };
 
 /// An elastic body that follows a tetrahedral mesh through its journal: the paper's relaxation.
@@ -93,12 +94,14 @@ class DeformableBody {
   DeformableBody& operator=(DeformableBody&&) noexcept;
   ~DeformableBody();
 
+  /// As given to `create`.
   [[nodiscard]] const BodyOptions& options() const;
+  /// As given to `create`.
   [[nodiscard]] const Materials& materials() const;
 
-  /// Catches up with the journal, forwards or backwards; `mesh` as it stands. To be called after every call of the
-  /// engine that may change the mesh. What the steps put in place is woken and brought near to balance with what
-  /// stands around it. After an undo or redo, vertices that it leaves where they are at rest stay where the body has
+  /// Catches up with the journal, forwards or backwards; `mesh` as it stands. Call it after every call of the engine
+  /// that may change the mesh. Vertices that the steps made or moved are woken, and brought close to balance with their
+  /// neighbours. After an undo or redo, vertices that it leaves where they are at rest stay where the body has
   /// them, and the others go where the body has their material, as fast as that is; these positions are to be handed on
   /// to the mesh. Errors: kBadArgument where the journal stands before `create`.
   /// Cost: O(steps), below 0.5 µs per tet consumed or produced; O(tets) after an undo.
@@ -114,12 +117,14 @@ class DeformableBody {
   /// Vertices that cuts put between rigidly held ones are held as well, copies as their sources.
   /// Errors: kBadArgument for a vertex that is not live or a stiffness below 0. Cost: O(1).
   Status hold(VertexId vertex, double stiffness);
-  /// Where a held vertex is to be. Errors: kBadArgument where it is not held.
+  /// Sets the place where a held vertex is held. Errors: kBadArgument where it is not held.
   Status move_hold(VertexId vertex, const Vec3& target);
+  /// Whether a vertex is held, rigidly or by a spring.
   [[nodiscard]] bool is_held(VertexId vertex) const;
   /// Replaces all pulls. Vertices in them are kept awake. Errors: kBadArgument names the first malformed pull; then
   /// nothing changes. Cost: O(pulls).
   Status set_pulls(std::vector<Pull> pulls);
+  /// As set last; those whose vertices died pull no more.
   [[nodiscard]] const std::vector<Pull>& pulls() const;
   /// The force of a pull on the tissue as it stands, N.
   [[nodiscard]] Vec3 pull_force(std::size_t index) const;
@@ -130,13 +135,13 @@ class DeformableBody {
 
   /// The places of all vertex slots, for `Engine::set_positions`. Valid until the next call that changes the body.
   [[nodiscard]] std::span<const Vec3> positions() const;
-  /// Puts a vertex somewhere else, at rest. Errors: kBadArgument where it is not live, or not finite.
+  /// Puts a vertex at another place, without velocity. Errors: kBadArgument where it is not live, or not finite.
   Status place(VertexId vertex, const Vec3& position);
   [[nodiscard]] Vec3 velocity(VertexId vertex) const;  ///< m/s
   /// Gives a vertex a velocity, m/s, and wakes it; none to one that is held rigidly. Errors: kBadArgument where it is
   /// not live, or not finite.
   Status set_velocity(VertexId vertex, const Vec3& velocity);
-  /// Multiplies all velocities by `factor`, in [0, 1]: what comes to rest in a hurry.
+  /// Multiplies all velocities by `factor`, in [0, 1], so that the body comes to rest sooner.
   void slow_down(double factor);
   [[nodiscard]] double mass(VertexId vertex) const;  ///< kg
   [[nodiscard]] double mass() const;                 ///< kg
@@ -149,7 +154,9 @@ class DeformableBody {
   [[nodiscard]] Mat3 local_stiffness(VertexId vertex) const;
   /// Tets that are turned inside out as the body stands. Cost: O(tets).
   [[nodiscard]] std::size_t count_inverted() const;
+  /// Whether all positions and velocities are finite. Cost: O(vertices).
   [[nodiscard]] bool is_finite() const;
+  /// Vertices that are awake.
   [[nodiscard]] std::size_t active_vertices() const;
   /// Of positions, momenta and masses. Cost: O(vertices).
   [[nodiscard]] std::uint64_t hash() const;

@@ -14,20 +14,20 @@ inline namespace v0 {
 
 /// A ball that presses on the body. Lengths in the mesh's unit, radius above 0.
 struct BallTool {
-  Vec3 centre = Vec3::Zero();
-  double radius = 1;
+  Vec3 centre = Vec3::Zero();  ///< length unit
+  double radius = 1;           ///< length unit, above 0
 };
 
 /// A rod with round ends: all within `radius` of the segment between its ends.
 struct RodTool {
-  Vec3 from = Vec3::Zero(), to = Vec3::UnitX();
-  double radius = 1;
+  Vec3 from = Vec3::Zero(), to = Vec3::UnitX();  ///< its ends, length unit
+  double radius = 1;                             ///< length unit, above 0
 };
 
 /// Everything behind a plane: a table, a wall. The body stays where normal · x >= offset.
 struct PlaneTool {
   Vec3 normal = Vec3::UnitZ();  ///< unit
-  double offset = 0;
+  double offset = 0;            ///< length unit
 };
 
 /// The flat of a blade: the strip from its edge to `back` behind it. Tissue stays on the side where it is.
@@ -37,6 +37,7 @@ struct FlatTool {
   double thickness = 0;       ///< at least 0: walls are kept half of it away
 };
 
+/// Anything that presses on a body.
 using Tool = std::variant<BallTool, RodTool, PlaneTool, FlatTool>;
 
 /// Errors: kBadArgument names what is out of range.

@@ -49,6 +49,7 @@ class CuttingEnergy {
   /// What the body holds now, J. `potential`: of gravity and other outside fields.
   void set_stored(double elastic, double kinetic, double potential = 0) { stored_ = elastic + kinetic + potential; }
 
+  /// The account so far.
   [[nodiscard]] EnergyBalance balance() const;
 
  private:

@@ -10,6 +10,7 @@
 namespace incise {
 inline namespace v0 {
 
+/// How a blade in the hand feels.
 struct HapticToolOptions {
   double coupling_stiffness = 500;   ///< N/m between device and tool, above 0; 300 to 800 suits desktop arms
   double coupling_damping = 1;       ///< N·s/m on the stretch of the coupling, at least 0
@@ -18,8 +19,8 @@ struct HapticToolOptions {
   double max_stretch = 0.01;         ///< m, at most between device and tool; above 0
   double max_force = 3.3;            ///< N on the device, above 0; 3.3 N is a common desktop arm's peak
   double physics_period = 1.0 / 60;  ///< s: the time over which the force goes over to a new snapshot; at least 0
-  RuptureOptions rupture;
-  PassivityOptions passivity;
+  RuptureOptions rupture;            ///< when the tissue gives way
+  PassivityOptions passivity;        ///< how much energy may come back
 };
 
 /// Errors: kBadArgument names the first option out of its range.
@@ -54,9 +55,11 @@ class HapticTool {
   [[nodiscard]] const Vec3& force() const { return force_; }                  ///< N, what the last tick returned
   /// Force of the tissue on the tool at the last tick, N, before the limits of device and passivity.
   [[nodiscard]] const Vec3& tissue_force() const { return tissue_force_; }
+  /// The tissue as the last snapshot has it.
   [[nodiscard]] const LocalTissue& tissue() const { return tissue_; }
+  /// What the passivity controller saw and did.
   [[nodiscard]] PassivityReport passivity() const { return controller_.report(); }
-  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }  ///< so far
 
  private:
   struct Coupling {

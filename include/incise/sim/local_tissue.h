@@ -26,6 +26,7 @@ struct RuptureOptions {
 /// One thread. No call allocates.
 class LocalTissue {
  public:
+  /// Without tissue, until `follow`.
   explicit LocalTissue(const RuptureOptions& options = {}) : options_(options) {}
 
   /// Starts from a sound snapshot (`is_sound`), without slip.
@@ -38,10 +39,10 @@ class LocalTissue {
   /// once whether the tissue is soft or rigid. Cost: one 3×3 inverse, about 100 ns.
   Vec3 force(double spring, const Vec3& handle);
 
-  [[nodiscard]] const HapticSnapshot& snapshot() const { return snapshot_; }
+  [[nodiscard]] const HapticSnapshot& snapshot() const { return snapshot_; }  ///< as followed last
   /// How far the edge has cut on since the snapshot, m.
   [[nodiscard]] double cut_slip() const { return cut_slip_; }
-  [[nodiscard]] bool is_cutting() const { return is_cutting_; }
+  [[nodiscard]] bool is_cutting() const { return is_cutting_; }  ///< the tissue has ruptured at the edge
 
  private:
   struct Limits {

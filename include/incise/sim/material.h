@@ -25,14 +25,16 @@ struct Material {
 
 /// A material for each region label of a mesh.
 struct Materials {
+  /// The material of one region.
   struct Entry {
-    std::int32_t region = 0;
-    Material material;
+    std::int32_t region = 0;  ///< label of the tets
+    Material material;        ///< what they are made of
   };
 
   Material fallback;             ///< of every region that `by_region` does not name
   std::vector<Entry> by_region;  ///< each region once
 
+  /// The material of a region; `fallback` where it has no entry.
   [[nodiscard]] const Material& of(std::int32_t region) const;
 };
 

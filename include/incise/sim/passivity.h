@@ -17,6 +17,7 @@ inline namespace v0 {
 /// the world: the other sign).
 class PassivityObserver {
  public:
+  /// `initial_energy`: E(0), J.
   explicit PassivityObserver(double initial_energy = 0) : energy_(initial_energy), minimum_(initial_energy) {}
 
   /// @param force  N on the device.  @param displacement  m, of the device while the force acted.
@@ -33,6 +34,7 @@ class PassivityObserver {
   double energy_, minimum_;
 };
 
+/// What the controller may reckon with.
 struct PassivityOptions {
   bool is_controlled = true;  ///< false: energies are observed, forces pass unchanged
   /// E(0) of the held port, J, at least 0: about ½ stiffness · surprise², what the first contact from rest needs.
@@ -75,6 +77,7 @@ struct PassivityReport {
 /// One thread, O(1), no allocation, no clock. One call of `limit` per tick.
 class PassivityController {
  public:
+  /// `options` that `check` accepts.
   explicit PassivityController(const PassivityOptions& options = {});
 
   /// The force to command, N on the device.
@@ -83,6 +86,7 @@ class PassivityController {
   /// zero at the first.  @param velocity  m/s, of the device now.  @param wanted  N on the device.
   Vec3 limit(double dt, const Vec3& displacement, const Vec3& velocity, const Vec3& wanted);
 
+  /// What was seen and done so far.
   [[nodiscard]] PassivityReport report() const;
   /// What may be given back now, J: at most the held energy while surprises == 0.
   [[nodiscard]] double saved_energy() const { return saved_; }

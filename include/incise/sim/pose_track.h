@@ -16,7 +16,7 @@ struct TimedPose {
   double time = 0;                                                  ///< s
   Vec3 position = Vec3::Zero();                                     ///< m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< unit
-  std::uint32_t buttons = 0;
+  std::uint32_t buttons = 0;                                        ///< one bit each
 };
 
 /// A motion through time-stamped poses.
@@ -31,8 +31,8 @@ class PoseTrack {
 
   /// Cost: O(log poses). Any thread, no allocation.
   [[nodiscard]] DeviceState at(double time) const;
-  [[nodiscard]] double end_time() const { return poses_.back().time; }
-  [[nodiscard]] const std::vector<TimedPose>& poses() const { return poses_; }
+  [[nodiscard]] double end_time() const { return poses_.back().time; }          ///< s, of the last pose
+  [[nodiscard]] const std::vector<TimedPose>& poses() const { return poses_; }  ///< as given
 
  private:
   explicit PoseTrack(std::vector<TimedPose> poses) : poses_(std::move(poses)) {}
@@ -44,6 +44,7 @@ class PoseTrack {
 /// A device that plays a recorded motion and feels nothing.
 class RecordedDevice final : public HapticDevice {
  public:
+  /// Plays `track`.
   explicit RecordedDevice(PoseTrack track) : track_(std::move(track)) {}
 
   DeviceState read(double time) override { return track_.at(time); }

@@ -20,19 +20,19 @@ enum class LinearSolver : std::uint8_t {
   kConjugateGradients,  ///< preconditioned by blocks; slow with thin tets
 };
 
-/// Above so many tets a sparse Cholesky factor is no longer worth its time.
+/// The greatest number of tets for which a sparse Cholesky factor is worth its time.
 inline constexpr std::size_t kMostTetsForCholesky = 20000;
 
 /// A body, what it is made of, and what acts on it.
 struct ReferenceProblem {
-  const TetMesh* mesh = nullptr;     ///< its rest shape; read by `create` alone
-  Materials materials;               ///< by the tets' regions
-  double length_unit = 1.0;          ///< metres per length unit of the mesh, above 0
-  Vec3 gravity = Vec3(0, 0, -9.81);  ///< m/s²
-  std::vector<VertexId> held;        ///< stay where they stand when a solve begins
-  std::vector<Vec3> loads;           ///< N, dead loads: one per vertex slot, or none
-  double thinnest = 0;               ///< in [0, 1): see `ReferenceSolver`; 0: off
-  LinearSolver linear = LinearSolver::kAutomatic;
+  const TetMesh* mesh = nullptr;                   ///< its rest shape; read by `create` alone
+  Materials materials;                             ///< by the tets' regions
+  double length_unit = 1.0;                        ///< metres per length unit of the mesh, above 0
+  Vec3 gravity = Vec3(0, 0, -9.81);                ///< m/s²
+  std::vector<VertexId> held;                      ///< stay where they stand when a solve begins
+  std::vector<Vec3> loads;                         ///< N, dead loads: one per vertex slot, or none
+  double thinnest = 0;                             ///< in [0, 1): see `ReferenceSolver`; 0: off
+  LinearSolver linear = LinearSolver::kAutomatic;  ///< how each Newton step is solved
 };
 
 /// When a solve ends.

@@ -22,6 +22,7 @@ struct HandOptions {
 /// end of the step: stable for every dt. Orientation and buttons are the plan's. No allocation; one thread.
 class SimulatedOperator final : public HapticDevice {
  public:
+  /// Follows `plan`; `options` that `check` accepts.
   explicit SimulatedOperator(PoseTrack plan, const HandOptions& options = {});
 
   DeviceState read(double time) override;

@@ -17,10 +17,11 @@ enum class BodyShape : std::uint8_t { kRest, kCurrent };
 
 /// A point of the material: it moves with the tet that it is in.
 struct TissuePoint {
-  TetId tet;
+  TetId tet;                        ///< the tet that it is in
   TetVertices vertices{};           ///< of the tet when the point was found: they tell whether it is still the same
   std::array<double, 4> weights{};  ///< barycentric, sum 1
 
+  /// Where it is in one of the two shapes; only where `holds`.
   [[nodiscard]] Vec3 place(const TetMesh& mesh, BodyShape shape = BodyShape::kCurrent) const;
   /// Whether the tet is as it was.
   [[nodiscard]] bool holds(const TetMesh& mesh) const;

@@ -25,7 +25,7 @@ struct SimulateJob {
   std::string scene_file;        ///< repeated in the report
   SceneRun run;                  ///< threads, log, recording; `keep_undo` plays no part: the history is of one stroke
   std::filesystem::path output;  ///< NAME.pvd, see `FrameSeries`; empty: none
-  std::uint64_t every = 0;       ///< frames from one file to the next; 0: so many that there are `kSeriesFiles`
+  std::uint64_t every = 0;       ///< frames between two files; 0: chosen so that there are `kSeriesFiles`
   std::uint64_t budget_us = 0;   ///< repeated in the report
   /// Called before each frame and after the last: frames done, frames in all. May be empty.
   std::function<void(std::size_t done, std::size_t total)> progress;

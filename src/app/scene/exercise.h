@@ -43,7 +43,7 @@ struct Exercise {
 /// A pure function. Cost: O(strokes · log times + points).
 [[nodiscard]] std::vector<BladePose> ideal_poses(const Scene& scene, std::uint64_t frame);
 
-/// The scene with its exercise's ideal strokes instead of its own, and so many frames that they end half a second
+/// The scene with its exercise's ideal strokes instead of its own, and enough frames that they end half a second
 /// before the last; the same scene where there is no ideal. A pure function.
 [[nodiscard]] Scene with_ideal(const Scene& scene);
 

@@ -67,7 +67,7 @@ class Viewer {
   /// Takes what happened since, and makes the picture. `now` in s, never falling. Returns whether it differs from the
   /// one before: where it does not, nothing needs to be drawn.
   bool update(const Viewport& viewport, double now);
-  /// A picture was drawn in so many milliseconds.
+  /// A picture was drawn; the time in milliseconds.
   void drawn(double now, double draw_ms);
 
   [[nodiscard]] const Picture& picture() const;

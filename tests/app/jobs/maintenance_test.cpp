@@ -8,7 +8,7 @@
 #include "app/jobs/improve_job.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
-#include "incise/paper/paper_cut.h"
+#include "paper/paper_cut.h"
 
 namespace {
 

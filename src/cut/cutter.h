@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
+#include <vector>
 
+#include "cut/blade_motion.h"
+#include "cut/cut_context.h"
+#include "cut/material_blade.h"
+#include "cut/piece_finder.h"
+#include "cut/stroke_cut.h"
+#include "cut/twist.h"
 #include "incise/core/profile.h"
 #include "incise/core/result.h"
 #include "incise/cut/options.h"
@@ -21,9 +30,6 @@ inline namespace v0 {
 class Cutter {
  public:
   explicit Cutter(CutOptions options);
-  Cutter(Cutter&&) noexcept;
-  Cutter& operator=(Cutter&&) noexcept;
-  ~Cutter();
 
   /// Cuts along the whole stroke and appends the journal steps of each part of the sweep that does not meet itself.
   ///
@@ -66,18 +72,77 @@ class Cutter {
   /// Has `between_sheets` called within `step` and `end` wherever a sheet of the stroke is finished and another one
   /// starts, since the blade has come back to what it cut: the mesh may be maintained there. It must not throw. Empty:
   /// nothing is called.
-  void call_between_sheets(std::function<void()> between_sheets);
+  void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
   /// Forgets a stroke whose steps were taken back.
-  void forget();
+  void forget() { stroke_cut_.forget(); }
   /// Whether a live tet lies in the band around the front of the stroke under way, or has a vertex of it: nobody else
   /// may change it. Cost: O(1).
-  [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const;
+  [[nodiscard]] bool is_busy(const TetMesh& mesh, TetId tet) const { return stroke_cut_.is_busy(mesh, tet); }
   /// What the stroke has swept at rest, so far.
-  [[nodiscard]] const SweptTriangles& swept() const;
+  [[nodiscard]] const SweptTriangles& swept() const { return stroke_.swept; }
 
  private:
-  class Pipeline;
-  std::unique_ptr<Pipeline> pipeline_;
+  /// What a stroke that is cut step by step knows of its blade.
+  struct OpenStroke {
+    enum class AtFront : std::uint8_t { kUnknown, kNo, kYes };
+
+    BladeMotion motion;
+    SweptTriangles swept;
+    MaterialBlade material;
+    EdgeDivision edge;
+    std::vector<Vec3> given_row;  // the last one
+    std::vector<Vec3> last_row;   // the same, divided
+    double spacing = 1.0;
+    Vec3 direction = Vec3::Zero();  // of the last step in the material
+    bool is_in_material = false, is_last = false;
+    bool has_ended = false;                   // a short stroke in the material
+    AtFront is_at_front = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
+    std::uint32_t tag = 1;
+  };
+
+  bool take_end_back(TetMesh& mesh, Journal& journal, std::size_t first_step);
+  void take_up(const TetMesh& mesh, const Journal& journal, const Pause& pause, bool has_moved, std::uint32_t tag);
+  [[nodiscard]] std::uint32_t pieces_at(const TetMesh& mesh, const Journal& journal, std::size_t first,
+                                        std::size_t last);
+  template <class Work>
+  Result<CutStatistics> guarded(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work);
+  [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const;
+  void enter_material(const TetMesh& mesh);
+  void divide_edge(std::span<const Vec3> row);
+  Status step_in_material(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction);
+  Status step_from_far(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction);
+  void put_in_place(const TetMesh& mesh, const Journal& journal, const std::vector<Vec3>& row);
+  Status cut_to(const CutContext& context, const std::vector<Vec3>& row, const Vec3& direction, bool ends = false);
+  BladeMotion::Proposal propose(const CutContext& context, const std::vector<Vec3>& row, const Vec3& direction);
+  bool hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Proposal& proposal);
+  [[nodiscard]] Surroundings surroundings(const TetMesh& mesh) const;
+  [[nodiscard]] bool goes_on_shortly(const TetMesh& mesh, std::span<const Vec3> row);
+  [[nodiscard]] bool lies_at_front(const TetMesh& mesh, std::span<const Vec3> start, std::span<const Vec3> row) const;
+  double carry(const CutContext& context, std::span<const Vec3> from, std::span<const Vec3> to);
+  double carry_along(const CutContext& context, std::span<const Vec3> row);
+  Status end_shortly(const CutContext& context, std::span<const Vec3> row);
+  [[nodiscard]] std::vector<Vec3> drawn_back(std::vector<Vec3> row, std::span<const Vec3> to) const;
+  void finish_sheet(const CutContext& context);
+  Status follow(const CutContext& context, BladeMotion::Move move);
+  bool comes_back(const TetMesh& mesh, const Strip& strip);
+  void go_on_from_front(const CutContext& context);
+  [[nodiscard]] FrontRules rules() const;
+  void note_swept(const SweptSurface& surface);
+  Status cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
+  Status cut_strip(const CutContext& context, SweptSurface part, std::uint32_t tag);
+  static SweptSurface part_of(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles);
+
+  CutOptions options_;
+  StrokeCut stroke_cut_;
+  OpenStroke stroke_;
+  PieceFinder finder_;
+  std::function<void()> between_sheets_;
+};
+
+class Cutter::Pause {
+ public:
+  std::shared_ptr<const StrokeCut::Pause> cut;
+  OpenStroke stroke;
 };
 
 }  // namespace v0

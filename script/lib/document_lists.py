@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Checks the lists that documents keep of what is elsewhere. usage: document_lists.py ROOT
+
+- docs/acceptance.md has T1 to T35; comments in tests name each of them and no other; the tests that it names exist.
+- docs/decisions/README.md has a row for each record, under its title.
+- docs/README.md names each page beside it.
+- docs/troubleshooting.md quotes messages ("`...`") as the sources have them.
+"""
+import glob
+import os
+import re
+import sys
+
+COUNT = 35  # of the acceptance list
+NUMBER = re.compile(r"\bT([1-9]\d?)\b")
+TEST = re.compile(r"^TEST(?:_F|_P)?\((\w+), *(\w+)\)", re.M)
+NAMED_TEST = re.compile(r"`([A-Z]\w+\.\w+)`")
+MESSAGE = re.compile(r'"`([^`]+)`"')
+SOURCES = ("src/**/*.cpp", "src/**/*.h", "apps/**/*.cpp", "apps/**/*.h", "bindings/python/**/*.py", "script/*",
+           "script/lib/*.sh")
+
+
+def text_of(*path):
+    with open(os.path.join(*path), encoding="utf-8") as file:
+        return file.read()
+
+
+def files(root, pattern):
+    return sorted(path for path in glob.glob(os.path.join(root, pattern), recursive=True) if os.path.isfile(path))
+
+
+def check_acceptance(root):
+    page, in_tests, tests = text_of(root, "docs/acceptance.md"), set(), set()
+    for path in files(root, "tests/**/*.cpp"):
+        source = text_of(path)
+        tests.update("%s.%s" % found for found in TEST.findall(source))
+        for comment in re.findall(r"//(.*)", source):
+            in_tests.update(int(number) for number in NUMBER.findall(comment))
+    listed = [int(number) for number in re.findall(r"^\| T(\d+) \|", page, re.M)]
+    if sorted(listed) != list(range(1, COUNT + 1)):
+        yield "docs/acceptance.md lists %s, not each of T1 to T%d once" % (sorted(listed), COUNT)
+    for number in sorted(set(listed) - in_tests):
+        yield "docs/acceptance.md lists T%d, which no comment in a test names" % number
+    for number in sorted(in_tests - set(listed)):
+        yield "a comment in a test names T%d, which docs/acceptance.md does not list" % number
+    for name in sorted(set(NAMED_TEST.findall(page)) - tests):
+        yield "docs/acceptance.md names the test %s, which does not exist" % name
+
+
+def check_decisions(root):
+    index = text_of(root, "docs/decisions/README.md")
+    for path in files(root, "docs/decisions/[0-9]*.md"):
+        name = os.path.basename(path)
+        number, title = re.match(r"# (\d+)\. (.*)", text_of(path)).groups()
+        if "| %s | [%s](%s) |" % (number, title, name) not in index:
+            yield "docs/decisions/README.md has no row '| %s | [%s](%s) | ... |'" % (number, title, name)
+
+
+def check_index(root):
+    index = text_of(root, "docs/README.md")
+    for path in files(root, "docs/*.md"):
+        name = os.path.basename(path)
+        if name != "README.md" and "](%s)" % name not in index:
+            yield "docs/README.md does not name %s" % name
+
+
+def check_messages(root):
+    sources = [re.sub(r'"\s*f?"', "", text_of(path)) for pattern in SOURCES for path in files(root, pattern)]
+    for message in MESSAGE.findall(text_of(root, "docs/troubleshooting.md")):
+        if not any(message in source for source in sources):
+            yield "docs/troubleshooting.md quotes '%s', which no source has" % message
+
+
+def main(root):
+    wrong = [fault for check in (check_acceptance, check_decisions, check_index, check_messages) for fault in check(root)]
+    for fault in wrong:
+        print(fault)
+    print("lists in documents: %d wrong" % len(wrong))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]) if len(sys.argv) == 2 else __doc__)
