@@ -125,12 +125,18 @@ class Reversal {
       if (mesh_.rest(back->image->id) != back->image->rest) move(transaction, *back);
     }
   }
-  /// The others have moved by now, and its tet may be flat.
+  /// The others have moved by now, and its tet may be flat: then the one around it that it lies outside of least holds
+  /// it, and where all are flat its tet as that was before anything moved.
   void move(Transaction& transaction, const Back& back) {
-    const std::uint32_t holder = stars_.holding(back.image->rest, back.first, back.last);
-    MaterialPlace place = place_in(mesh_, stars_.id(holder), back.image->rest);
-    if (!(place.inside > kLeastWeight)) place = stars_.place_in(holder, back.image->rest);
-    transaction.move(back.image->id, back.image->rest, place.basis, place.weights);
+    const Vec3& rest = back.image->rest;
+    const std::uint32_t holder = stars_.holding(rest, back.first, back.last);
+    MaterialPlace place = place_in(mesh_, stars_.id(holder), rest);
+    for (std::size_t i = back.first; i < back.last && !(place.inside > kLeastWeight); ++i) {
+      const MaterialPlace other = place_in(mesh_, stars_.id(static_cast<std::uint32_t>(i)), rest);
+      if (!(place.inside >= other.inside)) place = other;
+    }
+    if (!(place.inside > kLeastWeight)) place = stars_.place_in(holder, rest);
+    transaction.move(back.image->id, rest, place.basis, place.weights);
   }
   /// Of the tets that give way the one in which the middle of another one lies.
   [[nodiscard]] TetId parent_of(const TetImage& image) const {

@@ -285,7 +285,8 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
         return false;
       }
     }
-    const double edge = mean_spoke(patches_[i].before), tolerance = surface_tolerance(care, surface.tag, plan_.from, edge);
+    const double edge = mean_spoke(patches_[i].before),
+                 tolerance = surface_tolerance(care, surface.tag, plan_.from, edge);
     const bool keeps_apex = !moves(care) || care.references.allows_apex(surface.tag, care.mesh.rest(plan_.into), place_,
                                                                         tolerance, edge, skin_share(care));
     const bool keeps_facets =

@@ -204,7 +204,8 @@ bool VertexInserter::keeps_surface(const Care& care) {
       piece_.samples.push_back(0.5 * (place_ + f[k]));
     }
   }
-  const double tolerance = surface_tolerance(care, opened_.tag, care.mesh.vertices(opened_.faces[0])[0], std::sqrt(longest2));
+  const double tolerance =
+      surface_tolerance(care, opened_.tag, care.mesh.vertices(opened_.faces[0])[0], std::sqrt(longest2));
   Reach reach;
   const bool is_flat =
       vector_area2(care.mesh, opened_.faces[0]).cross(vector_area2(care.mesh, opened_.faces[1])).squaredNorm() <=

@@ -116,7 +116,8 @@ bool Peeler::keeps_surface(const Care& care) {
   for (const unsigned s : inner_) {
     add_facet(care.mesh, {tet_, s}, after_);
   }
-  const double tolerance = surface_tolerance(care, tag_, care.mesh.vertices(tet_)[outer_[0]], longest_edge(care.mesh, tet_));
+  const double tolerance =
+      surface_tolerance(care, tag_, care.mesh.vertices(tet_)[outer_[0]], longest_edge(care.mesh, tet_));
   Reach reach;
   return care.references.allows(tag_, before_, after_, tolerance, reach, skin_share(care));
 }
