@@ -88,7 +88,7 @@ void add_cut(CLI::App& root, Arguments& a) {
   cut->add_option("--threads", a.cut.threads, "Worker threads, 1 to 256; the result does not depend on it")
       ->check(CLI::Range(1, 256));
   cut->add_option("--record", a.cut.record, "Record every step as JSON lines, for incise replay");
-  cut->add_option("--picture", a.cut.picture, "Draw the result to this PNG; needs OpenGL, and no display");
+  cut->add_option("--picture", a.cut.picture, "Draw the result to this PNG; needs OpenGL, but no display");
   add_budget(
       *cut, a.cut.budget_us,
       "Microseconds for maintenance per stroke, 1 to 3600000000; what is left over may be spent later, what is not "
@@ -124,14 +124,14 @@ void add_simulate(CLI::App& root, Arguments& a) {
   simulate->add_option("--frames", s.frames, "Frames to run, instead of the scene's")
       ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
   simulate->add_option("-o,--output", s.output, "Write the body over time: NAME.pvd with the folder NAME_frames");
-  simulate->add_option("--every", s.every, "Frames from one file of -o to the next (default: about 100 files)")
+  simulate->add_option("--every", s.every, "Frames between two files of -o (default: about 100 files)")
       ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
   add_report(*simulate, s.report, s.as_json);
   simulate->add_option("--record", s.record, "Record every frame as JSON lines, for incise replay");
   simulate->add_option("--profile", s.profile, "incise, or paper: the published method; instead of the scene's")
       ->check(CLI::IsMember({"incise", "paper"}));
   add_budget(*simulate, s.budget_us,
-             "Microseconds for maintenance per frame, 1 to 3600000000, taken as 50 work units each: no clock is read");
+             "Microseconds for maintenance per frame, 1 to 3600000000, taken as 10 work units each: no clock is read");
   simulate->add_option("--seed", s.seed, "Seed, instead of the scene's");
   simulate->add_flag("--ideal", s.is_ideal, "Show and score an exercise's ideal strokes, instead of the scene's");
   simulate->add_option("--threads", s.threads, "Worker threads, 1 to 256; the result does not depend on it")
@@ -139,9 +139,8 @@ void add_simulate(CLI::App& root, Arguments& a) {
 }
 
 void add_replay(CLI::App& root, Arguments& a) {
-  CLI::App* replay =
-      add_command(root, "replay", "Do again what was recorded with --record; exit 4 where it comes out differently",
-                  "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu");
+  CLI::App* replay = add_command(root, "replay", "Repeat what --record has recorded; exit 4 where the result differs",
+                                 "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu");
   replay->add_option("REC", a.replay.recording, "Recording: JSON lines of format incise-recording or incise-simulation")
       ->required();
   replay->add_flag("--verify", a.replay.verify, "Compare after every step or frame, not only at the end");
@@ -186,11 +185,11 @@ void add_mesh(CLI::App& root, Arguments& arguments) {
   mesh->add_option("--names", a.names, "Text file: a label and its name on each line");
   mesh->add_option("--smooth", a.smooth, "Smoothing of the voxels' steps, voxels, 0.4 to 10 (default 0.7)");
   mesh->add_option("--grade", a.grade,
-                   "How much larger tets are with each mm away from where labels meet, 0 to 10 (default 0.5)");
+                   "Growth of the tets per mm of distance from where labels meet, 0 to 10 (default 0.5)");
   mesh->add_option("--halvings", a.halvings,
                    "How often the size may be halved where a label is thin, 0 to 4 (default 2); never below a voxel");
   add_report(*mesh, a.report, a.as_json);
-  mesh->add_option("--picture", a.picture, "Draw the mesh to this PNG; needs OpenGL, and no display");
+  mesh->add_option("--picture", a.picture, "Draw the mesh to this PNG; needs OpenGL, but no display");
   mesh->add_option("--threads", a.threads, "Worker threads, 1 to 256; the result does not depend on it")
       ->check(CLI::Range(1, 256));
 }

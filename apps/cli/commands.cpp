@@ -108,7 +108,7 @@ void note_idle_flags(const CutArguments& a, const Terminal& terminal) {
   const bool is_paper = a.profile == "paper";
   if (is_paper && a.has_snap) terminal.note("--snap has no effect with --profile paper, which never snaps");
   if (a.no_smooth_boundary && (!is_paper || a.no_improve)) {
-    terminal.note("--no-smooth-boundary has no effect but on how --profile paper improves");
+    terminal.note("--no-smooth-boundary has no effect without --profile paper and its improvement");
   }
   if (a.budget_us == 0) return;
   if (a.no_merge && a.no_improve) {

@@ -51,7 +51,7 @@ Kind kind_of(const std::string& file) {
     return {FileKind::kRecording, "is a recording; run it again with incise replay"};
   }
   if (format.rfind("incise-", 0) == 0)
-    return {FileKind::kReport, "is what incise reported (" + format + "); read it as JSON"};
+    return {FileKind::kReport, "is a report of incise (" + format + "); read it as JSON"};
   const Result<io::MeshFile> mesh = io::read_mesh(file);
   if (!mesh.ok()) return {};
   return {FileKind::kMesh, "is a mesh (" + mesh->format_name + ", " + std::to_string(mesh->file_tets) +

@@ -15,7 +15,7 @@ using namespace incise;
 /// Says where a replay ended, if not where it should.
 void note_end(const app::ReplayResult& result, const std::string& recording, const Terminal& terminal) {
   const std::string after = recording + ": after " + std::to_string(result.calls) + " calls ";
-  if (result.is_cut_off) terminal.note(after + "the recording is cut off; what was whole has been replayed");
+  if (result.is_cut_off) terminal.note(after + "the recording is cut off; its whole lines have been replayed");
   if (result.is_in_stroke) terminal.note(after + "a stroke is still under way; the mesh is as its last step left it");
 }
 
@@ -23,7 +23,7 @@ int report_difference(const app::ReplayDifference& d, const std::string& recordi
   return fail(terminal,
               recording + ":" + std::to_string(d.line) + ": the call \"" + d.call +
                   "\" came out differently: expected " + d.expected + ", found " + d.found +
-                  "; no mesh was written. Was it another version that recorded?",
+                  "; no mesh was written. Did another version record it?",
               kCheckFailed);
 }
 

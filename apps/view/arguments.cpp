@@ -75,7 +75,7 @@ void add_view(CLI::App& root, Arguments& a) {
                                                                          {"quality", app::ColorBy::kQuality}};
                                           a.view.color = kColors.at(name);
                                         }),
-                                        "What colours tell: tissue, region, stroke or quality")
+                                        "What colours show: tissue, region, stroke or quality")
       ->check(CLI::IsMember({"tissue", "region", "stroke", "quality"}));
   root.add_option_function<std::string>("--theme", seen([&a](const std::string& name) {
                                           a.view.theme = name == "light" ? app::Theme::kLight : app::Theme::kDark;
@@ -150,10 +150,10 @@ void add_headless(CLI::App& root, Arguments& a) {
         a.frame = frame;
         a.has_frame = true;
       },
-      "The picture's frame: so many of a scene, or calls of a recording (default: its end)");
+      "The picture's frame, counted in frames of a scene or calls of a recording (default: the end)");
   root.add_option("--screenshot", a.screenshot, "Write the picture to this PNG");
   root.add_option("--sequence", a.sequence, "Write pictures of all frames up to --frame to this folder");
-  root.add_option("--every", a.every, "Frames from one picture of --sequence to the next")
+  root.add_option("--every", a.every, "Frames between two pictures of --sequence")
       ->check(CLI::Range(std::uint64_t{1}, app::kMaxSceneFrames));
 }
 

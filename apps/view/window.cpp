@@ -25,7 +25,7 @@ Error no_display() {
   const char* why = nullptr;
   glfwGetError(&why);
   return {ErrorCode::kUnsupported,
-          std::string("there is no window to be had: ") + (why != nullptr ? why : "no display") +
+          std::string("no window can be opened: ") + (why != nullptr ? why : "no display") +
               "; run it where DISPLAY leads to a screen with OpenGL 3.3, or make pictures with --headless --screenshot "
               "OUT.png",
           {}};

@@ -34,7 +34,7 @@ Result<ImageHeader> read_header(std::string_view bytes, const std::string& name)
                  name + ": is a DICOM file; export the segmentation as NIfTI (.nii.gz) or NRRD"};
   }
   return Error{ErrorCode::kUnsupported,
-               name + ": is no label image that is known here; use NIfTI (.nii, .nii.gz), NRRD or MetaImage"};
+               name + ": is not a label image that Incise reads; use NIfTI (.nii, .nii.gz), NRRD or MetaImage"};
 }
 
 /// Moves the voxels' place behind lines and bytes that are to be passed over.

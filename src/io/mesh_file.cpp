@@ -38,7 +38,9 @@ const char* unsupported_kind(std::string_view bytes) {
   if (starts_with(bytes, "\1\0\0\0"sv) || starts_with(bytes, "\0\0\0\1"sv)) return "binary MEDIT (.meshb)";
   if (starts_with(bytes, "PK\3\4")) return "a zip archive";
   if (starts_with(bytes, "\4\x22M\x18")) return "an LZ4 archive";
-  if (starts_with(bytes, "solid ") || starts_with(bytes, "OFF")) return "a surface (it holds no tets)";
+  if (starts_with(bytes, "solid ") || starts_with(bytes, "OFF")) {
+    return "a surface (it holds no tets; incise mesh fills it)";
+  }
   if (starts_with(bytes, "CDF") || starts_with(bytes, "NRRD")) return "this kind of file";
   return nullptr;
 }

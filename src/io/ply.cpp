@@ -253,7 +253,7 @@ bool read_ply_tets(Job& job) {
   job.out.format = Format::kPly;
   if (!read_ply(job.bytes, job.name, job.error, content)) return false;
   if (!content.has_tets) {
-    return job.fail("this PLY holds a surface, without an element for tets; mesh the volume first",
+    return job.fail("this PLY holds a surface, without an element for tets; fill it with incise mesh",
                     ErrorCode::kUnsupported);
   }
   job.out.format_name = "PLY with tets, " + content.format;

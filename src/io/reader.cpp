@@ -21,7 +21,9 @@ void clear_if_zero(std::vector<std::int32_t>& labels) {
 
 bool check_tets(Job& job) {
   const auto& soup = job.out.data.soup;
-  if (soup.tets.empty()) return job.fail("holds no tetrahedra; Incise cuts volumes: mesh the surface first");
+  if (soup.tets.empty()) {
+    return job.fail("holds no tetrahedra; Incise cuts volumes: fill the surface first (incise mesh)");
+  }
   if (soup.tets.size() > kInvalidIndex / 4 || soup.points.size() >= kInvalidIndex) {
     return job.fail("holds more elements than 32-bit numbers can name; cut the mesh into parts",
                     ErrorCode::kOutOfMemory);

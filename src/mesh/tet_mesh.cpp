@@ -108,7 +108,7 @@ std::string in_short(double length) {
 Error bad_extent(const std::string& what) {
   return {ErrorCode::kBadArgument,
           what + ": lengths between " + in_short(kLeastExtent) + " and " + in_short(kGreatestExtent) +
-              " can be computed with; rescale the mesh, and what shall cut it, to another unit",
+              " can be computed with; rescale mesh and blade to another unit",
           {}};
 }
 

@@ -31,6 +31,7 @@ TEST(Cli, cuts_the_papers_cube_with_both_profiles) {
         run_plain_cut({cube, "--plane", "1,0,0,0.5", "--profile", profile, "-o", out, "--report", report});
     EXPECT_EQ(cut.code, 0) << cut.err;
     EXPECT_NE(cut.out.find("750 -> 1300 tets"), std::string::npos) << cut.out;
+    EXPECT_NE(cut.out.find("cut 150 tets in 1 step: 200 faces opened"), std::string::npos) << cut.out;
     const json figures = json::parse(read(report));
     EXPECT_EQ(figures["mesh"]["after"]["tets"], 1300);
     EXPECT_EQ(figures["mesh"]["after"]["components"], 2);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs what the README has under "The same cut, four times", and compares the hashes that are printed.
+"""Runs what the README has under "The same cut, four times", and compares the hashes that are printed; builds and runs the
+lines of C++ under "The library", too.
 
 usage: same_cut.py PREFIX CMAKE CC CXX     PREFIX: where Incise is installed
 """
@@ -25,6 +26,12 @@ int main() {
 %s  return 0;
 }
 """
+LIBRARY = """%s
+#include <utility>
+int main() {
+%s  return report.ok() && engine->mesh().tet_count() == 750 ? 0 : 1;
+}
+"""
 C = """#include <stdio.h>
 #include "incise/c/incise.h"
 int main(void) {
@@ -36,8 +43,16 @@ int main(void) {
 def blocks_of_readme():
     with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as file:
         text = file.read()
-    section = re.split(r"\n##+ ", text.split("### The same cut, four times", 1)[1])[0]
-    return dict(re.findall(r"```(\w+)\n(.*?)```", section, re.S))
+    blocks = dict(blocks_of_section(text, "### The same cut, four times"))
+    library = blocks_of_section(text, "## The library")[0][1].splitlines(keepends=True)
+    blocks["library"] = ("".join(line for line in library if line.startswith("#include")),
+                         "".join(line for line in library if not line.startswith("#include")))
+    return blocks
+
+
+def blocks_of_section(text, heading):
+    section = re.split(r"\n##+ ", text.split("\n%s\n" % heading, 1)[1])[0]
+    return re.findall(r"```(\w+)\n(.*?)```", section, re.S)
 
 
 def run(command, folder, environment):
@@ -50,7 +65,7 @@ def run(command, folder, environment):
 def build(blocks, folder, prefix, cmake, cc, cxx):
     project = os.path.join(folder, "project")
     shutil.copytree(os.path.join(HERE, "consumer"), project)
-    for name, frame, language in (("in_cpp.cpp", CPP, "cpp"), ("in_c.c", C, "c")):
+    for name, frame, language in (("in_cpp.cpp", CPP, "cpp"), ("in_c.c", C, "c"), ("library.cpp", LIBRARY, "library")):
         with open(os.path.join(project, name), "w", encoding="utf-8") as file:
             file.write(frame % blocks[language])
     run([cmake, "-S", project, "-B", project + "/build", "-DCMAKE_PREFIX_PATH=" + prefix, "-DCMAKE_BUILD_TYPE=Release",
@@ -72,6 +87,7 @@ def main(prefix, cmake, cc, cxx):
         printed = {"cpp": run([built + "in_cpp"], folder, environment), "c": run([built + "in_c"], folder, environment),
                    "python": run([sys.executable, "-c", blocks["python"]], folder, environment),
                    "sh": run(["sh", "-c", blocks["sh"]], folder, environment)}
+        run([built + "library"], folder, environment)
     hashes = {language: re.findall(r"\b[0-9a-f]{16}\b", text) for language, text in printed.items()}
     print(hashes)
     first = hashes["cpp"]

@@ -11,6 +11,7 @@
 #include "app/recording/engine_recording.h"
 #include "app/recording/recorded_mesh.h"
 #include "app/recording/simulation_recording.h"
+#include "app/text/counted.h"
 #include "app/text/json_write.h"
 #include "app/text/line_reader.h"
 #include "incise/io/mesh_export.h"
@@ -197,8 +198,8 @@ Result<ReplayResult> run_replay(const ReplayJob& job) {
 }
 
 std::string to_text(const ReplayResult& result) {
-  return fmt::format("{} calls, {} strokes: {} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", result.calls,
-                     result.strokes, result.before.tets, result.after.tets, result.before.vertices,
+  return fmt::format("{}, {}: {} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", counted(result.calls, "call"),
+                     counted(result.strokes, "stroke"), result.before.tets, result.after.tets, result.before.vertices,
                      result.after.vertices, result.before.components, result.after.components) +
          fmt::format("hash {}\n", hash_text(result.hash));
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/jobs/report_tree.h"
+#include "app/text/counted.h"
 #include "incise/version.h"
 
 namespace incise {
@@ -143,8 +144,9 @@ std::string work_text(const JobReport& report) {
   const MaintainStatistics& done = report.maintain;
   std::string text;
   if (report.strokes > 0) {
-    text = fmt::format("cut {} tets in {} steps: {} faces opened, {} vertices snapped, {} bent\n", cut.cut_tets,
-                       cut.steps, cut.incision_faces, cut.snapped_vertices, cut.bent_vertices);
+    text = fmt::format("cut {} in {}: {} opened, {} vertices snapped, {} bent\n", counted(cut.cut_tets, "tet"),
+                       counted(cut.steps, "step"), counted(cut.incision_faces, "face"), cut.snapped_vertices,
+                       cut.bent_vertices);
   }
   if (report.options.merge || report.options.improve) {
     text += fmt::format("maintained: {} edges collapsed, {} swapped away, {} faces swapped away, {} vertices moved\n",

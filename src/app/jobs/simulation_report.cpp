@@ -5,6 +5,7 @@
 
 #include "app/jobs/report_tree.h"
 #include "app/scene/exercise_score_tree.h"
+#include "app/text/counted.h"
 
 namespace incise {
 inline namespace v0 {
@@ -81,8 +82,8 @@ std::string to_text(const SimulationReport& report) {
   const Percentiles ms = percentiles(report.frame_ms);
   const TimeShare share = share_of(report.job.times);
   const double seconds = static_cast<double>(report.frames) * report.frame_seconds;
-  std::string text =
-      fmt::format("{} frames, {:.3g} s, after {} frames of settling\n", report.frames, seconds, report.settle_frames);
+  std::string text = fmt::format("{}, {:.3g} s, after {} of settling\n", counted(report.frames, "frame"), seconds,
+                                 counted(report.settle_frames, "frame"));
   text += to_text(report.job);
   text += fmt::format("a frame took {:.2f} ms (median), {:.2f} (99 %), {:.2f} (longest); {:.0f} frames a second\n",
                       ms.p50, ms.p99, ms.max,
@@ -101,7 +102,9 @@ std::string to_text(const SimulationReport& report) {
         report.haptics.peak_force, report.haptics.sampled_minimum, report.haptics.compute_us.p999);
   }
   if (f.peak_hook_force > 0) text += fmt::format("hooks: at most {:.3g} N\n", f.peak_hook_force);
-  if (report.inverted_tets > 0) text += fmt::format("{} tets stand turned inside out\n", report.inverted_tets);
+  if (report.inverted_tets > 0) {
+    text += fmt::format("inverted as the body stands: {}\n", counted(report.inverted_tets, "tet"));
+  }
   if (report.exercise) text += to_text(*report.exercise);
   return text;
 }

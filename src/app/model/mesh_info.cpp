@@ -100,10 +100,10 @@ MeshInfo inspect(const io::MeshFile& file, const std::filesystem::path& path) {
   TetSoup turned = file.data.soup;
   const Normalised changes = normalise(turned);
   if (changes.flipped > 0) {
-    info.source.notes.push_back(fmt::format("{} tets have negative volume; cutting turns them", changes.flipped));
+    info.source.notes.push_back(fmt::format("tets of negative volume: {}; cutting turns them", changes.flipped));
   }
   if (changes.dropped > 0) {
-    info.source.notes.push_back(fmt::format("{} tets are exact duplicates; cutting drops them", changes.dropped));
+    info.source.notes.push_back(fmt::format("exact duplicates of tets: {}; cutting drops them", changes.dropped));
   }
   return info;
 }

@@ -68,7 +68,7 @@ class Grader {
   void judge_line() {
     const double allowed = exercise_.tolerances.line;
     const double missed = std::max(0.0, score_.missed_length - 2 * allowed) / score_.target_length;
-    take("missed", kMissedPoints * missed, fmt::format("{:.0f} % of the line were not cut", 100 - score_.coverage_pct));
+    take("missed", kMissedPoints * missed, fmt::format("{:.0f} % of the line was not cut", 100 - score_.coverage_pct));
     take("line", kLinePoints * fault(score_.line_rms, allowed),
          fmt::format("the cut runs {:.2g} beside the line (RMS); {:.2g} is allowed", score_.line_rms, allowed));
     take("overshoot", kOvershootPoints * fault(score_.overshoot, allowed),
@@ -106,7 +106,7 @@ class Grader {
   void judge_hand() {
     const std::uint32_t excess = score_.strokes > exercise_.strokes ? score_.strokes - exercise_.strokes : 0;
     take("strokes", std::min(kStrokePoints * excess, kMostStrokePoints),
-         fmt::format("{} strokes were made; {} are allowed", score_.strokes, exercise_.strokes));
+         fmt::format("{} strokes were made; allowed: {}", score_.strokes, exercise_.strokes));
     if (!(exercise_.max_force > 0)) return;
     const double above = score_.peak_force - exercise_.tolerances.force;
     take("force", kForcePoints * std::clamp(above / exercise_.max_force - 1, 0.0, 1.0),
