@@ -104,5 +104,17 @@ TEST(Leaks, no_point_of_the_blade_is_left_behind_at_the_skin) {
                    {BodyKind::kShuffled, Motion::kCurve, 30, 41007, 0.6}});
 }
 
+TEST(Leaks, a_crumb_between_the_lips_joins_no_pieces) {
+  expect_no_leaks({{BodyKind::kShuffled, Motion::kStrongTremor, 60, 703, 0.6}});
+}
+
+TEST(Leaks, a_wall_that_moves_by_a_crumb_leaves_none) {
+  expect_no_leaks({{BodyKind::kCube, Motion::kStrongTremor, 180, 8301, 0.25}});
+}
+
+TEST(Leaks, a_vertex_that_snaps_into_an_open_wound_stretches_nothing_across) {
+  expect_no_leaks({{BodyKind::kBeam, Motion::kReentry, 60, 9100}, {BodyKind::kShuffled, Motion::kCurve, 120, 9107}});
+}
+
 }  // namespace
 }  // namespace incise::test
