@@ -170,7 +170,9 @@ class CrumbFinder {
     std::size_t kept = 0;
     for (std::uint32_t i = 0; i < incision_.size(); ++i) {
       if (is_dropped_[i]) {
-        dropped_.push_back(incision_[i]);
+        const auto [a, b] = incision_[i];
+        const bool is_first = state_[a.tet().value] == kCrumb;
+        dropped_.push_back(is_first ? IncisionFace{a, b} : IncisionFace{b, a});
       } else {
         incision_[kept++] = incision_[i];
       }

@@ -86,7 +86,7 @@ void Cutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const 
   stroke_.is_in_material = has_moved;
   stroke_.is_last = false;
   stroke_.is_at_front = OpenStroke::AtFront::kUnknown;
-  stroke_.has_ended = false;
+  stroke_.has_ended = stroke_.has_left = false;
   stroke_.direction = Vec3::Zero();
   if (!has_moved) {
     stroke_.motion.begin(row, stroke_.spacing);
@@ -131,7 +131,7 @@ Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& t
           follow(context, stroke_.motion.end(stroke_cut_.sheet(), touches(context.mesh), surroundings(context.mesh)));
     }
     if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context.mesh)));
-    if (status) finish_sheet(context);
+    if (status && !(stroke_.has_left && stroke_.motion.is_at_start())) finish_sheet(context);
     return status;
   });
 }
@@ -304,6 +304,10 @@ void Cutter::put_in_place(const TetMesh& mesh, const Journal& journal, const std
 /// `ends`: a stroke that is short ends there.
 Status Cutter::cut_to(const CutContext& context, const std::vector<Vec3>& row, const Vec3& direction, bool ends) {
   BladeMotion::Proposal proposal = propose(context, row, direction);
+  if (stroke_.material.is_in_air(context.mesh, stroke_cut_.surface())) {
+    leave_body(context, row);
+    return {};
+  }
   if (proposal.surface.triangles.empty()) return {};
   std::vector<Vec3> to;
   for (const SosPoint& p : proposal.row) to.push_back(p.position);
@@ -315,6 +319,26 @@ Status Cutter::cut_to(const CutContext& context, const std::vector<Vec3>& row, c
   move.strip = stroke_.motion.accept(proposal, surroundings(context.mesh));
   stroke_.material.advance(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
   return follow(context, std::move(move));
+}
+
+/// A blade in the air cuts nothing: its sheet ends where it has left the body, and the next one begins where it comes
+/// to the body again.
+void Cutter::leave_body(const CutContext& context, const std::vector<Vec3>& row) {
+  if (!stroke_.motion.is_at_start()) {
+    finish_sheet(context);
+    stroke_cut_.begin(stroke_.tag, stroke_.spacing);
+    if (between_sheets_) between_sheets_();
+    stroke_.has_left = true;
+    stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
+  }
+  const MaterialBlade before = stroke_.material;
+  stroke_cut_.prepare(context.mesh, context.journal);
+  stroke_.material.begin(context.mesh, stroke_cut_.surface(), row, stroke_.spacing, stroke_cut_.complex());
+  if (stroke_.material.is_front_clear(context.mesh, stroke_cut_.surface())) {
+    stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
+  } else {
+    stroke_.material = before;  // next to the body places at rest are uncertain: the next strip starts further off
+  }
 }
 
 /// Looks for the blade in the tissue as it stands: the strip that it would cut.

@@ -96,6 +96,7 @@ class Cutter {
     Vec3 direction = Vec3::Zero();  // of the last step in the material
     bool is_in_material = false, is_last = false;
     bool has_ended = false;                   // a short stroke in the material
+    bool has_left = false;                    // the body, after the last sheet
     AtFront is_at_front = AtFront::kUnknown;  // where the stroke began: at the front of older cuts
     std::uint32_t tag = 1;
   };
@@ -113,6 +114,7 @@ class Cutter {
   Status step_from_far(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction);
   void put_in_place(const TetMesh& mesh, const Journal& journal, const std::vector<Vec3>& row);
   Status cut_to(const CutContext& context, const std::vector<Vec3>& row, const Vec3& direction, bool ends = false);
+  void leave_body(const CutContext& context, const std::vector<Vec3>& row);
   BladeMotion::Proposal propose(const CutContext& context, const std::vector<Vec3>& row, const Vec3& direction);
   bool hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Proposal& proposal);
   [[nodiscard]] Surroundings surroundings(const TetMesh& mesh) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cut/contact_walk.h"
 #include "cut/far_blade.h"
@@ -44,6 +45,9 @@ constexpr double kFurther = 1.5;
 constexpr double kBeside = 0.02, kOff = 0.3, kDraw = 0.1;
 /// A walk from tet to tet gives up after so many.
 constexpr unsigned kMostTets = 256;
+/// A point that is outside while its front is in the way of the body waits until it is so many spacings on: longer, and
+/// it would leave a thread of tissue behind.
+constexpr double kWaits = 1.0;
 /// Rings of cells that are looked through for the nearest surface, and rounds of drawing nearer.
 constexpr unsigned kMostRings = 6, kMostRounds = 6;
 
@@ -190,7 +194,7 @@ void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std:
   TetId nearest;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Point& point = points_[i];
-    point.world = point.reached = places[i];
+    point.world = point.before = point.reached = places[i];
     point.hint = nearest.is_valid() ? nearest : surface.nearest_as_it_stands(mesh, places[i]);
     find(mesh, surface, point, places[i]);
     nearest = point.hint;
@@ -242,7 +246,10 @@ void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point
 void MaterialBlade::find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point,
                              const Vec3& anchor) const {
   point.tip = point.world;
-  if (!is_in_master(complex, point)) return;
+  if (!is_in_master(complex, point)) {
+    point.has_entered = false;  // a new sheet has begun since it left: it goes with its neighbours again
+    return;
+  }
   double inside = -1e300, beyond = 0;
   for (const TetId child : complex.children(complex[point.master])) {
     std::array<double, 4> weights{};
@@ -303,8 +310,13 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Poin
   }
   const bool was_inside =
       incise::locate(mesh, surface, {anchor, next_key_++}).is_valid() || lies_in_cut(mesh, surface, anchor);
+  const Vec3 straight = point.candidate;
   point.is_accepted =
       was_inside ? push_out(mesh, surface, anchor, point.candidate) : keep_out(mesh, surface, anchor, point.candidate);
+  if (!point.is_accepted && point.lead > kWaits * spacing_) {
+    point.candidate = straight;
+    point.is_accepted = keep_out(mesh, surface, anchor, point.candidate, true);
+  }
 }
 
 /// Whether a rest point lies at the wall of a cut: what that has opened is air.
@@ -331,8 +343,10 @@ bool MaterialBlade::push_out(const TetMesh& mesh, const SurfaceIndex& surface, c
 }
 
 /// A point that is outside the body, and was, has its rest point outside, or in a cut: where that would be inside,
-/// beside the surface there. Returns false where a long way leads there through the body: that was not cut.
-bool MaterialBlade::keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest) {
+/// beside the surface there. Returns false where a long way leads there through the body: that was not cut, unless the
+/// blade `has_passed`.
+bool MaterialBlade::keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest,
+                             bool has_passed) {
   Vec3 place = rest;
   const bool is_inside = incise::locate(mesh, surface, {place, next_key_++}).is_valid();
   if (is_inside && !lies_in_cut(mesh, surface, place)) {
@@ -343,9 +357,23 @@ bool MaterialBlade::keep_out(const TetMesh& mesh, const SurfaceIndex& surface, c
     const Vec3 normal = (mesh.rest(v[1]) - mesh.rest(v[0])).cross(mesh.rest(v[2]) - mesh.rest(v[0])).normalized();
     place = near + kBeside * spacing_ * normal;
   }
-  if ((place - from).norm() > kTrust * spacing_ && !is_clear(mesh, surface, from, place)) return false;
+  if (!has_passed && (place - from).norm() > kTrust * spacing_ && !is_clear(mesh, surface, from, place)) return false;
   rest = place;
   return true;
+}
+
+/// A way that would lead through the body goes round it: further out, seen from a point of the blade that is within. A
+/// point that waited at the surface would leave a thread of tissue behind there.
+bool MaterialBlade::go_round(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, const Vec3& inner,
+                             Vec3& rest) {
+  const Vec3 outwards = (from - inner).normalized();
+  for (const double reach : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    const Vec3 place = rest + reach * spacing_ * outwards;
+    if (!is_clear(mesh, surface, from, place)) continue;
+    rest = place;
+    return true;
+  }
+  return false;
 }
 
 /// The point nearest to one that has not entered the body which has; the number of points where there is none.
@@ -370,9 +398,9 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
     const std::size_t leader = leader_of(i);
     const bool is_free = leader == points_.size();
     if (!is_free && !points_[leader].is_accepted) continue;
-    Vec3 rest = point.candidate;
+    const double most = kGreatestStretch * (point.world - point.reached).norm() + kLeastStep * spacing_;
+    Vec3 rest = anchors_[i] + shortened(point.candidate - anchors_[i], most);
     if (!is_free) {
-      const double most = kGreatestStretch * (point.world - point.reached).norm() + kLeastStep * spacing_;
       Vec3 with = anchors_[i] + shortened(points_[leader].candidate - anchors_[leader], most);
       bool is_possible = false;
       const TetId tet = points_[leader].tet;
@@ -382,8 +410,21 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
       const bool is_off = point.is_mapped && off.norm() > kOff * spacing_;
       rest = is_off ? Vec3(with + shortened(off, kDraw * spacing_)) : with;
     }
+    const Vec3& inner = anchors_[is_free ? points_.size() / 2 : leader];
+    Vec3 round = rest;
+    const Vec3 straight = rest;
     point.is_accepted = keep_out(mesh, surface, anchors_[i], rest);
-    if (point.is_accepted) point.candidate = rest;
+    if (!point.is_accepted && go_round(mesh, surface, anchors_[i], inner, round)) {
+      point.is_accepted = true;
+      rest = round;
+    }
+    if (!point.is_accepted && (straight - anchors_[i]).norm() > kWaits * spacing_) {
+      rest = straight;
+      point.is_accepted = keep_out(mesh, surface, anchors_[i], rest, true);
+    }
+    if (!point.is_accepted) continue;
+    point.candidate = rest;
+    point.lead = (rest - anchors_[i]).norm();
   }
 }
 
@@ -393,7 +434,7 @@ void MaterialBlade::locate(const TetMesh& mesh, const SurfaceIndex& surface, con
   const std::vector<Vec3> places = divided(row, shares_);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];
-    point.world = places[i];
+    point.before = std::exchange(point.world, places[i]);
     find_tip(mesh, complex, point, anchors_[i]);
     if (!direction.isZero(0.0)) point.direction = direction;
     find(mesh, surface, point, anchors_[i]);
@@ -416,6 +457,29 @@ bool MaterialBlade::is_clear(const TetMesh& mesh, const SurfaceIndex& surface, c
                                                      {mesh.rest(v[2]), v[2].value});
   });
   return is_clear;
+}
+
+bool MaterialBlade::is_front_clear(const TetMesh& mesh, const SurfaceIndex& surface) {
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    if (!is_clear(mesh, surface, anchors_[i], anchors_[i + 1])) return false;
+  }
+  return true;
+}
+
+bool MaterialBlade::is_in_air(const TetMesh& mesh, const SurfaceIndex& surface) {
+  for (const Point& point : points_) {
+    if (point.has_entered || point.tet.is_valid()) return false;
+  }
+  if (!is_front_clear(mesh, surface)) return false;
+  std::vector<std::array<SosPoint, 3>> way;
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    const SosPoint a{points_[i].before, next_key_ + 2 * i}, b{points_[i + 1].before, next_key_ + 2 * i + 2};
+    const SosPoint c{points_[i].world, next_key_ + 2 * i + 1}, d{points_[i + 1].world, next_key_ + 2 * i + 3};
+    way.push_back({a, b, d});
+    way.push_back({a, d, c});
+  }
+  next_key_ += 2 * points_.size();
+  return !surface.meets_as_it_stands(mesh, way);
 }
 
 /// An end of the blade outside the body must not take its trace through it, or the cut would end in there: it goes
@@ -494,7 +558,7 @@ void MaterialBlade::take_over(const TetMesh& mesh, const SurfaceIndex& surface, 
   const std::vector<Vec3> places = divided(row, shares_);
   points_.assign(places.size(), {});
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    points_[i].world = points_[i].reached = points_[i].tip = places[i];
+    points_[i].world = points_[i].before = points_[i].reached = points_[i].tip = places[i];
     points_[i].candidate = anchors_[i];
   }
   find_masters(mesh, surface, complex);

@@ -40,6 +40,11 @@ class MaterialBlade {
   /// `is_last`: the blade goes no further, and points that waited for it to go on do so no more; others stay.
   void locate(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex, std::span<const Vec3> row,
               const Vec3& direction, bool is_last = false);
+  /// Whether the front lies outside the body at rest, all of it.
+  [[nodiscard]] bool is_front_clear(const TetMesh& mesh, const SurfaceIndex& surface);
+  /// Whether the blade is in the air: none of its points is in tissue or has its front there, and on its way from where
+  /// it was looked for last it met no tissue, nor does its front. Cost: O(points) in tissue, else O(surface).
+  [[nodiscard]] bool is_in_air(const TetMesh& mesh, const SurfaceIndex& surface);
   /// The row to cut to, as far as it is not held.
   [[nodiscard]] std::vector<Vec3> wanted() const;
   /// Notes where the front stands, for `stands_at`.
@@ -63,6 +68,7 @@ class MaterialBlade {
  private:
   struct Point {
     Vec3 world = Vec3::Zero();      ///< where it is now
+    Vec3 before = Vec3::Zero();     ///< where it was when it was looked for last
     Vec3 reached = Vec3::Zero();    ///< where it was when its anchor was last put in place
     Vec3 candidate = Vec3::Zero();  ///< the rest point there
     Vec3 tip = Vec3::Zero();        ///< where the front's rest point stands now
@@ -88,7 +94,9 @@ class MaterialBlade {
   void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
   [[nodiscard]] bool lies_in_cut(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest) const;
   bool push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
-  bool keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
+  bool keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest,
+                bool has_passed = false);
+  bool go_round(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, const Vec3& inner, Vec3& rest);
   [[nodiscard]] std::size_t leader_of(std::size_t point) const;
   [[nodiscard]] bool is_clear(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, const Vec3& to);
   void keep_clear(const TetMesh& mesh, const SurfaceIndex& surface, std::size_t end);

@@ -14,6 +14,8 @@ inline namespace v0 {
 namespace {
 
 constexpr unsigned kMaxPinchRounds = 64;
+/// A crumb has at most so many tets.
+constexpr std::size_t kMostCrumbTets = 256;
 
 /// Which side of the sheet a child of a complete master lies on: the colour of any corner that is not on the sheet.
 unsigned colour_of_child(const SplitTemplate::Child& child, const Master& master) {
@@ -468,12 +470,51 @@ class Rebuild::Run {
     dropped_.clear();
     result_.crumbs_kept += incise::keep_crumbs(mesh_, rules, incision_, dropped_, owner_.crumbs_);
     for (const IncisionFace& face : dropped_) {
-      if (stands_open(face) || pieces_.are_apart(face.a.tet(), face.b.tet())) {
+      if (stands_open(face) || !may_go_over(face)) {
         incision_.push_back(face);
       } else {
         close(face);
+        if (settings_.keeps_pieces) note_closed(face);
       }
     }
+  }
+  /// Whether a crumb may hang on the tet behind one of its faces. Material of another piece goes over only if there is
+  /// more of that piece: the wall between the two has moved by a crumb, and none has vanished.
+  [[nodiscard]] bool may_go_over(const IncisionFace& face) {
+    if (!pieces_.are_apart(face.a.tet(), face.b.tet())) return true;
+    const std::vector<TetId> crumb = tets_around(face.a.tet());
+    if (!has_more_of_its_piece(crumb)) return false;
+    for (const TetId tet : crumb) pieces_.follow(tet, face.b.tet());
+    return true;
+  }
+  /// The tets that hang together with one, of a crumb.
+  [[nodiscard]] std::vector<TetId> tets_around(TetId seed) const {
+    std::vector<TetId> tets = {seed};
+    for (std::size_t i = 0; i < tets.size() && tets.size() < kMostCrumbTets; ++i) {
+      for (const Link link : mesh_.links(tets[i])) {
+        if (link.is_boundary() || std::find(tets.begin(), tets.end(), link.side().tet()) != tets.end()) continue;
+        tets.push_back(link.side().tet());
+      }
+    }
+    return tets;
+  }
+  /// Whether there are other tets of a crumb's piece, new ones or beside the dirty masters.
+  [[nodiscard]] bool has_more_of_its_piece(const std::vector<TetId>& crumb) const {
+    const auto is_more = [&](TetId tet) {
+      return mesh_.is_live(tet) && pieces_.knows(tet) && !pieces_.are_apart(tet, crumb.front()) &&
+             std::find(crumb.begin(), crumb.end(), tet) == crumb.end();
+    };
+    const auto has_more = [&](std::uint32_t master) {
+      const auto children = complex_.children(complex_[master]);
+      return std::any_of(children.begin(), children.end(), is_more);
+    };
+    const auto stays = [&](TetId seed) {
+      const std::uint32_t master = complex_.find(seed);
+      return master == Master::kNone || !complex_[master].is_dirty;
+    };
+    return std::any_of(dirty_.begin(), dirty_.end(), has_more) ||
+           std::any_of(owner_.seeds_.begin(), owner_.seeds_.end(),
+                       [&](TetId seed) { return mesh_.is_live(seed) && stays(seed) && is_more(seed); });
   }
   /// Whether a face was open before, between tets that stay: it is never joined again but where nothing separates it.
   [[nodiscard]] bool stands_open(const IncisionFace& face) const {
@@ -508,11 +549,23 @@ class Rebuild::Run {
       const bool is_new = master.is_dirty && !master.is_kept;
       for (const std::uint8_t at : split.around[codes.vertex]) {
         const unsigned k = at / 4U, has = split.codes[k];
-        const auto ends = static_cast<std::uint8_t>(((has >> codes.a) & 1U) | ((has >> codes.b) & 1U) << 1U);
+        const auto ends = codes.vertex < SplitTemplate::kFirstSplit
+                              ? sides_of(master, codes.vertex, has)
+                              : static_cast<std::uint8_t>(((has >> codes.a) & 1U) | ((has >> codes.b) & 1U) << 1U);
         const std::uint32_t old = master.is_dirty ? owner_.old_of_[tets[k].value] : kInvalidIndex;
         star_.push_back({tets[k], at & 3U, is_new, old, 0, ends});
       }
     }
+  }
+  /// Of a child that has a corner of its master, by the codes that it has: bit 0 where another corner is on the same
+  /// side of the sheet, bit 1 where one is across. Corners that take part in the cut are on neither.
+  [[nodiscard]] static std::uint8_t sides_of(const Master& master, std::uint8_t corner, unsigned has) {
+    unsigned sides = 0;
+    for (unsigned c = 0; c < 4; ++c) {
+      if (c == corner || ((has >> c) & 1U) == 0 || ((unsigned{master.on} >> c) & 1U) != 0) continue;
+      sides |= 1U + ((unsigned{master.flagged} >> kEdgeOfCorners[corner][c]) & 1U);
+    }
+    return static_cast<std::uint8_t>(sides);
   }
   /// Whether the cut ends in a side that has no front point, since an older cut is beside it: it ends at split points.
   [[nodiscard]] static bool ends_without_point(const Master& master) {
@@ -576,7 +629,7 @@ class Rebuild::Run {
   /// Returns what the closed vertex is called now.
   VertexId divide(VertexId vertex, const StarParts::Home& home, bool makes_twins, bool may_be_named) {
     const bool keeps = settings_.keeps_pieces;
-    const StarParts::Settings settings{settings_.tags, makes_twins, keeps, keeps && may_be_named, &pieces_};
+    const StarParts::Settings settings{settings_.tags, makes_twins, keeps, keeps && may_be_named, &pieces_, across_};
     const StarParts::Division done = owner_.parts_.divide(transaction_, complex_, old_, vertex, star_, home, settings);
     result_.copied_vertices += done.made;
     if (done.closed != vertex) note_visited(done.closed);
@@ -608,16 +661,36 @@ class Rebuild::Run {
     if (!is_first(vertex)) return;
     const std::vector<std::uint32_t>& masters = complex_.star(mesh_, master, vertex);
     gather(masters, [&](const Master& m) { return codes_of_corner(m, vertex); });
+    find_across(masters, vertex);
     const bool may_be_named = complex_.is_known_around(vertex, masters);
     const VertexId named = divide(
         vertex, [&](std::span<const StarTet> part) { return home_of_corner(vertex, part); }, false, may_be_named);
+    across_.clear();
     if (named == vertex) return;
     complex_.rename(vertex, named, masters);
     for (ApartVertex& apart : apart_) apart.vertex = apart.vertex == vertex ? named : apart.vertex;
     owner_.renamed_.push_back({vertex, named});
   }
-  /// The part in whose material the vertex stood keeps it.
+  /// The neighbours across the sheet of a vertex that takes part in the cut for the first time, in a body that moves.
+  void find_across(std::span<const std::uint32_t> masters, VertexId vertex) {
+    across_.clear();
+    if (!settings_.keeps_pieces || complex_.has_copies(vertex)) return;
+    for (const std::uint32_t index : masters) {
+      const Master& master = complex_[index];
+      const unsigned c = codes_of_corner(master, vertex).vertex;
+      for (unsigned other = 0; other < 4; ++other) {
+        const bool is_on = ((unsigned{master.on} >> other) & 1U) != 0;
+        if (other == c || is_on || ((unsigned{master.flagged} >> kEdgeOfCorners[c][other]) & 1U) == 0) continue;
+        across_.push_back(master.vertices[other]);
+      }
+    }
+  }
+  /// The part in whose material the vertex stood keeps it: that on its side of the sheet. Until it takes part in the
+  /// cut it is told from the other one by that; what snapping takes over from one to the other says nothing.
   [[nodiscard]] VertexId home_of_corner(VertexId vertex, std::span<const StarTet> part) const {
+    unsigned sides = 0;
+    for (const StarTet& tet : part) sides |= tet.ends;
+    if (!across_.empty() && sides != 0) return (sides & 1U) != 0 ? vertex : VertexId();
     const bool is_home = std::any_of(part.begin(), part.end(), [&](const StarTet& t) { return was_home(t, vertex); });
     return is_home ? vertex : VertexId();
   }
@@ -774,11 +847,16 @@ class Rebuild::Run {
   }
   void close_latent(const IncisionFace& face) {
     close(face);
+    note_closed(face);
+    ++result_.latent_faces;
+  }
+  /// A face of the cut was left joined: once the blade has passed it is looked at again. What is one piece around a
+  /// crumb now may be two by then.
+  void note_closed(const IncisionFace& face) {
     for (const Side side : {face.a, face.b}) {
       const std::uint32_t master = complex_.find(side.tet());
       if (master != Master::kNone) complex_[master].has_latent_faces = true;
     }
-    ++result_.latent_faces;
   }
   /// Whether two boundary sides are the two ends of one fan of tets around an edge.
   [[nodiscard]] bool are_one_fan(const SurfaceEdges::Edge& edge, Side first, Side second) const {
@@ -846,6 +924,7 @@ class Rebuild::Run {
     std::uint32_t master;
   };
   std::vector<ApartVertex> apart_;  // of faces that are left open since two pieces meet there, with a master each
+  std::vector<VertexId> across_;    // of the corner that is being divided, see `find_across`
   bool is_beside_closed_ = false;   // `star_`: beside faces of the cut that were left joined
 };
 

@@ -505,6 +505,9 @@ std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sh
   for (const Candidate& candidate : candidates) {
     if (would_flatten_a_tet(mesh, candidate, complex, scratch.coincident)) continue;
     const VertexId v = candidate.on.vertex;
+    if (!candidate.is_coincident && rules.hangs_together &&
+        !rules.hangs_together(complex.star(mesh, candidate.master, v)))
+      continue;
     complex.set_on(v);
     for (const std::uint32_t index : complex.star(mesh, candidate.master, v)) {
       Master& master = complex[index];

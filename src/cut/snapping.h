@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct OnVertex {
 struct SnapRules {
   double snap = 0.2;     ///< reach, as a share of the mean length of a vertex's edges
   double spacing = 0.0;  ///< the length of a typical edge of the mesh
+  /// Where set, vertices that do not coincide with the sheet are chosen only if what some masters are divided into
+  /// hangs together: those around the vertex.
+  std::function<bool(std::span<const std::uint32_t>)> hangs_together;
 };
 
 /// Memory that snapping keeps between the steps of a stroke.
@@ -42,9 +46,10 @@ struct SnapScratch {
 /// was not face-connected at load. Vertices within `kCoincident` are chosen regardless of (ii); at once where skin or a
 /// wall lies along the sheet, and where `snap` is 0. Vertices of an older wall that runs along the sheet within `snap`
 /// are the cut already: they are chosen at once and regardless of (i) and (ii), so that no tet comes between.
-/// Marks them in the complex. Source: snapping before splitting as in Labelle & Shewchuk 2007 and level-set
-/// discretisation in Mmg; not in the paper, whose edge merging (§2.5) repairs afterwards what this avoids. Cost: one
-/// star per vertex close to the sheet.
+/// In a wound whose two sides have come apart (`hangs_together`) none is chosen any more: what lies between a vertex
+/// and the sheet would go over from one piece to the other. Marks them in the complex. Source: snapping before
+/// splitting as in Labelle & Shewchuk 2007 and level-set discretisation in Mmg; not in the paper, whose edge merging
+/// (§2.5) repairs afterwards what this avoids. Cost: one star per vertex close to the sheet.
 std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sheet, const SnapRules& rules,
                                          std::span<const std::uint32_t> masters, ClosedComplex& complex,
                                          SnapScratch& scratch);

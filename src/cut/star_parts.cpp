@@ -60,28 +60,46 @@ void StarParts::keep_copies(const TetMesh& mesh, std::span<const StarTet> star) 
   }
 }
 
-/// Where a vertex of a part stands: in the old child that reaches least beyond itself; in none, `inside` is -1e300.
-MaterialPlace StarParts::place_of(const TetMesh& mesh, const OldChildren& old, VertexId vertex,
-                                  std::span<const StarTet> part) {
+/// Whether a part lies across the sheet from where its vertex stood until now.
+bool StarParts::is_across(const Star& star, std::span<const StarTet> part) {
+  if (star.settings.across.empty()) return false;
+  unsigned ends = 0;
+  for (const StarTet& tet : part) ends |= tet.ends;
+  return ends == 2;
+}
+
+/// Whether an old child had the vertex together with a neighbour across the sheet: the cut was not there yet.
+bool StarParts::had_across(const Star& star, std::uint32_t old) {
+  const TetVertices& corners = star.old.vertices(old);
+  const auto& across = star.settings.across;
+  return std::any_of(corners.begin(), corners.end(), [&](VertexId v) {
+    return std::find(across.begin(), across.end(), star.complex.closed(v)) != across.end();
+  });
+}
+
+/// Where the vertex of a part stands: in the old child that reaches least beyond itself; in none, `inside` is -1e300.
+MaterialPlace StarParts::place_of(const Star& star, std::span<const StarTet> part) {
+  const bool is_beyond = is_across(star, part);
   MaterialPlace best;
   for (const StarTet& tet : part) {
     if (tet.old == kInvalidIndex) continue;
-    const TetVertices& corners = old.vertices(tet.old);
-    if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) return {};  // there where it stands
-    const MaterialPlace place = old.place_in(tet.old, mesh.rest(vertex));
+    const TetVertices& corners = star.old.vertices(tet.old);
+    if (std::find(corners.begin(), corners.end(), star.vertex) != corners.end()) {
+      if (is_beyond && !had_across(star, tet.old)) continue;  // what it takes over from the other side
+      return {};                                              // there where it stands
+    }
+    const MaterialPlace place = star.old.place_in(tet.old, star.mesh.rest(star.vertex));
     if (place.inside > best.inside) best = place;
   }
   return best;
 }
 
 /// A copy with the values that the part's side of the cut had there.
-VertexId StarParts::make_copy(Transaction& transaction, const OldChildren& old, VertexId vertex,
-                              std::span<const StarTet> part) {
-  const TetMesh& mesh = transaction.mesh();
-  const MaterialPlace place = place_of(mesh, old, vertex, part);
-  if (place.inside <= -1e300) return transaction.copy_vertex(vertex);
-  const VertexId copy = add_vertex_at(transaction, mesh.rest(vertex), place);
-  transaction.set_origin(copy, mesh.origin(vertex));
+VertexId StarParts::make_copy(Transaction& transaction, const Star& star, std::span<const StarTet> part) {
+  const MaterialPlace place = place_of(star, part);
+  if (place.inside <= -1e300) return transaction.copy_vertex(star.vertex);
+  const VertexId copy = add_vertex_at(transaction, star.mesh.rest(star.vertex), place);
+  transaction.set_origin(copy, star.mesh.origin(star.vertex));
   return copy;
 }
 
@@ -188,7 +206,7 @@ bool StarParts::stands_in(const Star& star, const Part& part) {
   if (star.settings.makes_twins || !star.settings.keeps_places) return true;
   const TetMesh& mesh = star.mesh;
   const auto tets = star.tets_of(part);
-  const MaterialPlace place = place_of(mesh, star.old, star.vertex, tets);
+  const MaterialPlace place = place_of(star, tets);
   const double tolerance = kSamePlace * (mesh.rest(star.vertex) - mesh.rest(mesh.vertices(tets[0].tet)[0])).norm();
   return place.inside <= -1e300 || (place.current - mesh.current(star.vertex)).norm() <= tolerance;
 }
@@ -209,7 +227,7 @@ void StarParts::take_vertex(const Star& star) {
 
 /// Moves the closed vertex, which no part has taken, to where the material of a part has it.
 void StarParts::move_vertex(Transaction& transaction, const Star& star, Part& part) {
-  const MaterialPlace place = place_of(star.mesh, star.old, star.vertex, star.tets_of(part));
+  const MaterialPlace place = place_of(star, star.tets_of(part));
   transaction.move(star.vertex, star.mesh.rest(star.vertex), place.basis, place.weights);
   part.copy = star.vertex;
 }
@@ -220,7 +238,7 @@ VertexId StarParts::source_of(const Star& star, const Part& part) {
     return were_apart(star, part, star.vertex) || star.complex.has_copies(star.vertex);
   };
   if (star.settings.makes_twins && !(star.settings.keeps_places && was_elsewhere())) return star.vertex;
-  if (!star.settings.keeps_places) return {};
+  if (!star.settings.keeps_places || is_across(star, star.tets_of(part))) return {};
   return copy_before(star.mesh, star.complex, star.old, star.vertex, star.tets_of(part));
 }
 
@@ -234,8 +252,7 @@ std::uint64_t StarParts::make_copies(Transaction& transaction, const Star& star)
       continue;
     }
     const VertexId source = source_of(star, part);
-    part.copy = source.is_valid() ? transaction.copy_vertex(source)
-                                  : make_copy(transaction, star.old, star.vertex, star.tets_of(part));
+    part.copy = source.is_valid() ? transaction.copy_vertex(source) : make_copy(transaction, star, star.tets_of(part));
     ++made;
   }
   return made;

@@ -20,7 +20,9 @@ struct StarTet {
   bool is_new = false;                ///< made in this rebuild
   std::uint32_t old = kInvalidIndex;  ///< the old child that holds its middle, where its master is rebuilt
   std::uint32_t part = 0;             ///< 1 + its part of the star; set by `divide`
-  std::uint8_t ends = 0;              ///< around a split point: bit 0 where it has the edge's end a, bit 1 for b
+  /// Around a split point: bit 0 where it has the edge's end a, bit 1 for b. Around a corner: bit 0 where it has a
+  /// neighbour on its side of the sheet, bit 1 for one across.
+  std::uint8_t ends = 0;
 };
 
 /// The copies of the vertices of a cut: one per face-connected part of the star, as long as it stays cut.
@@ -46,6 +48,9 @@ class StarParts {
     bool makes_twins = false;
     bool keeps_places = false, may_be_named = false;
     const MaterialPieces* pieces = nullptr;  ///< where not null, no copy goes over from one to another
+    /// Of a corner that takes part in the cut for the first time: its closed neighbours across the sheet. The parts
+    /// that have them and no others never had the corner, unless an old child of theirs had it with one of these.
+    std::span<const VertexId> across = {};
   };
   struct Division {
     std::uint64_t made = 0;  ///< copies
@@ -75,9 +80,10 @@ class StarParts {
   void find_parts(const TetMesh& mesh, std::vector<StarTet>& star);
   void keep_copies(const TetMesh& mesh, std::span<const StarTet> star);
   [[nodiscard]] bool is_taken(VertexId copy) const;
-  [[nodiscard]] static MaterialPlace place_of(const TetMesh& mesh, const OldChildren& old, VertexId vertex,
-                                              std::span<const StarTet> part);
-  VertexId make_copy(Transaction& transaction, const OldChildren& old, VertexId vertex, std::span<const StarTet> part);
+  [[nodiscard]] static MaterialPlace place_of(const Star& star, std::span<const StarTet> part);
+  static VertexId make_copy(Transaction& transaction, const Star& star, std::span<const StarTet> part);
+  [[nodiscard]] static bool is_across(const Star& star, std::span<const StarTet> part);
+  [[nodiscard]] static bool had_across(const Star& star, std::uint32_t old);
   [[nodiscard]] static bool has_other_copy(const TetMesh& mesh, std::span<const StarTet> part, VertexId copy);
   [[nodiscard]] static VertexId copy_before(const TetMesh& mesh, const ClosedComplex& complex, const OldChildren& old,
                                             VertexId vertex, std::span<const StarTet> part);

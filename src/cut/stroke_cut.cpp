@@ -85,7 +85,7 @@ Status StrokeCut::advance(const CutContext& context, std::unique_ptr<Strip> next
     collide(context, strip);
     flag(context.mesh, strip);
     walk_.keep_front(context.mesh, complex_, strip.row);
-    choose_on(context.mesh, *met_, {snap(), spacing_}, context.statistics);
+    choose_on(context.mesh, *met_, snap_rules(context.mesh), context.statistics);
     place_front(context.mesh, *met_, rules, context.statistics);
     count_cut(context.statistics);
   }
@@ -437,6 +437,20 @@ bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const 
     });
   }
   return does_touch || locate(mesh, surface_, surface.points.back()).is_valid();
+}
+
+SnapRules StrokeCut::snap_rules(const TetMesh& mesh) {
+  SnapRules rules{snap(), spacing_, {}};
+  if (!keeps_pieces_) return rules;
+  rules.hangs_together = [this, &mesh](std::span<const std::uint32_t> masters) {
+    std::vector<TetId> tets;
+    for (const std::uint32_t m : masters) {
+      const auto children = complex_.children(complex_[m]);
+      tets.insert(tets.end(), children.begin(), children.end());
+    }
+    return pieces_.find(mesh, tets) == 1;
+  };
+  return rules;
 }
 
 /// Chooses vertices that take part in the cut, and has the tets around them made anew.

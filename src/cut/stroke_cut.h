@@ -124,6 +124,7 @@ class StrokeCut {
   [[nodiscard]] bool may_let_go(std::uint32_t edge) const;
   [[nodiscard]] bool is_at_border(std::uint32_t edge) const;
   void settle_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
+  [[nodiscard]] SnapRules snap_rules(const TetMesh& mesh);
   void choose_on(const TetMesh& mesh, std::span<const std::uint32_t> masters, const SnapRules& rules,
                  CutStatistics& statistics);
   void land(const CutContext& context);

@@ -123,6 +123,28 @@ TetId SurfaceIndex::nearest_as_it_stands(const TetMesh& mesh, const Vec3& place)
   return nearest;
 }
 
+bool SurfaceIndex::meets_as_it_stands(const TetMesh& mesh, std::span<const std::array<SosPoint, 3>> triangles) const {
+  Box box;
+  for (const auto& triangle : triangles) {
+    for (const SosPoint& point : triangle) box.extend(point.position);
+  }
+  for (const Entry& entry : entries_) {
+    if (!mesh.is_live(entry.side.tet()) || !mesh.link(entry.side).is_boundary()) continue;
+    std::array<SosPoint, 3> side;
+    Box around;
+    for (unsigned k = 0; k < 3; ++k) {
+      const VertexId v = mesh.vertices(entry.side)[k];
+      side[k] = {mesh.current(v), v.value};
+      around.extend(side[k].position);
+    }
+    if (!around.overlaps(box)) continue;
+    for (const auto& triangle : triangles) {
+      if (triangles_cross(triangle, side)) return true;
+    }
+  }
+  return false;
+}
+
 bool SurfaceIndex::is_small(const Box& box) const {
   if (heads_.empty()) return true;
   const Cell lo = cell_of(box.lo), hi = cell_of(box.hi);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "incise/core/grow_array.h"
 #include "incise/geom/box.h"
+#include "incise/geom/intersect.h"
 #include "incise/mesh/journal_cursor.h"
 #include "incise/mesh/star.h"
 
@@ -33,6 +36,9 @@ class SurfaceIndex {
   /// The tet of the boundary side that lies nearest to a place as the body stands; none where there is no surface.
   /// Cost: O(surface).
   [[nodiscard]] TetId nearest_as_it_stands(const TetMesh& mesh, const Vec3& place) const;
+  /// Whether triangles meet the surface as the body stands. Exact. Cost: O(surface · triangles), 3 ns each for sides
+  /// outside the box of all triangles.
+  [[nodiscard]] bool meets_as_it_stands(const TetMesh& mesh, std::span<const std::array<SosPoint, 3>> triangles) const;
   /// Calls `visit(Side)` for each boundary side in the cells that meet a box; a side may come several times.
   template <class Visit>
   void for_each_near(const TetMesh& mesh, const Box& box, Visit&& visit) const;
