@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/model/convert.h"
+#include "command.h"
+#include "command_options.h"
 #include "command_support.h"
-#include "commands.h"
 #include "incise/io/mesh_loader.h"
 #include "input_kind.h"
 #include "mesh_output.h"
@@ -13,6 +15,12 @@ namespace incise_cli {
 namespace {
 
 using namespace incise;
+
+struct ConvertArguments {
+  std::string in;
+  MeshOutput out;
+  bool as_json = false;
+};
 
 /// A mesh from a file or stdin to stdout.
 Result<app::Conversion> convert_to_stdout(const ConvertArguments& a, const Terminal& terminal) {
@@ -59,8 +67,6 @@ std::string counts_of(const app::Conversion& done) {
   return std::to_string(done.triangles) + " triangles, " + std::to_string(done.vertices) + " vertices";
 }
 
-}  // namespace
-
 int run_convert(const ConvertArguments& arguments, const Terminal& terminal) {
   if (const auto problem = problem_of_conversion(arguments)) return fail(terminal, problem->text, problem->code);
   const WritingZone zone;
@@ -71,6 +77,23 @@ int run_convert(const ConvertArguments& arguments, const Terminal& terminal) {
   print_notes(done->notes, arguments.in, terminal);
   if (!done->files.empty()) terminal.wrote(names_text(done->files), counts_of(*done));
   return finish(terminal, arguments.as_json ? terminal.data(json_of(arguments, *done)) : Status());
+}
+
+}  // namespace
+
+Command add_convert(CLI::App& root) {
+  const auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App* convert =
+      add_command(root, "convert", "Convert a mesh or surface; a mesh becomes its boundary in .obj .stl .ply .off",
+                  "  incise convert bunny.node bunny.vtu\n  incise convert cut.vtu walls.stl\n"
+                  "  incise convert cut.vtu cut.msh --format msh22\n"
+                  "  zcat liver.mesh.gz | incise convert - - --format vtu > liver.vtu");
+  convert->add_option("IN", arguments->in, "File to read; - for a mesh from stdin")->required();
+  convert->add_option("OUT", arguments->out.file, "File to write; the extension names the format; - for stdout")
+      ->required();
+  add_format(*convert, arguments->out.format);
+  add_json(*convert, arguments->as_json);
+  return {convert, [arguments](const Terminal& terminal) { return run_convert(*arguments, terminal); }};
 }
 
 }  // namespace incise_cli

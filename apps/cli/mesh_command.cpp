@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_command.h"
-
+// The command `incise mesh`: a segmented scan, or a surface, becomes tets.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "app/text/text_file.h"
+#include "command.h"
+#include "command_options.h"
 #include "command_support.h"
 #include "incise/image/image_file.h"
 #include "incise/image/mesh_labels.h"
@@ -18,7 +20,7 @@
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
 #include "label_names.h"
-#include "mesh_output.h"
+#include "mesh_arguments.h"
 #include "mesh_report.h"
 #include "picture.h"
 
@@ -192,8 +194,6 @@ class Watch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace
-
 int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
   if (const auto problem = output_problem(arguments)) return fail(terminal, problem->text, problem->code);
@@ -234,6 +234,42 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   }
   if (!arguments.has_report_on_stdout()) terminal.summary(to_text(report), arguments.output.is_stdout());
   return kDone;
+}
+
+}  // namespace
+
+Command add_mesh(CLI::App& root) {
+  const auto arguments = std::make_shared<MeshArguments>();
+  MeshArguments& a = *arguments;
+  CLI::App* mesh =
+      add_command(root, "mesh",
+                  "Make tets of a segmented scan or a surface, a region for each label or closed part (docs/organs.md)",
+                  "  incise mesh liver.nii.gz -o liver.mesh --size 4\n"
+                  "  incise mesh spine.nrrd -o spine.vtu --size 2 --labels 20,21 --report spine.json\n"
+                  "  incise mesh organ.mha -o organ.msh --size 3 --merge 2=1 --names names.txt --picture organ.png\n"
+                  "  incise mesh femur.stl -o femur.mesh --size 5");
+  mesh->add_option("LABELS", a.input,
+                   "Label image: NIfTI (.nii, .nii.gz, .hdr/.img), NRRD, MetaImage or INRIMAGE; or a triangle surface: "
+                   ".stl .obj .ply .off, nearly closed")
+      ->required();
+  mesh->add_option("-o,--output", a.output.file,
+                   "Write the mesh, in RAS millimetres; the extension names the format; - for stdout, with --format")
+      ->required();
+  add_format(*mesh, a.output.format);
+  mesh->add_option("--size", a.size, "Size of the tets where labels meet, mm; finer where a label is thin")->required();
+  mesh->add_option("--labels", a.labels, "Mesh these labels alone: 1,3")->delimiter(',');
+  mesh->add_option("--merge", a.merges, "A=B: give label A's voxels to label B first; 2=1,3=1 for several")
+      ->delimiter(',');
+  mesh->add_option("--names", a.names, "Text file: a label and its name on each line");
+  mesh->add_option("--smooth", a.smooth, "Smoothing of the voxels' steps, voxels, 0.4 to 10 (default 0.7)");
+  mesh->add_option("--grade", a.grade,
+                   "Growth of the tets per mm of distance from where labels meet, 0 to 10 (default 0.5)");
+  mesh->add_option("--halvings", a.halvings,
+                   "How often the size may be halved where a label is thin, 0 to 4 (default 2); never below a voxel");
+  add_report(*mesh, a.report, a.as_json);
+  mesh->add_option("--picture", a.picture, "Draw the mesh to this PNG; needs OpenGL, but no display");
+  add_threads(*mesh, a.threads);
+  return {mesh, [arguments](const Terminal& terminal) { return run_mesh(*arguments, terminal); }};
 }
 
 }  // namespace incise_cli

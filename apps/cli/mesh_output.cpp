@@ -18,6 +18,12 @@ std::string extension_of(const std::string& file) {
   return (path.extension() == ".gz" ? path.stem().extension() : path.extension()).string();
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 std::string problem_of_format(const MeshOutput& output) {
   const io::WriteOptions options = *io::write_options_named(output.format);
   const std::string extension = extension_of(output.file);
@@ -31,9 +37,9 @@ std::string problem_of_format(const MeshOutput& output) {
 std::string problem_of_name(const MeshOutput& output) {
   if (!output.format.empty()) return problem_of_format(output);
   if (output.is_stdout())
-    return std::string("- needs --format, which says what to write to stdout: ") + io::kFormatNames;
+    return "- needs --format, which says what to write to stdout: " + listed(io::write_option_names());
   if (app::is_mesh_extension(output.file)) return "";
-  return output.file + ": unknown extension; use " + app::kMeshExtensions;
+  return output.file + ": unknown extension; use " + app::mesh_extensions();
 }
 
 }  // namespace

@@ -7,10 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "commands.h"
 #include "incise/io/mesh_file.h"
+#include "terminal.h"
 
 namespace incise_cli {
+
+/// Where a mesh is written, and as what.
+struct MeshOutput {
+  std::string file;    ///< "-": stdout; empty: nowhere
+  std::string format;  ///< a name of `io::write_options_named`; empty: what the extension says
+
+  [[nodiscard]] bool is_wanted() const { return !file.empty(); }
+  [[nodiscard]] bool is_stdout() const { return file == "-"; }
+};
 
 /// What is wrong with an output, as far as its name and format tell; nothing where it can be written.
 struct OutputProblem {

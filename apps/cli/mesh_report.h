@@ -6,7 +6,7 @@
 #include "incise/image/image_file.h"
 #include "incise/image/mesh_labels.h"
 #include "label_names.h"
-#include "mesh_command.h"
+#include "mesh_arguments.h"
 
 namespace incise_cli {
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
 #include <optional>
 
 #include "app/jobs/replay_job.h"
+#include "command.h"
+#include "command_options.h"
 #include "command_support.h"
-#include "commands.h"
 #include "input_kind.h"
 #include "mesh_output.h"
 
@@ -11,6 +13,13 @@ namespace incise_cli {
 namespace {
 
 using namespace incise;
+
+struct ReplayArguments {
+  std::string recording;
+  MeshOutput output;
+  bool verify = false;
+  bool as_json = false;
+};
 
 /// Says where a replay ended, if not where it should.
 void note_end(const app::ReplayResult& result, const std::string& recording, const Terminal& terminal) {
@@ -42,8 +51,6 @@ Status print(const ReplayArguments& a, const app::ReplayResult& result, const Te
   return {};
 }
 
-}  // namespace
-
 int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
   if (const auto problem = problem_of(arguments.output)) return fail(terminal, problem->text, problem->code);
   if (arguments.output.is_stdout() && arguments.as_json) {
@@ -59,6 +66,22 @@ int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
   }
   const int code = finish(terminal, print(arguments, *result, terminal));
   return result->difference ? report_difference(*result->difference, arguments.recording, terminal) : code;
+}
+
+}  // namespace
+
+Command add_replay(CLI::App& root) {
+  const auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App* words =
+      add_command(root, "replay", "Repeat what --record has recorded; exit 4 where the result differs",
+                  "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu");
+  words
+      ->add_option("REC", arguments->recording, "Recording: JSON lines of format incise-recording or incise-simulation")
+      ->required();
+  words->add_flag("--verify", arguments->verify, "Compare after every step or frame, not only at the end");
+  add_output(*words, arguments->output);
+  add_json(*words, arguments->as_json);
+  return {words, [arguments](const Terminal& terminal) { return run_replay(*arguments, terminal); }};
 }
 
 }  // namespace incise_cli

@@ -1,19 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "app/jobs/simulate_job.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/text_file.h"
+#include "command.h"
+#include "command_options.h"
 #include "command_support.h"
-#include "commands.h"
 #include "input_kind.h"
 
 namespace incise_cli {
 namespace {
 
 using namespace incise;
+
+struct SimulateArguments {
+  std::string scene, output, report, record;
+  std::string profile;                // empty: the scene's
+  std::uint64_t frames = 0;           // 0: the scene's
+  std::uint64_t every = 0;            // 0: as `SimulateJob`
+  std::uint64_t budget_us = 0;        // 0: the scene's work units
+  std::optional<std::uint64_t> seed;  // unset: the scene's
+  unsigned threads = 1;
+  bool as_json = false;
+  bool is_ideal = false;  // the exercise's ideal strokes instead of the scene's
+};
 
 constexpr std::size_t kMostSceneBytes = std::size_t{64} << 20U;
 
@@ -104,8 +118,6 @@ std::string output_problem(const SimulateArguments& a) {
   return {};
 }
 
-}  // namespace
-
 int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
   if (const std::string problem = output_problem(arguments); !problem.empty()) return fail(terminal, problem, kFailure);
@@ -131,6 +143,36 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
     return fail(terminal, result.error(), is_bad ? kBadInput : exit_of(result.error()));
   }
   return result->was_stopped ? int{kInterrupted} : finish_run(arguments, result->report, terminal);
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& root) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  CLI::App* simulate = add_command(
+      root, "simulate", "Run a scene: a soft body that is held, pulled and cut while it deforms (docs/scenes.md)",
+      "  incise simulate scenes/sim_cube.json\n"
+      "  incise simulate scenes/sim_cube.json -o cube.pvd --report cube.json\n"
+      "  incise simulate scenes/sim_skin.json --frames 60 --report -\n"
+      "  incise simulate scenes/sim_cube.json --profile paper --threads 2\n"
+      "  incise simulate scenes/sim_cube.json --record cube.jsonl && incise replay cube.jsonl --verify");
+  SimulateArguments& s = *arguments;
+  simulate->add_option("SCENE", s.scene, "Scene file: JSON of format incise-scene; - for stdin")->required();
+  simulate->add_option("--frames", s.frames, "Frames to run, instead of the scene's")
+      ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
+  simulate->add_option("-o,--output", s.output, "Write the body over time: NAME.pvd with the folder NAME_frames");
+  simulate->add_option("--every", s.every, "Frames between two files of -o (default: about 100 files)")
+      ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
+  add_report(*simulate, s.report, s.as_json);
+  simulate->add_option("--record", s.record, "Record every frame as JSON lines, for incise replay");
+  simulate->add_option("--profile", s.profile, "incise, or paper: the published method; instead of the scene's")
+      ->check(CLI::IsMember({"incise", "paper"}));
+  add_budget(*simulate, s.budget_us,
+             "Microseconds for maintenance per frame, 1 to 3600000000, taken as 10 work units each: no clock is read");
+  simulate->add_option("--seed", s.seed, "Seed, instead of the scene's");
+  simulate->add_flag("--ideal", s.is_ideal, "Show and score an exercise's ideal strokes, instead of the scene's");
+  add_threads(*simulate, s.threads);
+  return {simulate, [arguments](const Terminal& terminal) { return run_simulate(*arguments, terminal); }};
 }
 
 }  // namespace incise_cli

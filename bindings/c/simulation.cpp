@@ -3,6 +3,10 @@
 #include "incise/engine/simulation.h"
 
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <variant>
 
 #include "app/scene/scene.h"
 #include "app/scene/scene_simulation.h"
@@ -151,20 +155,44 @@ incise_status create(incise_simulation** out, const Call& call) {
   });
 }
 
-Result<Tool> tool_of(const incise_tool& c) {
-  switch (c.kind) {
-    case INCISE_TOOL_BALL:
-      return Tool(BallTool{to_vec(c.a), c.radius});
-    case INCISE_TOOL_ROD:
-      return Tool(RodTool{to_vec(c.a), to_vec(c.b), c.radius});
-    case INCISE_TOOL_PLANE:
-      return Tool(PlaneTool{to_vec(c.a), c.offset});
-    case INCISE_TOOL_FLAT:
-      if (c.edge == nullptr) return Error{ErrorCode::kBadArgument, "the edge of a flat is null", {}};
-      return Tool(FlatTool{pose_of(c.edge, c.n_edge, nullptr).edge, to_vec(c.a), c.radius});
-    default:
-      break;
+static_assert(INCISE_TOOL_BALL == 0 && INCISE_TOOL_ROD == 1 && INCISE_TOOL_PLANE == 2 && INCISE_TOOL_FLAT == 3 &&
+                  std::variant_size_v<Tool> == 4,
+              "the kinds of tools are those of Tool, in order");
+
+/// Points are `a` and `b`, in the order of the tool's fields; its number is `offset` where it is called so, else
+/// `radius`.
+class ToolFields {
+ public:
+  explicit ToolFields(const incise_tool& given) : given_(given) {}
+
+  void operator()(const char* /*name*/, Vec3& point) {
+    point = to_vec(std::exchange(is_second_, true) ? given_.b : given_.a);
   }
+  void operator()(const char* name, double& number) {
+    number = std::string_view(name) == "offset" ? given_.offset : given_.radius;
+  }
+  void operator()(const char* /*name*/, std::vector<Vec3>& edge) {
+    has_edge_ = given_.edge != nullptr;
+    if (has_edge_) edge = pose_of(given_.edge, given_.n_edge, nullptr).edge;
+  }
+  [[nodiscard]] bool has_edge() const { return has_edge_; }
+
+ private:
+  const incise_tool& given_;
+  bool is_second_ = false, has_edge_ = true;
+};
+
+Result<Tool> tool_of(const incise_tool& c) {
+  std::optional<Tool> made;
+  ToolFields fields(c);
+  std::uint32_t kind = 0;
+  for_each_tool_kind([&](auto shape) {
+    if (kind++ != static_cast<std::uint32_t>(c.kind)) return;
+    shape.for_each_field(shape, fields);
+    made = std::move(shape);
+  });
+  if (!fields.has_edge()) return Error{ErrorCode::kBadArgument, "the edge of a flat is null", {}};
+  if (made) return *std::move(made);
   return Error{ErrorCode::kBadArgument, "there is no tool of kind " + std::to_string(c.kind) + "; 0 to 3", {}};
 }
 

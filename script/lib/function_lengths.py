@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads lines `file<TAB>first line<TAB>last line<TAB>name`, prints lengths by module. usage: see script/function_lengths"""
+"""Reads lines `file<TAB>first line<TAB>last line<TAB>name<TAB>kind`, prints lengths by module.
+usage: see script/function_lengths"""
 import os
 import re
 import sys
 
 MEDIAN_LIMIT, LONG, LONG_SHARE_LIMIT = 10, 100, 0.02
+CLASS_LIMIT = 300
+# Lines "file class most-lines": classes that were longer when the limit came. None is added, and none grows.
+LONG_CLASSES = "script/lib/long_classes.txt"
 
 
 def module_of(path):
@@ -64,12 +68,44 @@ def report_unseen(root, functions):
     return len(unseen)
 
 
+def known_long_classes(root):
+    known = {}
+    with open(os.path.join(root, LONG_CLASSES), encoding="utf-8") as lines:
+        for line in lines:
+            if line.strip() and not line.startswith("#"):
+                path, name, most = line.split()
+                known[path, name] = int(most)
+    return known
+
+
+def report_long_classes(root, classes):
+    """Prints the classes that are too long, and entries of the list that are so no more; returns how many."""
+    known, wrong = known_long_classes(root), []
+    for lines, path, first, name in classes:
+        if lines > known.get((path, name), CLASS_LIMIT):
+            wrong.append("%s:%d: class %s has %d lines; split it along its headings" % (path, first, name, lines))
+    longest = {}
+    for lines, path, _, name in classes:
+        longest[path, name] = max(lines, longest.get((path, name), 0))
+    for (path, name), most in sorted(known.items()):
+        now = longest.get((path, name), 0)
+        if now < most:
+            wrong.append("%s: %s %s has %d lines now, not %d: %s" % (
+                LONG_CLASSES, path, name, now, most, "strike it" if now <= CLASS_LIMIT else "say so"))
+    print("classes: %d, longest %d, %d over %d" % (len(classes), max(classes)[0],
+                                                  sum(c[0] > CLASS_LIMIT for c in classes), CLASS_LIMIT))
+    for line in wrong:
+        print(line)
+    return len(wrong)
+
+
 def main(root, show_longest):
-    functions = []
+    functions, classes = [], []
     for line in sys.stdin:
-        path, first, last, name = line.rstrip("\n").split("\t")
+        path, first, last, name, kind = line.rstrip("\n").split("\t")
         if last.isdigit():
-            functions.append((int(last) - int(first) + 1, path, int(first), name))
+            entry = (int(last) - int(first) + 1, path, int(first), name)
+            (functions if kind == "function" else classes).append(entry)
     if not functions:
         sys.exit("function_lengths: found no function")
     print("%-12s %9s %7s %5s %8s %11s" % ("module", "functions", "median", "p90", "longest", "over %d" % LONG))
@@ -77,9 +113,9 @@ def main(root, show_longest):
         row(module, [n for n, path, _, _ in functions if module_of(path) == module])
     median, share = row("all", [n for n, _, _, _ in functions])
     if show_longest:
-        for n, path, first, name in sorted(functions, reverse=True)[:20]:
+        for n, path, first, name in sorted(functions, reverse=True)[:20] + sorted(classes, reverse=True)[:20]:
             print("%5d  %s:%d  %s" % (n, path, first, name))
-    is_wrong = report_unseen(root, functions) > 0 or median > MEDIAN_LIMIT or share > LONG_SHARE_LIMIT
+    is_wrong = report_unseen(root, functions) + report_long_classes(root, classes) > 0 or median > MEDIAN_LIMIT or share > LONG_SHARE_LIMIT
     return 1 if is_wrong else 0
 
 

@@ -235,7 +235,7 @@ void BladeCoupling::take_hold(Sample& sample, const TetMesh& mesh, std::span<con
   grip(sample, *found, mesh);
 }
 
-HapticSnapshot BladeCoupling::snapshot(const DeformableBody& body, const TetMesh& mesh) const {
+HapticSnapshot BladeCoupling::snapshot(const Solver& solver, const TetMesh& mesh) const {
   HapticSnapshot snapshot;
   Mat3 stiffness = Mat3::Zero();
   double limit = 0, friction = 0, held = 0;
@@ -246,7 +246,7 @@ HapticSnapshot BladeCoupling::snapshot(const DeformableBody& body, const TetMesh
     limit += s.toughness * s.length;
     friction += s.friction * s.length;
     for (unsigned i = 0; i < 4; ++i) {
-      stiffness += s.grip->weights[i] * s.grip->weights[i] * body.local_stiffness(mesh.vertices(s.grip->tet)[i]);
+      stiffness += s.grip->weights[i] * s.grip->weights[i] * solver.local_stiffness(mesh.vertices(s.grip->tet)[i]);
     }
   }
   if (held == 0 || direction_.isZero(0)) return snapshot;

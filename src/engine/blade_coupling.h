@@ -8,7 +8,7 @@
 
 #include "incise/engine/engine.h"
 #include "incise/engine/simulation.h"
-#include "incise/sim/body.h"
+#include "incise/sim/solver.h"
 #include "incise/sim/tissue_point.h"
 
 namespace incise {
@@ -40,7 +40,7 @@ class BladeCoupling {
   /// Forces and work of the last frame.
   [[nodiscard]] const BladeState& state() const { return state_; }
   /// What the force-feedback loop goes by.
-  [[nodiscard]] HapticSnapshot snapshot(const DeformableBody& body, const TetMesh& mesh) const;
+  [[nodiscard]] HapticSnapshot snapshot(const Solver& solver, const TetMesh& mesh) const;
 
  private:
   /// A point of the edge.

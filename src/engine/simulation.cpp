@@ -90,11 +90,12 @@ std::vector<TetId> fresh_tets(const Journal& journal, std::size_t first_step) {
 }  // namespace
 
 struct Simulation::State {
-  State(Engine taken, DeformableBody made, SimulationOptions chosen)
-      : engine(std::move(taken)), body(std::move(made)), options(std::move(chosen)) {}
+  State(Engine taken, std::unique_ptr<Solver> made, SimulationOptions chosen)
+      : engine(std::move(taken)), solver(std::move(made)), options(std::move(chosen)) {}
 
   Engine engine;
-  DeformableBody body;
+  std::unique_ptr<Solver> solver;
+  DeformableBody* body = nullptr;  // the same, where it is Incise's own
   SimulationOptions options;
   double spacing = 1;
   double contact_stiffness = 0;  // N/m
@@ -175,9 +176,9 @@ Status Simulation::State::press(const FrameInput& input, FrameReport& report) {
   std::vector<Tool> tools = input.tools;
   add_flat(input, tools);
   const std::size_t others = pulls.size();
-  find_contacts(engine.mesh(), body.positions(), tools, contact_stiffness, 0.1 * spacing, pulls);
+  find_contacts(engine.mesh(), solver->positions(), tools, contact_stiffness, 0.1 * spacing, pulls);
   report.contacts = pulls.size() - others;
-  return body.set_pulls(std::move(pulls));
+  return solver->set_pulls(std::move(pulls));
 }
 
 Grip Simulation::State::grab(const Hook& hook) const {
@@ -186,7 +187,7 @@ Grip Simulation::State::grab(const Hook& hook) const {
   double least = 0;
   engine.mesh().for_each_vertex([&](VertexId v) {
     if (!engine.mesh().tet_of(v).is_valid()) return;
-    const double distance2 = (body.positions()[v.value] - hook.position).squaredNorm();
+    const double distance2 = (solver->positions()[v.value] - hook.position).squaredNorm();
     if (!nearest.is_valid() || distance2 < least) {
       nearest = v;
       least = distance2;
@@ -194,7 +195,7 @@ Grip Simulation::State::grab(const Hook& hook) const {
     if (distance2 <= hook.radius * hook.radius) grip.vertices.push_back(v);
   });
   if (grip.vertices.empty() && nearest.is_valid()) grip.vertices.push_back(nearest);
-  for (const VertexId v : grip.vertices) grip.offsets.push_back(body.positions()[v.value] - hook.position);
+  for (const VertexId v : grip.vertices) grip.offsets.push_back(solver->positions()[v.value] - hook.position);
   return grip;
 }
 
@@ -226,7 +227,7 @@ std::vector<Vec3> Simulation::State::hook_forces(const FrameInput& input) const 
   for (const Hook& hook : input.hooks) {
     const Grip& grip = grips.at(hook.id);
     Vec3& force = forces.emplace_back(Vec3::Zero());
-    for (std::size_t i = 0; i < grip.pulls; ++i) force -= body.pull_force(grip.first_pull + i);
+    for (std::size_t i = 0; i < grip.pulls; ++i) force -= solver->pull_force(grip.first_pull + i);
   }
   return forces;
 }
@@ -244,14 +245,14 @@ void Simulation::State::add_flat(const FrameInput& input, std::vector<Tool>& too
 
 Status Simulation::State::relax(FrameReport& report) {
   const StageZone zone(report.times, Stage::kRelax);
-  Result<AdvanceReport> advanced = body.advance(options.frame_seconds);
+  Result<AdvanceReport> advanced = solver->advance(options.frame_seconds);
   if (!advanced) return advanced.error();
   report.relax = *advanced;
   return hand_over();
 }
 
 Status Simulation::State::hand_over() {
-  return engine.set_positions(body.positions());
+  return engine.set_positions(solver->positions());
 }
 
 /// The blade cuts the tissue where it stands now.
@@ -318,9 +319,9 @@ Status Simulation::State::follow(FrameReport& report) {
 }
 
 Status Simulation::State::follow_mesh() {
-  const Result<FollowReport> followed = body.follow(engine.journal(), engine.mesh());
+  const Result<FollowReport> followed = solver->follow(engine.journal(), engine.mesh());
   if (!followed) return followed.error();
-  if (is_in_stroke && coupling.resists()) snapshot = coupling.snapshot(body, engine.mesh());
+  if (is_in_stroke && coupling.resists()) snapshot = coupling.snapshot(*solver, engine.mesh());
   return followed->fresh_vertices > 0 ? hand_over() : Status{};
 }
 
@@ -328,12 +329,25 @@ Status Simulation::State::follow_mesh() {
 
 Result<Simulation> Simulation::create(TetMesh mesh, SimulationOptions options) {
   if (Status status = check(options); !status) return status.error();
-  Result<DeformableBody> body = DeformableBody::create(mesh, {}, options.materials, options.body);
-  if (!body) return body.error();
+  Result<DeformableBody> made = DeformableBody::create(mesh, {}, options.materials, options.body);
+  if (!made) return made.error();
+  auto body = std::make_unique<DeformableBody>(std::move(made).value());
+  DeformableBody* const own = body.get();
+  Result<Simulation> simulation = create(std::move(mesh), std::move(options), std::move(body));
+  if (simulation) simulation->state_->body = own;
+  return simulation;
+}
+
+Result<Simulation> Simulation::create(TetMesh mesh, SimulationOptions options, std::unique_ptr<Solver> solver) {
+  if (Status status = check(options); !status) return status.error();
+  if (solver == nullptr) return bad("a simulation needs a solver");
+  if (!(options.body.length_unit > 0 && std::isfinite(options.body.length_unit))) {
+    return bad("the length unit must be above 0 m");
+  }
   const double spacing = mean_edge(mesh);
   Result<Engine> engine = Engine::create(std::move(mesh), options.engine);
   if (!engine) return engine.error();
-  auto state = std::make_unique<State>(std::move(engine).value(), std::move(body).value(), std::move(options));
+  auto state = std::make_unique<State>(std::move(engine).value(), std::move(solver), std::move(options));
   state->spacing = spacing;
   const SimulationOptions& o = state->options;
   state->contact_stiffness =
@@ -349,11 +363,11 @@ Simulation::~Simulation() = default;
 Result<unsigned> Simulation::settle(unsigned max_frames, double speed) {
   State& s = *state_;
   for (unsigned i = 0; i < max_frames; ++i) {
-    Result<AdvanceReport> advanced = s.body.advance(s.options.frame_seconds);
+    Result<AdvanceReport> advanced = s.solver->advance(s.options.frame_seconds);
     if (!advanced) return advanced.error();
     if (Status status = s.hand_over(); !status) return status.error();
     if (advanced->fastest < speed) return i + 1;
-    s.body.slow_down(0.5);
+    s.solver->slow_down(0.5);
   }
   return max_frames;
 }
@@ -362,13 +376,13 @@ bool Simulation::undo() {
   State& s = *state_;
   s.is_in_stroke = false;
   if (!s.engine.undo()) return false;
-  return s.body.follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
+  return s.solver->follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
 }
 
 bool Simulation::redo() {
   State& s = *state_;
   if (!s.engine.redo()) return false;
-  return s.body.follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
+  return s.solver->follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
 }
 
 Status Simulation::keep_undo(std::size_t operations) {
@@ -384,11 +398,20 @@ const Engine& Simulation::engine() const {
 const TetMesh& Simulation::mesh() const {
   return state_->engine.mesh();
 }
+const Solver& Simulation::solver() const {
+  return *state_->solver;
+}
+Solver& Simulation::solver() {
+  return *state_->solver;
+}
+bool Simulation::has_body() const {
+  return state_->body != nullptr;
+}
 const DeformableBody& Simulation::body() const {
-  return state_->body;
+  return *state_->body;
 }
 DeformableBody& Simulation::body() {
-  return state_->body;
+  return *state_->body;
 }
 std::uint64_t Simulation::frames() const {
   return state_->frames;
@@ -400,7 +423,7 @@ const HapticSnapshot& Simulation::haptic_snapshot() const {
 std::uint64_t Simulation::hash() const {
   StateHash hash;
   hash.add(state_->engine.mesh().hash());
-  hash.add(state_->body.hash());
+  hash.add(state_->solver->hash());
   return hash.value();
 }
 

@@ -242,7 +242,6 @@ class AbaqusReader {
 }  // namespace
 
 bool read_abaqus(Job& job) {
-  job.out.format = Format::kAbaqus;
   job.out.format_name = "Abaqus .inp";
   return AbaqusReader(job).run();
 }

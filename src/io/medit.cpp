@@ -175,7 +175,6 @@ class MeditReader {
 }  // namespace
 
 bool read_medit(Job& job) {
-  job.out.format = Format::kMedit;
   job.out.format_name = "MEDIT .mesh ASCII";
   return MeditReader(job).run();
 }

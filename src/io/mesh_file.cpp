@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/files.h"
+#include "io/formats.h"
 #include "io/gzip.h"
 #include "io/reader.h"
 
@@ -16,18 +17,12 @@ inline namespace v0 {
 namespace io {
 namespace {
 
-constexpr const char* kReadable =
-    "Incise reads MEDIT .mesh, Gmsh .msh, legacy .vtk, .vtu, TetGen .node/.ele, Vega .veg, Abaqus .inp and "
-    "tetrahedral .ply";
-
-using Reader = bool (*)(Job&);
-
 bool starts_with(std::string_view text, std::string_view with) {
   return text.substr(0, with.size()) == with;
 }
 
 bool refuse(Job& job, const std::string& what) {
-  return job.fail(what + " cannot be read; " + kReadable, ErrorCode::kUnsupported);
+  return job.fail(what + " cannot be read; " + readable_formats(), ErrorCode::kUnsupported);
 }
 
 // Known formats that are of no use here, by their first bytes.
@@ -98,62 +93,53 @@ const char* unsupported_text(std::string_view bytes) {
   return unsupported_numbers(bytes);
 }
 
-// Lines that begin with '*' tell Vega from Abaqus.
-Reader star_format(std::string_view bytes) {
+/// A file's bytes without a mark of their order, and its first line that says something.
+Beginning beginning_of(std::string_view bytes) {
   for (std::size_t at = 0; at < bytes.size();) {
     const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
     const std::string_view line = trim(bytes.substr(at, end - at));
-    const std::string_view keyword = trim(line.substr(0, line.find(',')));
-    if (same_word(keyword, "*VERTICES") || same_word(keyword, "*ELEMENTS")) return read_vega;
-    if (same_word(keyword, "*NODE") || same_word(keyword, "*HEADING") || same_word(keyword, "*ELEMENT")) {
-      return read_abaqus;
-    }
-    if (starts_with(to_lower(line.substr(0, 9)), "*include ") && line.find('=') == std::string_view::npos)
-      return read_vega;
+    if (!line.empty() && line[0] != '#') return {bytes, line};
     at = end + 1;
+  }
+  return {bytes, {}};
+}
+
+const FormatRow* find_format(std::string_view bytes) {
+  const Beginning beginning = beginning_of(bytes);
+  for (const FormatRow& row : formats()) {
+    if (row.recognises != nullptr && row.recognises(beginning)) return &row;
   }
   return nullptr;
 }
 
-// The format by the first line that is not a comment.
-Reader text_format(std::string_view bytes) {
-  for (std::size_t at = 0; at < bytes.size();) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    const std::string_view line = trim(bytes.substr(at, end - at));
-    at = end + 1;
-    if (line.empty() || line[0] == '#') continue;
-    if (line[0] == '$') return read_msh;
-    if (line[0] == '*') return star_format(bytes);
-    if (line[0] == '<') return read_vtu;
-    if (same_word(line.substr(0, 20), "MeshVersionFormatted")) return read_medit;
-    double number = 0;
-    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
-    return parse_double(word, number) ? read_tetgen : nullptr;
+/// What a reader of one's own makes of the bytes.
+bool run(Job& job, const MeshFormat& format) {
+  Result<MeshData> data = format.read(job.bytes, job.name, job.sibling);
+  if (!data) {
+    job.error = data.error();
+    return false;
   }
-  return nullptr;
+  job.out.format_name = format.name;
+  job.out.data = std::move(data).value();
+  return finish(job);
 }
 
-Reader find_reader(std::string_view bytes) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (starts_with(bytes, kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
-  if (starts_with(bytes, "# vtk DataFile")) return read_vtk;
-  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return read_ply_tets;
-  return text_format(bytes);
-}
-
-bool run(Job& job) {
+bool run(Job& job, const std::vector<MeshFormat>& own) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (job.bytes.empty()) return job.fail("the file is empty; export the mesh again");
   if (starts_with(job.bytes, kByteOrderMark)) job.bytes.remove_prefix(kByteOrderMark.size());
+  for (const MeshFormat& format : own) {
+    if (format.recognises && format.read && format.recognises(job.bytes)) return run(job, format);
+  }
   if (const char* kind = unsupported_kind(job.bytes)) return refuse(job, kind);
   const std::string_view trimmed = trim(job.bytes.substr(0, 64));
   if (starts_with(trimmed, "{") || starts_with(trimmed, "[")) return refuse(job, "JSON");
-  const Reader reader = find_reader(job.bytes);
-  if (reader == nullptr || reader == read_msh || reader == read_tetgen) {  // what looks like these may be others
+  const FormatRow* format = find_format(job.bytes);
+  if (format == nullptr || format->is_vague) {
     if (const char* kind = unsupported_text(job.bytes)) return refuse(job, kind);
   }
-  if (reader == nullptr) return refuse(job, "this kind of file");
-  return reader(job) && finish(job);
+  if (format == nullptr) return refuse(job, "this kind of file");
+  return format->read(job) && finish(job);
 }
 
 // Messages end with a remedy, as the contract of errors asks.
@@ -175,7 +161,7 @@ std::string with_line_feeds(std::string_view bytes) {
 }
 
 Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, const SiblingLoader& load,
-                            const ReadLimits& limits) {
+                            const ReadLimits& limits, const std::vector<MeshFormat>& own) {
   std::string converted;
   if (ends_lines_by_return(bytes)) bytes = converted = with_line_feeds(bytes);
   SiblingLoader sibling;
@@ -186,26 +172,27 @@ Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, con
     };
   }
   Job job{name, bytes, sibling, limits, {}, {}};
-  if (!run(job)) return complete(std::move(job.error));
+  if (!run(job, own)) return complete(std::move(job.error));
   return std::move(job.out);
 }
 
 }  // namespace
 
 Result<MeshFile> read_mesh_bytes(std::string_view bytes, const std::string& name, const SiblingLoader& sibling,
-                                 const ReadLimits& limits) {
+                                 const ReadLimits& limits, const std::vector<MeshFormat>& own) {
   return guarded<MeshFile>(name, [&]() -> Result<MeshFile> {
-    if (!is_gzip(bytes)) return read_plain(bytes, name, sibling, limits);
+    if (!is_gzip(bytes)) return read_plain(bytes, name, sibling, limits, own);
     std::string inflated;
     std::string why;
     if (!gunzip(bytes, limits.max_inflated_bytes, inflated, why)) return Error{ErrorCode::kBadFile, name + ": " + why};
-    Result<MeshFile> file = read_plain(inflated, name, sibling, limits);
+    Result<MeshFile> file = read_plain(inflated, name, sibling, limits, own);
     if (file) file->gzipped = true;
     return file;
   });
 }
 
-Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
+Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& limits,
+                           const std::vector<MeshFormat>& own) {
   const std::string name = path.string();
   return guarded<MeshFile>(name, [&]() -> Result<MeshFile> {
     Result<std::string> bytes = load_file(path, limits);
@@ -216,7 +203,7 @@ Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& 
       const bool beside = wanted.parent_path() == path.parent_path();
       return load_either(beside ? wanted : path.parent_path() / wanted, limits);
     };
-    return read_mesh_bytes(*bytes, name, sibling, limits);
+    return read_mesh_bytes(*bytes, name, sibling, limits, own);
   });
 }
 

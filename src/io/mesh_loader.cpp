@@ -159,8 +159,8 @@ Result<LoadedMesh> build_mesh(MeshFile file, const std::filesystem::path& path) 
   return loaded;
 }
 
-Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
-  Result<MeshFile> file = read_mesh(path);
+Result<LoadedMesh> load_mesh(const std::filesystem::path& path, const std::vector<MeshFormat>& own) {
+  Result<MeshFile> file = read_mesh(path, {}, own);
   if (!file.ok()) return file.error();
   return build_mesh(std::move(file).value(), path);
 }

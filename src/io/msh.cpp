@@ -620,7 +620,6 @@ class MshReader {
 }  // namespace
 
 bool read_msh(Job& job) {
-  job.out.format = Format::kMsh;
   return MshReader(job).run();
 }
 

@@ -250,7 +250,6 @@ bool read_ply(std::string_view bytes, const std::string& name, Error& error, Ply
 
 bool read_ply_tets(Job& job) {
   PlyContent content;
-  job.out.format = Format::kPly;
   if (!read_ply(job.bytes, job.name, job.error, content)) return false;
   if (!content.has_tets) {
     return job.fail("this PLY holds a surface, without an element for tets; fill it with incise mesh",

@@ -41,15 +41,7 @@ struct Job {
 /// A MEDIT file that Incise wrote has a comment that begins so, before its vertices; then the names of what it carries.
 inline constexpr std::string_view kMeditMark = "# incise:";
 
-// One reader per format; each returns false with `job.error` set.
-bool read_medit(Job& job);
-bool read_msh(Job& job);
-bool read_vtk(Job& job);
-bool read_vtu(Job& job);
-bool read_tetgen(Job& job);
-bool read_vega(Job& job);
-bool read_abaqus(Job& job);
-bool read_ply_tets(Job& job);
+// One reader per format, named in formats.cpp alone: bool read_x(Job& job), which returns false with `job.error` set.
 
 /// Check what a reader made: tets exist, indices in range; drop labels that say nothing; find mid nodes.
 bool finish(Job& job);

@@ -211,7 +211,6 @@ std::string replace_extension(const std::string& name, std::string_view with) {
 }  // namespace
 
 bool read_tetgen(Job& job) {
-  job.out.format = Format::kTetGen;
   job.out.format_name = "TetGen .node/.ele";
   const bool given_nodes = looks_like_nodes(job.bytes, job.name);
   const std::string other = replace_extension(job.name, given_nodes ? ".ele" : ".node");

@@ -215,7 +215,6 @@ class VegaReader {
 }  // namespace
 
 bool read_vega(Job& job) {
-  job.out.format = Format::kVega;
   job.out.format_name = "Vega .veg";
   return VegaReader(job).run();
 }

@@ -378,7 +378,6 @@ class VtkReader {
 }  // namespace
 
 bool read_vtk(Job& job) {
-  job.out.format = Format::kVtk;
   return VtkReader(job).run();
 }
 

@@ -339,7 +339,6 @@ class VtuReader {
 }  // namespace
 
 bool read_vtu(Job& job) {
-  job.out.format = Format::kVtu;
   return VtuReader(job).run();
 }
 

@@ -81,14 +81,16 @@ struct NamedLabels {
 
 /// One array over all cells, tets first; the other kind has 0.
 [[nodiscard]] Labels cell_array(const MeshData& data, const Labels& of_tets, const Labels& of_triangles);
+/// The arrays over all cells that a mesh has.
+[[nodiscard]] std::vector<NamedLabels> cell_arrays(const MeshData& data);
 /// The labels of points that a mesh has.
 [[nodiscard]] std::vector<NamedLabels> point_arrays(const MeshData& data);
 
 /// The name of the data in a MSH file that say at which place each element stood, tets before triangles.
 inline constexpr std::string_view kMshOrder = "incise:order";
 
-/// Gmsh .msh, see `MshVariant`.
-[[nodiscard]] std::string write_msh(const MeshData& data, MshVariant variant);
+/// A set of the tets of each label, as Vega and Abaqus have them; label 0 needs none.
+void label_sets(Text& out, std::string_view opening, std::string_view prefix, const Labels& labels);
 
 }  // namespace io
 }  // namespace v0

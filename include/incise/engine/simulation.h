@@ -12,6 +12,7 @@
 #include "incise/sim/body.h"
 #include "incise/sim/contact.h"
 #include "incise/sim/haptic_snapshot.h"
+#include "incise/sim/solver.h"
 
 namespace incise {
 inline namespace v0 {
@@ -86,6 +87,9 @@ class Simulation {
  public:
   /// Takes the mesh, at rest. Errors: kBadArgument for options out of range.
   static Result<Simulation> create(TetMesh mesh, SimulationOptions options);
+  /// The same with a solver of one's own, made for this mesh. Of `options.body` the length unit alone counts, and of
+  /// `options.materials` how tissue resists a blade. Errors: kBadArgument besides without a solver.
+  static Result<Simulation> create(TetMesh mesh, SimulationOptions options, std::unique_ptr<Solver> solver);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
@@ -114,9 +118,14 @@ class Simulation {
   [[nodiscard]] const Engine& engine() const;
   /// The mesh as it stands after the last frame.
   [[nodiscard]] const TetMesh& mesh() const;
-  /// The body: masses, velocities, energies.
+  /// What relaxes the tissue. Follow the journal by `frame` alone.
+  [[nodiscard]] const Solver& solver() const;
+  [[nodiscard]] Solver& solver();
+  /// Whether that is the solver that Incise has.
+  [[nodiscard]] bool has_body() const;
+  /// The solver that Incise has; not to be called where `has_body` is false.
   [[nodiscard]] const DeformableBody& body() const;
-  /// To hold and release vertices; follow the journal by `frame` alone.
+  /// To hold and release vertices.
   [[nodiscard]] DeformableBody& body();
   /// Frames done.
   [[nodiscard]] std::uint64_t frames() const;

@@ -17,21 +17,8 @@ namespace incise {
 inline namespace v0 {
 namespace io {
 
-/// The families of mesh files.
-enum class Format : std::uint8_t {
-  kMedit,   ///< .mesh
-  kMsh,     ///< Gmsh .msh
-  kVtk,     ///< legacy .vtk
-  kVtu,     ///< .vtu
-  kTetGen,  ///< .node and .ele
-  kVega,    ///< .veg
-  kAbaqus,  ///< .inp
-  kPly,     ///< tetrahedral .ply (read only)
-};
-
 /// A mesh as its file has it: nothing is reordered, turned, merged or dropped.
 struct MeshFile {
-  Format format = Format::kMedit;        ///< the family
   std::string format_name;               ///< for people, for instance "Gmsh MSH 2.2 ASCII"
   bool gzipped = false;                  ///< the file was compressed
   MeshData data;                         ///< points, tets, triangles and labels
@@ -54,15 +41,31 @@ struct ReadLimits {
 /// @return its bytes, gunzipped.
 using SiblingLoader = std::function<Result<std::string>(const std::string& name)>;
 
+/// A format of one's own, beside those that Incise knows.
+struct MeshFormat {
+  std::string name;       ///< for people, for instance "Acme 2 binary"
+  std::string extension;  ///< of files that are written so, with its dot, in lower case; empty: it is only read
+  /// Whether a file is of this format, by its bytes, gunzipped. Asked before all formats that Incise knows. Empty: it
+  /// is only written.
+  std::function<bool(std::string_view bytes)> recognises;
+  /// Reads a file. What it returns is checked as if Incise had read it: indices in range, finite points, a tet at
+  /// least.
+  std::function<Result<MeshData>(std::string_view bytes, const std::string& name, const SiblingLoader& sibling)> read;
+  /// Makes the bytes of a file, before they are gzipped where `.gz` follows the extension.
+  std::function<Result<std::string>(const MeshData& data)> write;
+};
+
 /// Read a tetrahedral mesh; the format is found from the content, not from the name.
 ///
 /// MEDIT .mesh; Gmsh .msh 1.0, 2.x and 4.1, ASCII and binary; legacy .vtk 2.0 to 5.1; .vtu in all encodings but
 /// LZ4 and LZMA; TetGen .node or .ele (the other is looked for beside it); Vega .veg; Abaqus .inp; tetrahedral
 /// .ply; any of them gzipped. Ten-node tets keep their corners; their other nodes stay in `data.soup.points`.
+/// @param own  formats of one's own.
 /// @return the mesh, with all indices in range and all coordinates finite, and at least one tet.
 /// Errors: `kBadFile` "FILE:LINE: what; remedy" (or a byte offset), `kUnsupported` for a format of no use here,
 /// `kOutOfMemory`. Cost: O(n); holds the file's bytes and the mesh at once. Thread-safe.
-[[nodiscard]] Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
+[[nodiscard]] Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {},
+                                         const std::vector<MeshFormat>& own = {});
 
 /// Read a mesh from memory, as `read_mesh` does; this is what the fuzzers call.
 ///
@@ -70,7 +73,8 @@ using SiblingLoader = std::function<Result<std::string>(const std::string& name)
 /// @param name     stands for FILE in messages; for TetGen it names the other half (`a.ele` asks for `a.node`).
 /// @param sibling  where the format needs a second file; without it such files are refused.
 [[nodiscard]] Result<MeshFile> read_mesh_bytes(std::string_view bytes, const std::string& name = "mesh",
-                                               const SiblingLoader& sibling = {}, const ReadLimits& limits = {});
+                                               const SiblingLoader& sibling = {}, const ReadLimits& limits = {},
+                                               const std::vector<MeshFormat>& own = {});
 
 /// The variants of Gmsh's format that can be written.
 enum class MshVariant : std::uint8_t {
@@ -81,15 +85,18 @@ enum class MshVariant : std::uint8_t {
 
 /// How a mesh is written, where the name of its file leaves that open.
 struct WriteOptions {
-  std::string extension = {};        ///< such as ".vtu", instead of the file's own; empty: the file's own
-  MshVariant msh = MshVariant::k41;  ///< of ".msh"
+  std::string extension = {};            ///< such as ".vtu", instead of the file's own; empty: the file's own
+  MshVariant msh = MshVariant::k41;      ///< of ".msh"
+  std::vector<MeshFormat> formats = {};  ///< formats of one's own, before those that Incise knows
 };
 
 /// The options that a short name stands for: "mesh", "msh" or "msh41", "msh41-binary", "msh22", "vtk", "vtu", "node",
 /// "veg" or "inp"; nothing where it stands for none.
 [[nodiscard]] std::optional<WriteOptions> write_options_named(std::string_view name);
-/// The names that `write_options_named` knows, for messages.
-inline constexpr const char* kFormatNames = "mesh, msh41, msh41-binary, msh22, vtk, vtu, node, veg, inp";
+/// The names that `write_options_named` knows, but for "msh". Cost: O(names).
+[[nodiscard]] std::vector<std::string> write_option_names();
+/// The extensions that meshes are written under, each once, with its dot. Cost: O(extensions).
+[[nodiscard]] std::vector<std::string> written_extensions();
 
 /// Write a mesh in the format that the extension names, gzipped where `.gz` follows.
 ///

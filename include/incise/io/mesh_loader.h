@@ -50,8 +50,8 @@ std::vector<std::uint32_t> drop_mid_nodes(MeshFile& file);
 /// that Incise wrote. Errors: as `TetMesh::build`, naming the file. Cost: O(n log n).
 [[nodiscard]] Result<LoadedMesh> build_mesh(MeshFile file, const std::filesystem::path& path);
 
-/// Reads and builds. Errors: as `read_mesh` and `build_mesh`.
-[[nodiscard]] Result<LoadedMesh> load_mesh(const std::filesystem::path& path);
+/// Reads and builds. `own`: formats of one's own. Errors: as `read_mesh` and `build_mesh`.
+[[nodiscard]] Result<LoadedMesh> load_mesh(const std::filesystem::path& path, const std::vector<MeshFormat>& own = {});
 
 }  // namespace io
 }  // namespace v0

@@ -13,6 +13,7 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/material.h"
+#include "incise/sim/solver.h"
 
 namespace incise {
 inline namespace v0 {
@@ -38,32 +39,6 @@ struct BodyOptions {
   bool coarse = true;  ///< substeps of block descent begin with a step on a coarse lattice through the whole body
 };
 
-/// Something that pulls at a point of the tissue: k/2 |a − target|², or k/2 (axis · (a − target))² along an axis.
-///
-/// The point is a = Σ weights · vertices; in the mesh's length unit, as the body stands.
-struct Pull {
-  std::array<VertexId, 4> vertices{};         ///< of one tet; those without weight may be invalid
-  std::array<double, 4> weights{1, 0, 0, 0};  ///< barycentric, sum 1
-  Vec3 target = Vec3::Zero();                 ///< where the point is pulled to
-  Vec3 axis = Vec3::Zero();                   ///< a unit vector, or zero: in all directions
-  double stiffness = 0;                       ///< N/m, at least 0
-  bool pushes_only = false;                   ///< with an axis: acts only where axis · (a − target) < 0
-  /// With an axis: N, at least 0; where the spring would pull harder it gives way, and pulls with this.
-  double limit = std::numeric_limits<double>::infinity();
-};
-
-/// What following the journal changed.
-struct FollowReport {
-  std::size_t removed_tets = 0, added_tets = 0;  ///< by the steps that were followed
-  std::size_t fresh_vertices = 0;                ///< born, copied or moved
-};
-
-/// What one `advance` did.
-struct AdvanceReport {
-  std::size_t active_vertices = 0;  ///< that were awake
-  double fastest = 0;               ///< greatest speed of a vertex, m/s
-};
-
 /// Energies in J.
 struct BodyEnergy {
   double elastic = 0;    ///< above that of the rest shape
@@ -84,7 +59,7 @@ struct BodyEnergy {
 /// fallen 200 body lengths from what is held sleeps there. What a body left alone gains in energy its motion pays for.
 /// Positions are in the mesh's length unit, all else in SI units. Not thread-safe. The same calls give the same bits on
 /// every compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
-class DeformableBody {
+class DeformableBody final : public Solver {
  public:
   /// Takes the body as it stands, at rest or not, without velocity, and follows its `journal` from here on.
   /// Errors: kBadArgument for options or materials out of range. Cost: O(tets), about 1 µs each.
@@ -92,7 +67,7 @@ class DeformableBody {
                                        const BodyOptions& options = {});
   DeformableBody(DeformableBody&&) noexcept;
   DeformableBody& operator=(DeformableBody&&) noexcept;
-  ~DeformableBody();
+  ~DeformableBody() override;
 
   /// As given to `create`.
   [[nodiscard]] const BodyOptions& options() const;
@@ -105,11 +80,11 @@ class DeformableBody {
   /// them, and the others go where the body has their material, as fast as that is; these positions are to be handed on
   /// to the mesh. Errors: kBadArgument where the journal stands before `create`.
   /// Cost: O(steps), below 0.5 µs per tet consumed or produced; O(tets) after an undo.
-  Result<FollowReport> follow(const Journal& journal, const TetMesh& mesh);
+  Result<FollowReport> follow(const Journal& journal, const TetMesh& mesh) override;
 
   /// Moves on by `dt` seconds, in (0, 1]. Errors: kBadArgument for another `dt`. Cost: O(awake vertices · substeps ·
   /// iterations), about 10 ns per tet and iteration.
-  Result<AdvanceReport> advance(double dt);
+  Result<AdvanceReport> advance(double dt) override;
 
   // --- what holds it and what pulls it
 
@@ -123,18 +98,18 @@ class DeformableBody {
   [[nodiscard]] bool is_held(VertexId vertex) const;
   /// Replaces all pulls. Vertices in them are kept awake. Errors: kBadArgument names the first malformed pull; then
   /// nothing changes. Cost: O(pulls).
-  Status set_pulls(std::vector<Pull> pulls);
+  Status set_pulls(std::vector<Pull> pulls) override;
   /// As set last; those whose vertices died pull no more.
   [[nodiscard]] const std::vector<Pull>& pulls() const;
   /// The force of a pull on the tissue as it stands, N.
-  [[nodiscard]] Vec3 pull_force(std::size_t index) const;
+  [[nodiscard]] Vec3 pull_force(std::size_t index) const override;
   /// What the tissue does to its rigid holds, N, at the last substep: elasticity, gravity and inertia. Cost: O(held).
   [[nodiscard]] Vec3 force_on_holds() const;
 
   // --- what it is like
 
   /// The places of all vertex slots, for `Engine::set_positions`. Valid until the next call that changes the body.
-  [[nodiscard]] std::span<const Vec3> positions() const;
+  [[nodiscard]] std::span<const Vec3> positions() const override;
   /// Puts a vertex at another place, without velocity. Errors: kBadArgument where it is not live, or not finite.
   Status place(VertexId vertex, const Vec3& position);
   [[nodiscard]] Vec3 velocity(VertexId vertex) const;  ///< m/s
@@ -142,7 +117,7 @@ class DeformableBody {
   /// not live, or not finite.
   Status set_velocity(VertexId vertex, const Vec3& velocity);
   /// Multiplies all velocities by `factor`, in [0, 1], so that the body comes to rest sooner.
-  void slow_down(double factor);
+  void slow_down(double factor) override;
   [[nodiscard]] double mass(VertexId vertex) const;  ///< kg
   [[nodiscard]] double mass() const;                 ///< kg
   [[nodiscard]] Vec3 momentum() const;               ///< kg m/s
@@ -151,7 +126,7 @@ class DeformableBody {
   [[nodiscard]] BodyEnergy energy() const;
   /// The 3×3 stiffness that a vertex meets while its neighbours stay, N/m: its inverse is the local compliance. Without
   /// inertia. Cost: O(its tets).
-  [[nodiscard]] Mat3 local_stiffness(VertexId vertex) const;
+  [[nodiscard]] Mat3 local_stiffness(VertexId vertex) const override;
   /// Tets that are turned inside out as the body stands. Cost: O(tets).
   [[nodiscard]] std::size_t count_inverted() const;
   /// Whether all positions and velocities are finite. Cost: O(vertices).
@@ -159,7 +134,7 @@ class DeformableBody {
   /// Vertices that are awake.
   [[nodiscard]] std::size_t active_vertices() const;
   /// Of positions, momenta and masses. Cost: O(vertices).
-  [[nodiscard]] std::uint64_t hash() const;
+  [[nodiscard]] std::uint64_t hash() const override;
 
   struct State;  ///< how it is done; not for users
   [[nodiscard]] const State& state() const { return *state_; }

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,22 +17,53 @@
 namespace incise {
 inline namespace v0 {
 
+// A tool is a struct with a name and a list of its fields: recordings, scenes, the window and the C interface go by
+// these alone. Its shape is in contact.cpp, and `Tool` registers it.
+
 /// A ball that presses on the body. Lengths in the mesh's unit, radius above 0.
 struct BallTool {
   Vec3 centre = Vec3::Zero();  ///< length unit
   double radius = 1;           ///< length unit, above 0
+
+  static constexpr const char* kName = "ball";  ///< in recordings and scenes
+  static constexpr bool kMoves = true;          ///< a scene may move it along a path, its points from key to key
+  /// Calls `visit(name, field)` for each field: points, lists of points, and numbers.
+  template <class Self, class Visit>
+  static void for_each_field(Self& tool, Visit&& visit) {
+    visit("centre", tool.centre);
+    visit("radius", tool.radius);
+  }
 };
 
 /// A rod with round ends: all within `radius` of the segment between its ends.
 struct RodTool {
   Vec3 from = Vec3::Zero(), to = Vec3::UnitX();  ///< its ends, length unit
   double radius = 1;                             ///< length unit, above 0
+
+  static constexpr const char* kName = "rod";  ///< in recordings and scenes
+  static constexpr bool kMoves = true;         ///< a scene may move it along a path, its points from key to key
+  /// Calls `visit(name, field)` for each field: points, lists of points, and numbers.
+  template <class Self, class Visit>
+  static void for_each_field(Self& tool, Visit&& visit) {
+    visit("from", tool.from);
+    visit("to", tool.to);
+    visit("radius", tool.radius);
+  }
 };
 
 /// Everything behind a plane: a table, a wall. The body stays where normal · x >= offset.
 struct PlaneTool {
   Vec3 normal = Vec3::UnitZ();  ///< unit
   double offset = 0;            ///< length unit
+
+  static constexpr const char* kName = "plane";  ///< in recordings and scenes
+  static constexpr bool kMoves = false;          ///< a scene may move it along a path, its points from key to key
+  /// Calls `visit(name, field)` for each field: points, lists of points, and numbers.
+  template <class Self, class Visit>
+  static void for_each_field(Self& tool, Visit&& visit) {
+    visit("normal", tool.normal);
+    visit("offset", tool.offset);
+  }
 };
 
 /// The flat of a blade: the strip from its edge to `back` behind it. Tissue stays on the side where it is.
@@ -35,10 +71,42 @@ struct FlatTool {
   std::vector<Vec3> edge;     ///< at least 2 points
   Vec3 back = Vec3::UnitZ();  ///< from the edge to the back of the blade, not zero
   double thickness = 0;       ///< at least 0: walls are kept half of it away
+
+  static constexpr const char* kName = "flat";  ///< in recordings and scenes
+  static constexpr bool kMoves = false;         ///< a scene may move it along a path, its points from key to key
+  /// Calls `visit(name, field)` for each field: points, lists of points, and numbers.
+  template <class Self, class Visit>
+  static void for_each_field(Self& tool, Visit&& visit) {
+    visit("edge", tool.edge);
+    visit("back", tool.back);
+    visit("thickness", tool.thickness);
+  }
 };
 
-/// Anything that presses on a body.
+/// Anything that presses on a body, in the order of `incise_tool_kind` of the C interface.
 using Tool = std::variant<BallTool, RodTool, PlaneTool, FlatTool>;
+
+/// Calls `visit(tool)` with one tool of each kind, as it is at first, in the order of `Tool`.
+template <class Visit>
+void for_each_tool_kind(Visit&& visit) {
+  const auto visit_at = [&]<std::size_t... kIndices>(std::index_sequence<kIndices...>) {
+    (visit(std::variant_alternative_t<kIndices, Tool>()), ...);
+  };
+  visit_at(std::make_index_sequence<std::variant_size_v<Tool>>());
+}
+
+/// What a tool looks like. Lengths in the mesh's unit.
+struct ToolOutline {
+  /// Drawn solid.
+  struct Ball {
+    Vec3 centre;    ///< length unit
+    double radius;  ///< length unit
+  };
+  std::vector<Ball> balls;                     ///< of what is solid
+  std::vector<std::array<Vec3, 3>> triangles;  ///< of what is flat
+};
+/// Nothing of a plane, which is where the body stops. Cost: O(points).
+[[nodiscard]] ToolOutline outline_of(const Tool& tool);
 
 /// Errors: kBadArgument names what is out of range.
 [[nodiscard]] Status check(const Tool& tool);

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kMeshes = {".mesh", ".msh", ".msh2", ".vtk", ".vtu",
-                                                     ".node", ".ele", ".veg",  ".inp"};
 constexpr std::array<std::string_view, 4> kSurfaces = {".obj", ".stl", ".ply", ".off"};
 
 std::string extension_of(const fs::path& path) {
@@ -55,7 +53,14 @@ Result<Conversion> mesh_to_surface(io::MeshFile file, const fs::path& in, const 
 }  // namespace
 
 bool is_mesh_extension(const fs::path& path) {
-  return std::find(kMeshes.begin(), kMeshes.end(), extension_of(path)) != kMeshes.end();
+  const std::vector<std::string> meshes = io::written_extensions();
+  return std::find(meshes.begin(), meshes.end(), extension_of(path)) != meshes.end();
+}
+
+std::string mesh_extensions() {
+  std::string text;
+  for (const std::string& extension : io::written_extensions()) text += (text.empty() ? "" : " ") + extension;
+  return text + ", each also with .gz";
 }
 
 bool is_surface_extension(const fs::path& path) {
@@ -67,7 +72,7 @@ Result<Conversion> convert(const fs::path& in, const fs::path& out, const io::Wr
   if (!wants_surface && options.extension.empty() && !is_mesh_extension(out)) {
     return Error{
         ErrorCode::kBadArgument,
-        out.string() + ": unknown extension; use " + kMeshExtensions + ", or for surfaces " + kSurfaceExtensions,
+        out.string() + ": unknown extension; use " + mesh_extensions() + ", or for surfaces " + kSurfaceExtensions,
         {}};
   }
   Result<io::MeshFile> file = io::read_mesh(in);

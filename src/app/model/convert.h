@@ -18,7 +18,7 @@ namespace app {
 /// Whether `io::write_surface` knows the extension, `.gz` aside. Cost: O(1).
 [[nodiscard]] bool is_surface_extension(const std::filesystem::path& path);
 /// The extensions of both, for messages.
-inline constexpr const char* kMeshExtensions = ".mesh .msh .msh2 .vtk .vtu .node .ele .veg .inp, each also with .gz";
+[[nodiscard]] std::string mesh_extensions();
 inline constexpr const char* kSurfaceExtensions = ".obj .stl .ply .off";
 
 /// What a conversion has to tell.

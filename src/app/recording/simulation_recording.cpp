@@ -26,25 +26,20 @@ Json encode_hook(const Hook& hook) {
   return {{"id", hook.id}, {"position", encode(hook.position)}, {"radius", hook.radius}, {"stiffness", hook.stiffness}};
 }
 
-struct EncodeTool {
-  Json operator()(const BallTool& ball) const {
-    return {{"kind", "ball"}, {"centre", encode(ball.centre)}, {"radius", ball.radius}};
-  }
-  Json operator()(const RodTool& rod) const {
-    return {{"kind", "rod"}, {"from", encode(rod.from)}, {"to", encode(rod.to)}, {"radius", rod.radius}};
-  }
-  Json operator()(const PlaneTool& plane) const {
-    return {{"kind", "plane"}, {"normal", encode(plane.normal)}, {"offset", plane.offset}};
-  }
-  Json operator()(const FlatTool& flat) const {
-    return {{"kind", "flat"}, {"edge", encode(flat.edge)}, {"back", encode(flat.back)}, {"thickness", flat.thickness}};
-  }
-};
+Json encode_tool(const Tool& tool) {
+  return std::visit(
+      [](const auto& shape) {
+        Json root = {{"kind", shape.kName}};
+        shape.for_each_field(shape, [&](const char* name, const auto& field) { root[name] = encode(field); });
+        return root;
+      },
+      tool);
+}
 
 void add_input(const FrameInput& input, Json& root) {
   if (input.blade) root["blade"] = {{"edge", encode(input.blade->edge)}, {"direction", encode(input.blade->direction)}};
   for (const Hook& hook : input.hooks) root["hooks"].push_back(encode_hook(hook));
-  for (const Tool& tool : input.tools) root["tools"].push_back(std::visit(EncodeTool{}, tool));
+  for (const Tool& tool : input.tools) root["tools"].push_back(encode_tool(tool));
 }
 
 // ---- reading ----
@@ -148,30 +143,35 @@ class CallReader : public LineReader {
     std::string kind;
     if (value.kind != JsonValue::Kind::kObject) return read_.fail(value, path, "must be an object");
     if (!read_text(value, path, "kind", kind)) return false;
-    if (kind == "ball") return read_shape(value, path, tool.emplace<BallTool>());
-    if (kind == "rod") return read_shape(value, path, tool.emplace<RodTool>());
-    if (kind == "plane") return read_shape(value, path, tool.emplace<PlaneTool>());
-    if (kind == "flat") return read_shape(value, path, tool.emplace<FlatTool>());
-    return read_.fail(*value.find("kind"), under(path, "kind"), "must be ball, rod, plane or flat");
+    bool is_known = false, is_read = false;
+    std::string kinds;
+    for_each_tool_kind([&](auto shape) {
+      kinds += std::string(kinds.empty() ? "" : ", ") + shape.kName;
+      if (kind != shape.kName) return;
+      is_known = true;
+      is_read = read_shape(value, path, shape);
+      tool = std::move(shape);
+    });
+    return is_known ? is_read : read_.fail(*value.find("kind"), under(path, "kind"), "must be one of " + kinds);
   }
-  bool read_shape(const JsonValue& value, const std::string& path, BallTool& ball) {
-    return read_.is_object(value, path, {"kind", "centre", "radius"}) &&
-           read_point(value, path, "centre", ball.centre) && read_number(value, path, "radius", ball.radius);
+  template <class Shape>
+  bool read_shape(const JsonValue& value, const std::string& path, Shape& shape) {
+    std::vector<std::string_view> keys = {"kind"};
+    shape.for_each_field(shape, [&](const char* name, const auto& /*field*/) { keys.emplace_back(name); });
+    bool is_read = read_.is_object(value, path, keys);
+    shape.for_each_field(
+        shape, [&](const char* name, auto& field) { is_read = is_read && read_field(value, path, name, field); });
+    return is_read;
   }
-  bool read_shape(const JsonValue& value, const std::string& path, RodTool& rod) {
-    return read_.is_object(value, path, {"kind", "from", "to", "radius"}) &&
-           read_point(value, path, "from", rod.from) && read_point(value, path, "to", rod.to) &&
-           read_number(value, path, "radius", rod.radius);
+  bool read_field(const JsonValue& object, const std::string& path, const char* key, Vec3& out) {
+    return read_point(object, path, key, out);
   }
-  bool read_shape(const JsonValue& value, const std::string& path, PlaneTool& plane) {
-    return read_.is_object(value, path, {"kind", "normal", "offset"}) &&
-           read_point(value, path, "normal", plane.normal) && read_number(value, path, "offset", plane.offset);
+  bool read_field(const JsonValue& object, const std::string& path, const char* key, double& out) {
+    return read_number(object, path, key, out);
   }
-  bool read_shape(const JsonValue& value, const std::string& path, FlatTool& flat) {
-    if (!read_.is_object(value, path, {"kind", "edge", "back", "thickness"})) return false;
-    const JsonValue* edge = read_.member(value, path, "edge");
-    return edge != nullptr && read_.points(*edge, under(path, "edge"), kMaxBladePoints, flat.edge) &&
-           read_point(value, path, "back", flat.back) && read_number(value, path, "thickness", flat.thickness);
+  bool read_field(const JsonValue& object, const std::string& path, const char* key, std::vector<Vec3>& out) {
+    const JsonValue* value = read_.member(object, path, key);
+    return value != nullptr && read_.points(*value, under(path, key), kMaxBladePoints, out);
   }
   bool read_point(const JsonValue& object, const std::string& path, const char* key, Vec3& out) {
     const JsonValue* value = read_.member(object, path, key);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <optional>
+#include <type_traits>
 
 #include "app/scene/scene.h"
 #include "app/scene/scene_blade.h"
@@ -47,15 +48,31 @@ std::optional<KeySpan> find_span(const std::vector<double>& times, const Moment&
 struct Blend {
   double share;
 
-  Tool operator()(const BallTool& a, const BallTool& b) const {
-    return BallTool{between(a.centre, b.centre, share), between(a.radius, b.radius, share)};
-  }
-  Tool operator()(const RodTool& a, const RodTool& b) const {
-    return RodTool{between(a.from, b.from, share), between(a.to, b.to, share), between(a.radius, b.radius, share)};
+  template <class Shape>
+  Tool operator()(Shape a, const Shape& b) const {
+    if constexpr (Shape::kMoves) blend(a, b);
+    return a;
   }
   template <class A, class B>
   Tool operator()(const A& a, const B&) const {
     return a;
+  }
+
+ private:
+  /// Fields go by their place in the list.
+  template <class Shape>
+  void blend(Shape& a, const Shape& b) const {
+    std::size_t at = 0;
+    Shape::for_each_field(a, [&](const char* /*name*/, auto& field) {
+      std::size_t other_at = 0;
+      Shape::for_each_field(b, [&](const char* /*name*/, const auto& other) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(field)>, std::decay_t<decltype(other)>>) {
+          if (other_at == at) field = between(field, other, share);
+        }
+        ++other_at;
+      });
+      ++at;
+    });
   }
 };
 

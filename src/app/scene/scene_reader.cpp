@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "app/scene/blade_file.h"
@@ -298,13 +299,23 @@ class SceneReader {
 
   bool read_tool(const JsonValue& value, const std::string& path) {
     SceneTool& tool = scene_.tools.emplace_back();
-    if (!read_.is_object(value, path, {"name", "plane", "ball", "rod"}) ||
-        !has_one(value, path, {"plane", "ball", "rod"}) || !read_.optional_text(value, path, "name", tool.name)) {
+    std::vector<std::string_view> kinds = {"plane"};
+    for_each_tool_kind([&](const auto& shape) {
+      if (shape.kMoves) kinds.emplace_back(shape.kName);
+    });
+    std::vector<std::string_view> keys = {"name"};
+    keys.insert(keys.end(), kinds.begin(), kinds.end());
+    if (!read_.is_object(value, path, keys) || !has_one(value, path, kinds) ||
+        !read_.optional_text(value, path, "name", tool.name)) {
       return false;
     }
     if (const JsonValue* plane = value.find("plane")) return read_plane_tool(*plane, path + ".plane", tool);
-    if (const JsonValue* ball = value.find("ball")) return read_ball_tool(*ball, path + ".ball", tool);
-    return read_rod_tool(*value.find("rod"), path + ".rod", tool);
+    bool is_read = false;
+    for_each_tool_kind([&](auto shape) {
+      const JsonValue* given = shape.kMoves ? value.find(shape.kName) : nullptr;
+      if (given != nullptr) is_read = read_moving_tool(*given, path + "." + shape.kName, shape, tool);
+    });
+    return is_read;
   }
   bool read_plane_tool(const JsonValue& value, const std::string& path, SceneTool& tool) {
     HalfSpace plane;
@@ -315,35 +326,41 @@ class SceneReader {
                                      is_unit ? plane.offset : plane.offset / length});
     return true;
   }
-  bool read_ball_tool(const JsonValue& value, const std::string& path, SceneTool& tool) {
-    BallTool ball;
-    if (!read_.is_object(value, path, {"radius", "centre", "path"}) || !has_one(value, path, {"centre", "path"}) ||
-        !read_.need_ranged(value, path, "radius", kAbove0, ball.radius)) {
-      return false;
-    }
-    const auto read_key = [&](const JsonValue& key, const std::string& where) {
-      return read_.need_point(key, where, "centre", ball.centre) && (tool.keys.emplace_back(ball), true);
-    };
-    if (value.find("path") == nullptr) return read_key(value, path);
-    return read_path(value, path, [&](const JsonValue& key, const std::string& where) {
-      return read_.is_object(key, where, {"t", "centre"}) && read_time(key, where, tool.times) && read_key(key, where);
+  /// A tool with numbers above 0 and points, which may go along a path: then each key of it has them all.
+  template <class Shape>
+  bool read_moving_tool(const JsonValue& value, const std::string& path, Shape& shape, SceneTool& tool) {
+    std::vector<std::string_view> points, keys;
+    bool is_read = true;
+    Shape::for_each_field(shape, [&](const char* name, const auto& field) {
+      (std::is_same_v<std::decay_t<decltype(field)>, Vec3> ? points : keys).emplace_back(name);
     });
-  }
-  bool read_rod_tool(const JsonValue& value, const std::string& path, SceneTool& tool) {
-    RodTool rod;
-    if (!read_.is_object(value, path, {"radius", "from", "to", "path"}) || !has_one(value, path, {"from", "path"}) ||
-        !read_.need_ranged(value, path, "radius", kAbove0, rod.radius)) {
-      return false;
-    }
+    keys.insert(keys.end(), points.begin(), points.end());
+    keys.emplace_back("path");
+    if (!read_.is_object(value, path, keys) || !has_one(value, path, {points.front(), "path"})) return false;
+    Shape::for_each_field(shape, [&](const char* name, auto& field) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(field)>, double>) {
+        is_read = is_read && read_.need_ranged(value, path, name, kAbove0, field);
+      }
+    });
     const auto read_key = [&](const JsonValue& key, const std::string& where) {
-      return read_.need_point(key, where, "from", rod.from) && read_.need_point(key, where, "to", rod.to) &&
-             (tool.keys.emplace_back(rod), true);
+      bool is_key_read = true;
+      Shape::for_each_field(shape, [&](const char* name, auto& field) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Vec3>) {
+          is_key_read = is_key_read && read_.need_point(key, where, name, field);
+        }
+      });
+      return is_key_read && (tool.keys.emplace_back(shape), true);
     };
+    if (!is_read) return false;
     if (value.find("path") == nullptr) return read_key(value, path);
-    if (value.find("to") != nullptr) return read_.fail(value, path, "has \"to\" beside \"path\"; put it into the path");
+    for (const std::string_view point : points) {
+      if (value.find(point) != nullptr) {
+        return read_.fail(value, path, "has \"" + std::string(point) + "\" beside \"path\"; put it into the path");
+      }
+    }
+    points.insert(points.begin(), "t");
     return read_path(value, path, [&](const JsonValue& key, const std::string& where) {
-      return read_.is_object(key, where, {"t", "from", "to"}) && read_time(key, where, tool.times) &&
-             read_key(key, where);
+      return read_.is_object(key, where, points) && read_time(key, where, tool.times) && read_key(key, where);
     });
   }
 
@@ -566,7 +583,7 @@ class SceneReader {
     }
     return true;
   }
-  bool has_one(const JsonValue& value, const std::string& path, std::initializer_list<std::string_view> keys) {
+  bool has_one(const JsonValue& value, const std::string& path, const std::vector<std::string_view>& keys) {
     int found = 0;
     std::string names;
     for (const std::string_view key : keys) {

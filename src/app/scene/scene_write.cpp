@@ -66,13 +66,15 @@ Json json_of(const Attachment& held) {
   return root;
 }
 
-/// What changes along a tool's path.
-void add_place(const Tool& tool, Json& root) {
-  if (const auto* ball = std::get_if<BallTool>(&tool)) root["centre"] = encode(ball->centre);
-  if (const auto* rod = std::get_if<RodTool>(&tool)) {
-    root["from"] = encode(rod->from);
-    root["to"] = encode(rod->to);
-  }
+/// Of a tool's fields the points, which change along its path, or the numbers, which do not.
+void add_fields(const Tool& tool, bool wants_points, Json& root) {
+  std::visit(
+      [&](const auto& shape) {
+        shape.for_each_field(shape, [&](const char* name, const auto& field) {
+          if (std::is_same_v<std::decay_t<decltype(field)>, Vec3> == wants_points) root[name] = encode(field);
+        });
+      },
+      tool);
 }
 
 Json json_of(const SceneTool& tool) {
@@ -81,13 +83,12 @@ Json json_of(const SceneTool& tool) {
     root["plane"] = json_of(HalfSpace{plane->normal, plane->offset});
     return root;
   }
-  const auto* ball = std::get_if<BallTool>(&tool.keys.front());
-  Json& shape = root[ball != nullptr ? "ball" : "rod"];
-  shape["radius"] = ball != nullptr ? ball->radius : std::get<RodTool>(tool.keys.front()).radius;
-  if (tool.times.empty()) add_place(tool.keys.front(), shape);
+  Json& shape = root[std::visit([](const auto& key) { return key.kName; }, tool.keys.front())];
+  add_fields(tool.keys.front(), false, shape);
+  if (tool.times.empty()) add_fields(tool.keys.front(), true, shape);
   for (std::size_t i = 0; i < tool.times.size(); ++i) {
     Json key = {{"t", tool.times[i]}};
-    add_place(tool.keys[i], key);
+    add_fields(tool.keys[i], true, key);
     shape["path"].push_back(std::move(key));
   }
   return root;

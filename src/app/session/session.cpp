@@ -30,28 +30,15 @@ void draw_line(const std::vector<Vec3>& points, Ink ink, Marks& marks) {
   }
 }
 
-struct DrawTool {
-  Marks& marks;
-
-  void operator()(const BallTool& ball) const {
+void draw_tool(const Tool& tool, Marks& marks) {
+  const ToolOutline outline = outline_of(tool);
+  for (const ToolOutline::Ball& ball : outline.balls) {
     marks.balls.push_back({to_float(ball.centre), Ink::kTool, static_cast<float>(ball.radius), false});
   }
-  void operator()(const RodTool& rod) const {
-    constexpr int kBalls = 24;  // a row of balls reads as a rod
-    for (int i = 0; i <= kBalls; ++i) {
-      const Vec3 centre = rod.from + (rod.to - rod.from) * (static_cast<double>(i) / kBalls);
-      marks.balls.push_back({to_float(centre), Ink::kTool, static_cast<float>(rod.radius), false});
-    }
+  for (const auto& [a, b, c] : outline.triangles) {
+    marks.triangles.push_back({{to_float(a), to_float(b), to_float(c)}, Ink::kBlade, 0.5F});
   }
-  void operator()(const PlaneTool&) const {}  // a table is where the body stops; drawing it would hide the body
-  void operator()(const FlatTool& flat) const {
-    for (std::size_t i = 1; i < flat.edge.size(); ++i) {
-      const Vec3 &a = flat.edge[i - 1], &b = flat.edge[i];
-      marks.triangles.push_back({{to_float(a), to_float(b), to_float(b + flat.back)}, Ink::kBlade, 0.5F});
-      marks.triangles.push_back({{to_float(a), to_float(b + flat.back), to_float(a + flat.back)}, Ink::kBlade, 0.5F});
-    }
-  }
-};
+}
 
 }  // namespace
 
@@ -301,7 +288,7 @@ void Session::draw(Marks& marks, bool shows_ideal) const {
   for (const Hook& hook : s.last_input.hooks) {
     if (hook.id < kFirstHandHook || s.is_replay) marks.balls.push_back({to_float(hook.position), Ink::kHook, 7, true});
   }
-  for (const Tool& tool : s.last_input.tools) std::visit(DrawTool{marks}, tool);
+  for (const Tool& tool : s.last_input.tools) draw_tool(tool, marks);
 }
 
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}

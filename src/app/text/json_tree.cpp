@@ -171,7 +171,7 @@ bool JsonReader::fail(const JsonValue& value, const std::string& path, const std
 }
 
 bool JsonReader::is_object(const JsonValue& value, const std::string& path,
-                           std::initializer_list<std::string_view> known_keys) {
+                           const std::vector<std::string_view>& known_keys) {
   if (value.kind != Kind::kObject) return fail(value, path, "must be an object, not " + shown(value));
   for (std::size_t i = 0; i < value.keys.size(); ++i) {
     if (std::find(known_keys.begin(), known_keys.end(), value.keys[i]) != known_keys.end()) continue;

@@ -55,7 +55,7 @@ class JsonReader {
   ///
   /// `is_format` asks for an object that names this format and version, `points` for an array of at least two points.
   bool is_format(const JsonValue& root, std::string_view format, std::uint32_t version);
-  bool is_object(const JsonValue& value, const std::string& path, std::initializer_list<std::string_view> known_keys);
+  bool is_object(const JsonValue& value, const std::string& path, const std::vector<std::string_view>& known_keys);
   const JsonValue* member(const JsonValue& object, const std::string& path, std::string_view key);
   bool is_array(const JsonValue& value, const std::string& path, std::size_t min_items, std::size_t max_items);
   bool number(const JsonValue& value, const std::string& path, double& out);

@@ -98,6 +98,24 @@ Touch touch(const FlatTool& flat, const Vec3& x, const Vec3& inner) {
   return nearest;
 }
 
+void add_outline(const BallTool& ball, ToolOutline& outline) {
+  outline.balls.push_back({ball.centre, ball.radius});
+}
+void add_outline(const RodTool& rod, ToolOutline& outline) {
+  constexpr int kBalls = 24;  // a row of balls reads as a rod
+  for (int i = 0; i <= kBalls; ++i) {
+    outline.balls.push_back({rod.from + (rod.to - rod.from) * (static_cast<double>(i) / kBalls), rod.radius});
+  }
+}
+void add_outline(const PlaneTool& /*plane*/, ToolOutline& /*outline*/) {}  // drawing it would hide the body
+void add_outline(const FlatTool& flat, ToolOutline& outline) {
+  for (std::size_t i = 1; i < flat.edge.size(); ++i) {
+    const Vec3 &a = flat.edge[i - 1], &b = flat.edge[i];
+    outline.triangles.push_back({a, b, b + flat.back});
+    outline.triangles.push_back({a, b + flat.back, a + flat.back});
+  }
+}
+
 /// The middle of one of the vertex' tets: on the tissue's side of its surface.
 Vec3 tissue_behind(const TetMesh& mesh, std::span<const Vec3> positions, VertexId v) {
   Vec3 sum = Vec3::Zero();
@@ -110,6 +128,12 @@ bool is_surface(std::uint8_t bits) {
 }
 
 }  // namespace
+
+ToolOutline outline_of(const Tool& tool) {
+  ToolOutline outline;
+  std::visit([&](const auto& t) { add_outline(t, outline); }, tool);
+  return outline;
+}
 
 Status check(const Tool& tool) {
   return std::visit([](const auto& t) { return check_tool(t); }, tool);

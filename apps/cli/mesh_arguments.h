@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command `incise mesh`: a segmented scan becomes tets.
+// What `incise mesh` is asked for.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "commands.h"
+#include "mesh_output.h"
 
 namespace incise_cli {
 
@@ -21,8 +21,5 @@ struct MeshArguments {
 
   [[nodiscard]] bool has_report_on_stdout() const { return as_json || report == "-"; }
 };
-
-/// Returns the command's exit code.
-int run_mesh(const MeshArguments& arguments, const Terminal& terminal);
 
 }  // namespace incise_cli

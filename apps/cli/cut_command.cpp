@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.h"
-
+// The command `incise cut`.
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "app/jobs/cut_job.h"
-#include "app/jobs/improve_job.h"
-#include "app/jobs/replay_job.h"
-#include "app/model/convert.h"
-#include "app/model/mesh_info.h"
 #include "app/scene/blade_file.h"
-#include "app/text/text_file.h"
+#include "command.h"
+#include "command_options.h"
 #include "command_support.h"
 #include "incise/mesh/bounds.h"
 #include "input_kind.h"
-#include "mesh_output.h"
+#include "job_output.h"
 #include "picture.h"
 
 namespace incise_cli {
@@ -28,8 +25,18 @@ namespace {
 namespace fs = std::filesystem;
 using namespace incise;
 
-constexpr const char* kNoBudgetAsPaper =
-    "--budget-us has no effect with --profile paper, which maintains the mesh in one go";
+struct CutArguments {
+  std::string mesh, blade, plane, report, record, picture;
+  MeshOutput output;
+  bool as_json = false;
+  std::string profile = "incise";
+  double snap = 0.2;
+  bool has_snap = false;
+  bool no_merge = false, no_improve = false, no_smooth_boundary = false;
+  std::uint64_t budget_us = 0;  // 0: none
+  std::uint64_t seed = 0;
+  unsigned threads = 1;
+};
 
 struct Plane {
   Vec3 normal;
@@ -85,24 +92,6 @@ std::string usage_problem(const CutArguments& a) {
   return {};
 }
 
-/// Whether outputs can be written, as far as their names tell; else says why and gives the exit code.
-std::optional<ExitCode> refuse_outputs(const MeshOutput& mesh, bool has_json_on_stdout,
-                                       const std::vector<std::string>& others, const Terminal& terminal) {
-  std::optional<OutputProblem> problem = problem_of(mesh);
-  if (!problem && mesh.is_stdout() && has_json_on_stdout) {
-    problem =
-        OutputProblem{"-o - writes the mesh to stdout, where the figures would go too; give either a file", kUsage};
-  }
-  for (const std::string& file : others) {
-    if (!problem && !has_folder(file)) {
-      problem = OutputProblem{file + ": its folder does not exist; create it first", kFailure};
-    }
-  }
-  if (!problem) return std::nullopt;
-  terminal.error(problem->text);
-  return problem->code;
-}
-
 /// Says which of the flags change nothing beside the others.
 void note_idle_flags(const CutArguments& a, const Terminal& terminal) {
   const bool is_paper = a.profile == "paper";
@@ -150,56 +139,6 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
   return job;
 }
 
-/// Where a job's figures go.
-struct ReportOutput {
-  std::string file;  // "-": stdout; empty: nowhere
-  bool as_json = false;
-
-  [[nodiscard]] bool is_on_stdout() const { return as_json || file == "-"; }
-};
-
-Status write_report(const ReportOutput& output, const app::JobReport& report, const Terminal& terminal) {
-  if (!output.file.empty() && output.file != "-") {
-    if (Status status = app::write_text_file(output.file, app::to_json(report)); !status.ok()) return status;
-    terminal.wrote(output.file, "report");
-  }
-  return output.is_on_stdout() ? terminal.data(app::to_json(report)) : Status();
-}
-
-Status write_results(const MeshOutput& output, const ReportOutput& report, const app::JobResult& result,
-                     const Terminal& terminal) {
-  const WritingZone zone;
-  if (output.is_wanted() && (result.report.change.ok || result.report.broken)) {
-    if (Status status = write_output(output, result.mesh, terminal); !status.ok()) return status;
-  }
-  return write_report(report, result.report, terminal);
-}
-
-/// What became of a mesh that a job left invalid; `work` names the job.
-std::string broken_text(const std::string& output, const std::string& work, const app::JobReport& report) {
-  if (!report.broken) {
-    return "the " + work +
-           " broke the validity contract, so no mesh was written; see `validity` in the report (--report)";
-  }
-  const app::BrokenStroke& broken = *report.broken;
-  const std::string name = broken.name.empty() ? "" : " \"" + broken.name + "\"";
-  const std::string later = broken.index + 1 < report.strokes ? ", with those after it" : "";
-  const std::string left = output.empty() ? "" : "; " + output + " has the mesh as it was before";
-  return "stroke " + std::to_string(broken.index) + name + " broke the validity contract and was taken back" + later +
-         left + "; see `validity` in the report (--report)";
-}
-
-/// Writes what a job gave and says how it went; `work` names it in messages.
-int finish_job(const MeshOutput& output, const ReportOutput& report, const std::string& work,
-               const app::JobResult& result, const Terminal& terminal) {
-  if (const Status status = write_results(output, report, result, terminal); !status.ok()) {
-    return fail(terminal, status.error(), status.error().code == ErrorCode::kBadArgument ? kUsage : kFailure);
-  }
-  if (!report.is_on_stdout()) terminal.summary(app::to_text(result.report), output.is_stdout());
-  if (result.report.change.ok) return kDone;
-  return fail(terminal, broken_text(output.file, work, result.report), kCheckFailed);
-}
-
 /// A number as people write it.
 std::string shown(double number) {
   std::ostringstream text;
@@ -224,32 +163,6 @@ void warn_of_misses(const CutArguments& a, const app::CutJob& job, const app::Jo
   const std::size_t more = report.missed.size() - 1;
   terminal.warning(a.blade + ": " + which + (more > 0 ? " and " + std::to_string(more) + " more" : "") +
                    " cut nothing; does the blade meet the mesh? incise info tells its bounds");
-}
-
-/// Reads a mesh to work on, and says what was mended on the way.
-Result<io::LoadedMesh> load(const std::string& mesh, const Terminal& terminal) {
-  Result<io::LoadedMesh> loaded = io::load_mesh(input_of(mesh));
-  if (!loaded.ok()) return explain_kind(loaded.error(), mesh, FileKind::kMesh);
-  print_notes(loaded->source.notes, mesh, terminal);
-  return loaded;
-}
-
-}  // namespace
-
-int run_info(const InfoArguments& arguments, const Terminal& terminal) {
-  const Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
-  if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
-  const app::MeshInfo info = app::inspect(*file, arguments.mesh);
-  return finish(terminal, terminal.data(arguments.as_json ? app::to_json(info) : app::to_text(info)));
-}
-
-int run_check(const InfoArguments& arguments, const Terminal& terminal) {
-  Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
-  if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
-  const Result<app::MeshCheck> check = app::check_mesh(std::move(file).value(), arguments.mesh);
-  if (!check.ok()) return fail(terminal, check.error(), kBadInput);
-  const int code = finish(terminal, terminal.data(arguments.as_json ? app::to_json(*check) : app::to_text(*check)));
-  return code == kDone && !check->ok ? kCheckFailed : code;
 }
 
 int run_cut(const CutArguments& arguments, const Terminal& terminal) {
@@ -284,24 +197,42 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   return finish_job(arguments.output, report, "cut", *result, terminal);
 }
 
-int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
-  const ReportOutput report{arguments.report, arguments.as_json};
-  if (const auto code = refuse_outputs(arguments.output, report.is_on_stdout(), {arguments.report}, terminal)) {
-    return *code;
-  }
-  if (arguments.profile == "paper" && arguments.budget_us > 0) terminal.note(kNoBudgetAsPaper);
-  Result<io::LoadedMesh> loaded = load(arguments.mesh, terminal);
-  if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
-  std::optional<ProgressBar> bar(std::in_place, terminal, "improving");
-  app::ImproveJob job;
-  job.engine.cut.profile = profile_of(arguments.profile);
-  job.engine.log = terminal.log_sink();
-  job.budget_us = arguments.budget_us;
-  job.tick = [&bar] { bar->show_time(); };
-  const Result<app::JobResult> result = app::run_improve(std::move(loaded).value(), job, arguments.output.is_wanted());
-  bar.reset();
-  if (!result.ok()) return fail(terminal, result.error(), kFailure);
-  return finish_job(arguments.output, report, "improvement", *result, terminal);
+}  // namespace
+
+Command add_cut(CLI::App& root) {
+  const auto arguments = std::make_shared<CutArguments>();
+  CLI::App* cut = add_command(root, "cut", "Cut a mesh along a blade's path or a plane",
+                              "  incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json -o cut.vtu --report cut.json\n"
+                              "  incise cut bunny.node --plane=-1,0,2,0.3 --profile paper --report -\n"
+                              "  incise cut cube.mesh --plane 1,0,0,0.5 --no-merge --no-improve -o raw.vtu\n"
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --budget-us 2000 -o cut.vtu\n"
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --record cut.jsonl\n"
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --picture cut.png");
+  cut->add_option("MESH", arguments->mesh, kMeshHelp)->required();
+  cut->add_option("--blade", arguments->blade, "Blade file: JSON of format incise-blade; - for stdin");
+  cut->add_option("--plane", arguments->plane, "nx,ny,nz,d: cut through everything along n.x = d, n of any length");
+  add_output(*cut, arguments->output);
+  add_profile(*cut, arguments->profile);
+  cut->add_option("--snap", arguments->snap,
+                  "Snapping distance as a fraction of the mean incident edge, 0 to 0.4 (default 0.2)");
+  cut->add_flag("--no-merge", arguments->no_merge, "Do not merge short edges after a stroke");
+  cut->add_flag("--no-improve", arguments->no_improve, "Do not improve the mesh around a cut after a stroke");
+  cut->add_flag("--no-smooth-boundary", arguments->no_smooth_boundary,
+                "Of --profile paper: leave its Boundary Laplacian out (the paper's Figure 10)");
+  add_report(*cut, arguments->report, arguments->as_json);
+  cut->add_option("--seed", arguments->seed, "Seed, repeated in the report");
+  add_threads(*cut, arguments->threads);
+  cut->add_option("--record", arguments->record, "Record every step as JSON lines, for incise replay");
+  cut->add_option("--picture", arguments->picture, "Draw the result to this PNG; needs OpenGL, but no display");
+  add_budget(
+      *cut, arguments->budget_us,
+      "Microseconds for maintenance per stroke, 1 to 3600000000; what is left over may be spent later, what is not "
+      "done waits for the next stroke. The cut itself is never left undone");
+  return {cut, [arguments, cut](const Terminal& terminal) {
+            arguments->has_snap = cut->count("--snap") > 0;
+            return run_cut(*arguments, terminal);
+          }};
 }
 
 }  // namespace incise_cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_options.h"
+
+#include <vector>
+
+#include "app/jobs/cut_job.h"
+#include "incise/io/mesh_file.h"
+
+namespace incise_cli {
+namespace {
+
+constexpr const char* kOutputHelp = "Write the mesh; the extension names the format; - for stdout, with --format";
+
+}  // namespace
+
+CLI::App* add_command(CLI::App& root, const std::string& name, const std::string& what, const std::string& examples) {
+  CLI::App* command = root.add_subcommand(name, what);
+  command->fallthrough();
+  command->footer("Examples:\n" + examples);
+  return command;
+}
+
+void add_json(CLI::App& command, bool& as_json) {
+  command.add_flag("--json", as_json, "Print JSON to stdout");
+}
+
+void add_report(CLI::App& command, std::string& report, bool& as_json) {
+  command.add_option("--report", report, "Write figures as JSON to this file; - for stdout");
+  command.add_flag("--json", as_json, "Print the figures as JSON to stdout, instead of a few lines for people");
+}
+
+void add_format(CLI::App& command, std::string& format) {
+  std::vector<std::string> formats = incise::io::write_option_names();
+  formats.emplace_back("msh");
+  command
+      .add_option("--format", format, "Of the mesh that is written, instead of what its extension says: msh is msh41")
+      ->check(CLI::IsMember(formats));
+}
+
+void add_output(CLI::App& command, MeshOutput& output) {
+  command.add_option("-o,--output", output.file, kOutputHelp);
+  add_format(command, output.format);
+}
+
+void add_profile(CLI::App& command, std::string& profile) {
+  command.add_option("--profile", profile, "incise (default), or paper: the published method")
+      ->check(CLI::IsMember({"incise", "paper"}));
+}
+
+void add_budget(CLI::App& command, std::uint64_t& budget_us, const std::string& what) {
+  command.add_option("--budget-us", budget_us, what)->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxBudgetUs));
+}
+
+void add_threads(CLI::App& command, unsigned& threads) {
+  command.add_option("--threads", threads, "Worker threads, 1 to 256; the result does not depend on it")
+      ->check(CLI::Range(1, 256));
+}
+
+}  // namespace incise_cli

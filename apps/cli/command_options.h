@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that several commands have.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "mesh_output.h"
+
+namespace incise_cli {
+
+inline constexpr const char* kMeshHelp = "Mesh file, or - for stdin; the format is found from its content";
+
+/// A command of the program, with examples below its help.
+CLI::App* add_command(CLI::App& root, const std::string& name, const std::string& what, const std::string& examples);
+void add_json(CLI::App& command, bool& as_json);
+void add_report(CLI::App& command, std::string& report, bool& as_json);
+void add_format(CLI::App& command, std::string& format);
+void add_output(CLI::App& command, MeshOutput& output);
+void add_profile(CLI::App& command, std::string& profile);
+void add_budget(CLI::App& command, std::uint64_t& budget_us, const std::string& what);
+void add_threads(CLI::App& command, unsigned& threads);
+
+}  // namespace incise_cli
