@@ -32,8 +32,8 @@ class LongCut {
     if (move.strip == nullptr) return false;
     static_cast<void>(cut_.crosses_own_cut(mesh_, *move.strip, 0.05));
     if (cut_.comes_back(mesh_, *move.strip)) return true;
-    EXPECT_TRUE(cut_.advance(mesh_, journal_, std::move(move.strip), {}, statistics_, times_));
-    cut_.bake(mesh_, journal_, {}, {}, statistics_, times_);
+    EXPECT_TRUE(cut_.advance(context(), std::move(move.strip), {}));
+    cut_.bake(context(), {}, {});
     most_kept_ = std::max(most_kept_, cut_.complex().master_count());
     return false;
   }
@@ -47,13 +47,14 @@ class LongCut {
     static_cast<void>(cut_.crosses_own_cut(mesh_, strip, 0.05));
     return cut_.comes_back(mesh_, strip);
   }
-  void finish() { cut_.finish(mesh_, journal_, {}, statistics_, times_); }
+  void finish() { cut_.finish(context(), {}); }
 
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
   [[nodiscard]] const ClosedComplex& complex() const { return cut_.complex(); }
   [[nodiscard]] std::size_t most_kept() const { return most_kept_; }
 
  private:
+  CutContext context() { return {mesh_, journal_, times_, statistics_}; }
   static std::vector<Vec3> row_at(double x) { return {Vec3(x, -1.0, 2.13), Vec3(x, 5.0, 2.21)}; }
 
   TetMesh mesh_;
