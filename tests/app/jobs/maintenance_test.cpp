@@ -6,6 +6,7 @@
 
 #include "app/jobs/cut_job.h"
 #include "app/jobs/improve_job.h"
+#include "cut/cutter.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
 #include "paper/paper_cut.h"
