@@ -133,10 +133,10 @@ class CrumbFinder {
     std::vector<Border> borders;
     for (std::uint32_t i = 0; i < incision_.size(); ++i) {
       const bool has_a = is_in_piece(incision_[i].a.tet()), has_b = is_in_piece(incision_[i].b.tet());
-      if (has_a != has_b) {
-        const Side behind = has_a ? incision_[i].b : incision_[i].a;
-        borders.push_back({i, behind.tet(), area_of(behind)});
-      }
+      if (has_a == has_b) continue;
+      const auto [inside, behind] = has_a ? incision_[i] : IncisionFace{incision_[i].b, incision_[i].a};
+      if (rules_.are_apart && rules_.are_apart(inside.tet(), behind.tet())) continue;
+      borders.push_back({i, behind.tet(), area_of(behind)});
     }
     if (borders.empty()) {
       return false;
@@ -170,9 +170,7 @@ class CrumbFinder {
     std::size_t kept = 0;
     for (std::uint32_t i = 0; i < incision_.size(); ++i) {
       if (is_dropped_[i]) {
-        const auto [a, b] = incision_[i];
-        const bool is_first = state_[a.tet().value] == kCrumb;
-        dropped_.push_back(is_first ? IncisionFace{a, b} : IncisionFace{b, a});
+        dropped_.push_back(incision_[i]);
       } else {
         incision_[kept++] = incision_[i];
       }

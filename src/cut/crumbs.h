@@ -27,6 +27,8 @@ struct CrumbRules {
   /// back beside its cut, shavings would fall. In length units; 0: none is.
   double thin = 0.0;
   std::function<bool(Side)> is_older;  ///< of a wall: asked where `thin` is above 0
+  /// Where set: whether a tet of a crumb and one behind its face are of two pieces. A crumb hangs on its own one only.
+  std::function<bool(TetId, TetId)> are_apart = {};
 };
 
 /// Memory that the search for crumbs keeps; all zero between calls.
@@ -34,7 +36,7 @@ struct CrumbScratch {
   ZeroedArray<std::uint8_t> blocked, state;  ///< by tet slot
 };
 
-/// Takes the incision faces of crumbs out of `incision` and adds them to `dropped`, the crumb's side first, so that a
+/// Takes the incision faces of crumbs out of `incision` and adds them to `dropped`, so that a
 /// crumb stays attached to the piece that it shares its faces with. Where it touches two pieces it stays with one, and
 /// they come apart. Returns how many crumbs. Cost: O(incision faces) plus a search of a few tets around each small tet
 /// beside one.

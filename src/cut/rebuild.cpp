@@ -14,8 +14,6 @@ inline namespace v0 {
 namespace {
 
 constexpr unsigned kMaxPinchRounds = 64;
-/// A crumb has at most so many tets.
-constexpr std::size_t kMostCrumbTets = 256;
 
 /// Which side of the sheet a child of a complete master lies on: the colour of any corner that is not on the sheet.
 unsigned colour_of_child(const SplitTemplate::Child& child, const Master& master) {
@@ -467,54 +465,17 @@ class Rebuild::Run {
     };
     rules.thin = settings_.thin;
     rules.is_older = [&](Side side) { return is_older_wall(mesh_, complex_, side); };
+    if (pieces_.has_several()) rules.are_apart = [&](TetId a, TetId b) { return pieces_.are_apart(a, b); };
     dropped_.clear();
     result_.crumbs_kept += incise::keep_crumbs(mesh_, rules, incision_, dropped_, owner_.crumbs_);
     for (const IncisionFace& face : dropped_) {
-      if (stands_open(face) || !may_go_over(face)) {
+      if (stands_open(face)) {
         incision_.push_back(face);
       } else {
         close(face);
         if (settings_.keeps_pieces) note_closed(face);
       }
     }
-  }
-  /// Whether a crumb may hang on the tet behind one of its faces. Material of another piece goes over only if there is
-  /// more of that piece: the wall between the two has moved by a crumb, and none has vanished.
-  [[nodiscard]] bool may_go_over(const IncisionFace& face) {
-    if (!pieces_.are_apart(face.a.tet(), face.b.tet())) return true;
-    const std::vector<TetId> crumb = tets_around(face.a.tet());
-    if (!has_more_of_its_piece(crumb)) return false;
-    for (const TetId tet : crumb) pieces_.follow(tet, face.b.tet());
-    return true;
-  }
-  /// The tets that hang together with one, of a crumb.
-  [[nodiscard]] std::vector<TetId> tets_around(TetId seed) const {
-    std::vector<TetId> tets = {seed};
-    for (std::size_t i = 0; i < tets.size() && tets.size() < kMostCrumbTets; ++i) {
-      for (const Link link : mesh_.links(tets[i])) {
-        if (link.is_boundary() || std::find(tets.begin(), tets.end(), link.side().tet()) != tets.end()) continue;
-        tets.push_back(link.side().tet());
-      }
-    }
-    return tets;
-  }
-  /// Whether there are other tets of a crumb's piece, new ones or beside the dirty masters.
-  [[nodiscard]] bool has_more_of_its_piece(const std::vector<TetId>& crumb) const {
-    const auto is_more = [&](TetId tet) {
-      return mesh_.is_live(tet) && pieces_.knows(tet) && !pieces_.are_apart(tet, crumb.front()) &&
-             std::find(crumb.begin(), crumb.end(), tet) == crumb.end();
-    };
-    const auto has_more = [&](std::uint32_t master) {
-      const auto children = complex_.children(complex_[master]);
-      return std::any_of(children.begin(), children.end(), is_more);
-    };
-    const auto stays = [&](TetId seed) {
-      const std::uint32_t master = complex_.find(seed);
-      return master == Master::kNone || !complex_[master].is_dirty;
-    };
-    return std::any_of(dirty_.begin(), dirty_.end(), has_more) ||
-           std::any_of(owner_.seeds_.begin(), owner_.seeds_.end(),
-                       [&](TetId seed) { return mesh_.is_live(seed) && stays(seed) && is_more(seed); });
   }
   /// Whether a face was open before, between tets that stay: it is never joined again but where nothing separates it.
   [[nodiscard]] bool stands_open(const IncisionFace& face) const {
