@@ -244,7 +244,8 @@ def write_table(header):
              " *   void* library = FPlatformProcess::GetDllHandle(TEXT(\"libincise.so.0\"));",
              " * and `find` calls FPlatformProcess::GetDllExport. Tested with dlopen; never run in Unreal. */",
              "/* clang-format off */",
-             "#ifndef INCISE_TABLE_H", "#define INCISE_TABLE_H", "", '#include "incise/c/incise.h"', "",
+             "#ifndef INCISE_TABLE_H", "#define INCISE_TABLE_H", "", "#include <stddef.h>", "#include <string.h>", "",
+             '#include "incise/c/incise.h"', "",
              "#ifdef __cplusplus", 'extern "C" {', "#endif", "", "typedef struct incise_table {"]
     for name, returns, arguments, _ in header.functions:
         text = ", ".join("%s %s" % (c_of(kind), argument) for argument, kind in arguments) or "void"
@@ -253,12 +254,19 @@ def write_table(header):
               "typedef void* (*incise_find)(void* library, const char* name);", "",
               "/* Fills the table. Returns null, or the name of the first call that the library does not have. */",
               "static inline const char* incise_table_load(incise_table* table, incise_find find, void* library) {",
-              "  void* symbol;"]
-    for name, _, _, _ in header.functions:
-        short = name.removeprefix("incise_")
-        lines += ['  symbol = find(library, "%s");' % name, '  if (!symbol) return "%s";' % name,
-                  "  *(void**)(&table->%s) = symbol;" % short]
-    lines += ["  return 0;", "}", "", "#ifdef __cplusplus", "}", "#endif", "", "#endif"]
+              "  static const char* const names[] = {"]
+    lines += ['    "%s",' % name for name, _, _, _ in header.functions]
+    lines += ["  };",
+              "  const size_t count = sizeof names / sizeof *names;",
+              "  size_t i;",
+              "  /* The table is one pointer after the other, in the order of the names. */",
+              "  (void)sizeof(char[sizeof(incise_table) == sizeof names / sizeof *names * sizeof(void*) ? 1 : -1]);",
+              "  for (i = 0; i < count; ++i) {",
+              "    void* const symbol = find(library, names[i]);",
+              "    if (!symbol) return names[i];",
+              "    memcpy((char*)table + i * sizeof symbol, &symbol, sizeof symbol);",
+              "  }",
+              "  return 0;", "}", "", "#ifdef __cplusplus", "}", "#endif", "", "#endif"]
     return "\n".join(lines) + "\n"
 
 

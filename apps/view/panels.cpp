@@ -86,7 +86,7 @@ void tool_buttons(Viewer& viewer, const PanelContext& context) {
   heading("Tools");
   for (unsigned i = 0; i < static_cast<unsigned>(app::ToolKind::kCount); ++i) {
     const auto tool = static_cast<app::ToolKind>(i);
-    const auto action = static_cast<Action>(i);  // in the same order
+    const Action action = app::action_of(tool);
     const std::string label = fmt::format("{} {}", app::key_of(action), app::name_of(tool));
     action_button(viewer, context, action, label.c_str(), viewer.tools().tool() == tool, -1);
   }

@@ -8,6 +8,9 @@
 #ifndef INCISE_TABLE_H
 #define INCISE_TABLE_H
 
+#include <stddef.h>
+#include <string.h>
+
 #include "incise/c/incise.h"
 
 #ifdef __cplusplus
@@ -113,280 +116,108 @@ typedef void* (*incise_find)(void* library, const char* name);
 
 /* Fills the table. Returns null, or the name of the first call that the library does not have. */
 static inline const char* incise_table_load(incise_table* table, incise_find find, void* library) {
-  void* symbol;
-  symbol = find(library, "incise_abi");
-  if (!symbol) return "incise_abi";
-  *(void**)(&table->abi) = symbol;
-  symbol = find(library, "incise_version");
-  if (!symbol) return "incise_version";
-  *(void**)(&table->version) = symbol;
-  symbol = find(library, "incise_status_name");
-  if (!symbol) return "incise_status_name";
-  *(void**)(&table->status_name) = symbol;
-  symbol = find(library, "incise_last_error");
-  if (!symbol) return "incise_last_error";
-  *(void**)(&table->last_error) = symbol;
-  symbol = find(library, "incise_last_error_code");
-  if (!symbol) return "incise_last_error_code";
-  *(void**)(&table->last_error_code) = symbol;
-  symbol = find(library, "incise_last_error_ids");
-  if (!symbol) return "incise_last_error_ids";
-  *(void**)(&table->last_error_ids) = symbol;
-  symbol = find(library, "incise_default_engine_options");
-  if (!symbol) return "incise_default_engine_options";
-  *(void**)(&table->default_engine_options) = symbol;
-  symbol = find(library, "incise_engine_create");
-  if (!symbol) return "incise_engine_create";
-  *(void**)(&table->engine_create) = symbol;
-  symbol = find(library, "incise_engine_create_box");
-  if (!symbol) return "incise_engine_create_box";
-  *(void**)(&table->engine_create_box) = symbol;
-  symbol = find(library, "incise_engine_read");
-  if (!symbol) return "incise_engine_read";
-  *(void**)(&table->engine_read) = symbol;
-  symbol = find(library, "incise_engine_read_bytes");
-  if (!symbol) return "incise_engine_read_bytes";
-  *(void**)(&table->engine_read_bytes) = symbol;
-  symbol = find(library, "incise_engine_free");
-  if (!symbol) return "incise_engine_free";
-  *(void**)(&table->engine_free) = symbol;
-  symbol = find(library, "incise_engine_notes");
-  if (!symbol) return "incise_engine_notes";
-  *(void**)(&table->engine_notes) = symbol;
-  symbol = find(library, "incise_engine_write");
-  if (!symbol) return "incise_engine_write";
-  *(void**)(&table->engine_write) = symbol;
-  symbol = find(library, "incise_engine_write_bytes");
-  if (!symbol) return "incise_engine_write_bytes";
-  *(void**)(&table->engine_write_bytes) = symbol;
-  symbol = find(library, "incise_engine_write_surface");
-  if (!symbol) return "incise_engine_write_surface";
-  *(void**)(&table->engine_write_surface) = symbol;
-  symbol = find(library, "incise_engine_counts");
-  if (!symbol) return "incise_engine_counts";
-  *(void**)(&table->engine_counts) = symbol;
-  symbol = find(library, "incise_engine_view");
-  if (!symbol) return "incise_engine_view";
-  *(void**)(&table->engine_view) = symbol;
-  symbol = find(library, "incise_engine_surface");
-  if (!symbol) return "incise_engine_surface";
-  *(void**)(&table->engine_surface) = symbol;
-  symbol = find(library, "incise_engine_compact");
-  if (!symbol) return "incise_engine_compact";
-  *(void**)(&table->engine_compact) = symbol;
-  symbol = find(library, "incise_engine_pieces");
-  if (!symbol) return "incise_engine_pieces";
-  *(void**)(&table->engine_pieces) = symbol;
-  symbol = find(library, "incise_engine_hash");
-  if (!symbol) return "incise_engine_hash";
-  *(void**)(&table->engine_hash) = symbol;
-  symbol = find(library, "incise_engine_quality");
-  if (!symbol) return "incise_engine_quality";
-  *(void**)(&table->engine_quality) = symbol;
-  symbol = find(library, "incise_engine_validate");
-  if (!symbol) return "incise_engine_validate";
-  *(void**)(&table->engine_validate) = symbol;
-  symbol = find(library, "incise_violation_name");
-  if (!symbol) return "incise_violation_name";
-  *(void**)(&table->violation_name) = symbol;
-  symbol = find(library, "incise_engine_cut");
-  if (!symbol) return "incise_engine_cut";
-  *(void**)(&table->engine_cut) = symbol;
-  symbol = find(library, "incise_engine_cut_plane");
-  if (!symbol) return "incise_engine_cut_plane";
-  *(void**)(&table->engine_cut_plane) = symbol;
-  symbol = find(library, "incise_engine_cut_blade");
-  if (!symbol) return "incise_engine_cut_blade";
-  *(void**)(&table->engine_cut_blade) = symbol;
-  symbol = find(library, "incise_engine_begin_stroke");
-  if (!symbol) return "incise_engine_begin_stroke";
-  *(void**)(&table->engine_begin_stroke) = symbol;
-  symbol = find(library, "incise_engine_step");
-  if (!symbol) return "incise_engine_step";
-  *(void**)(&table->engine_step) = symbol;
-  symbol = find(library, "incise_engine_end_stroke");
-  if (!symbol) return "incise_engine_end_stroke";
-  *(void**)(&table->engine_end_stroke) = symbol;
-  symbol = find(library, "incise_engine_set_positions");
-  if (!symbol) return "incise_engine_set_positions";
-  *(void**)(&table->engine_set_positions) = symbol;
-  symbol = find(library, "incise_engine_undo");
-  if (!symbol) return "incise_engine_undo";
-  *(void**)(&table->engine_undo) = symbol;
-  symbol = find(library, "incise_engine_redo");
-  if (!symbol) return "incise_engine_redo";
-  *(void**)(&table->engine_redo) = symbol;
-  symbol = find(library, "incise_engine_keep_undo");
-  if (!symbol) return "incise_engine_keep_undo";
-  *(void**)(&table->engine_keep_undo) = symbol;
-  symbol = find(library, "incise_engine_maintain");
-  if (!symbol) return "incise_engine_maintain";
-  *(void**)(&table->engine_maintain) = symbol;
-  symbol = find(library, "incise_engine_improve");
-  if (!symbol) return "incise_engine_improve";
-  *(void**)(&table->engine_improve) = symbol;
-  symbol = find(library, "incise_engine_journal");
-  if (!symbol) return "incise_engine_journal";
-  *(void**)(&table->engine_journal) = symbol;
-  symbol = find(library, "incise_engine_step_counts");
-  if (!symbol) return "incise_engine_step_counts";
-  *(void**)(&table->engine_step_counts) = symbol;
-  symbol = find(library, "incise_engine_step_born");
-  if (!symbol) return "incise_engine_step_born";
-  *(void**)(&table->engine_step_born) = symbol;
-  symbol = find(library, "incise_engine_step_moved");
-  if (!symbol) return "incise_engine_step_moved";
-  *(void**)(&table->engine_step_moved) = symbol;
-  symbol = find(library, "incise_engine_step_copied");
-  if (!symbol) return "incise_engine_step_copied";
-  *(void**)(&table->engine_step_copied) = symbol;
-  symbol = find(library, "incise_engine_step_consumed");
-  if (!symbol) return "incise_engine_step_consumed";
-  *(void**)(&table->engine_step_consumed) = symbol;
-  symbol = find(library, "incise_engine_step_produced");
-  if (!symbol) return "incise_engine_step_produced";
-  *(void**)(&table->engine_step_produced) = symbol;
-  symbol = find(library, "incise_engine_step_rewired");
-  if (!symbol) return "incise_engine_step_rewired";
-  *(void**)(&table->engine_step_rewired) = symbol;
-  symbol = find(library, "incise_engine_step_opened");
-  if (!symbol) return "incise_engine_step_opened";
-  *(void**)(&table->engine_step_opened) = symbol;
-  symbol = find(library, "incise_engine_step_closed");
-  if (!symbol) return "incise_engine_step_closed";
-  *(void**)(&table->engine_step_closed) = symbol;
-  symbol = find(library, "incise_engine_step_died");
-  if (!symbol) return "incise_engine_step_died";
-  *(void**)(&table->engine_step_died) = symbol;
-  symbol = find(library, "incise_engine_step_edits");
-  if (!symbol) return "incise_engine_step_edits";
-  *(void**)(&table->engine_step_edits) = symbol;
-  symbol = find(library, "incise_engine_step_edit_consumed");
-  if (!symbol) return "incise_engine_step_edit_consumed";
-  *(void**)(&table->engine_step_edit_consumed) = symbol;
-  symbol = find(library, "incise_engine_step_edit_produced");
-  if (!symbol) return "incise_engine_step_edit_produced";
-  *(void**)(&table->engine_step_edit_produced) = symbol;
-  symbol = find(library, "incise_engine_step_new_vertices");
-  if (!symbol) return "incise_engine_step_new_vertices";
-  *(void**)(&table->engine_step_new_vertices) = symbol;
-  symbol = find(library, "incise_engine_step_new_tets");
-  if (!symbol) return "incise_engine_step_new_tets";
-  *(void**)(&table->engine_step_new_tets) = symbol;
-  symbol = find(library, "incise_cursor_create");
-  if (!symbol) return "incise_cursor_create";
-  *(void**)(&table->cursor_create) = symbol;
-  symbol = find(library, "incise_cursor_way");
-  if (!symbol) return "incise_cursor_way";
-  *(void**)(&table->cursor_way) = symbol;
-  symbol = find(library, "incise_cursor_move");
-  if (!symbol) return "incise_cursor_move";
-  *(void**)(&table->cursor_move) = symbol;
-  symbol = find(library, "incise_cursor_free");
-  if (!symbol) return "incise_cursor_free";
-  *(void**)(&table->cursor_free) = symbol;
-  symbol = find(library, "incise_attributes_create");
-  if (!symbol) return "incise_attributes_create";
-  *(void**)(&table->attributes_create) = symbol;
-  symbol = find(library, "incise_attributes_add");
-  if (!symbol) return "incise_attributes_add";
-  *(void**)(&table->attributes_add) = symbol;
-  symbol = find(library, "incise_attributes_find");
-  if (!symbol) return "incise_attributes_find";
-  *(void**)(&table->attributes_find) = symbol;
-  symbol = find(library, "incise_attributes_follow");
-  if (!symbol) return "incise_attributes_follow";
-  *(void**)(&table->attributes_follow) = symbol;
-  symbol = find(library, "incise_attributes_values");
-  if (!symbol) return "incise_attributes_values";
-  *(void**)(&table->attributes_values) = symbol;
-  symbol = find(library, "incise_attributes_free");
-  if (!symbol) return "incise_attributes_free";
-  *(void**)(&table->attributes_free) = symbol;
-  symbol = find(library, "incise_default_body_options");
-  if (!symbol) return "incise_default_body_options";
-  *(void**)(&table->default_body_options) = symbol;
-  symbol = find(library, "incise_default_simulation_options");
-  if (!symbol) return "incise_default_simulation_options";
-  *(void**)(&table->default_simulation_options) = symbol;
-  symbol = find(library, "incise_simulation_create");
-  if (!symbol) return "incise_simulation_create";
-  *(void**)(&table->simulation_create) = symbol;
-  symbol = find(library, "incise_simulation_read");
-  if (!symbol) return "incise_simulation_read";
-  *(void**)(&table->simulation_read) = symbol;
-  symbol = find(library, "incise_simulation_read_scene");
-  if (!symbol) return "incise_simulation_read_scene";
-  *(void**)(&table->simulation_read_scene) = symbol;
-  symbol = find(library, "incise_simulation_parse_scene");
-  if (!symbol) return "incise_simulation_parse_scene";
-  *(void**)(&table->simulation_parse_scene) = symbol;
-  symbol = find(library, "incise_simulation_free");
-  if (!symbol) return "incise_simulation_free";
-  *(void**)(&table->simulation_free) = symbol;
-  symbol = find(library, "incise_simulation_engine");
-  if (!symbol) return "incise_simulation_engine";
-  *(void**)(&table->simulation_engine) = symbol;
-  symbol = find(library, "incise_simulation_frame");
-  if (!symbol) return "incise_simulation_frame";
-  *(void**)(&table->simulation_frame) = symbol;
-  symbol = find(library, "incise_simulation_play");
-  if (!symbol) return "incise_simulation_play";
-  *(void**)(&table->simulation_play) = symbol;
-  symbol = find(library, "incise_simulation_cut_report");
-  if (!symbol) return "incise_simulation_cut_report";
-  *(void**)(&table->simulation_cut_report) = symbol;
-  symbol = find(library, "incise_simulation_hook_forces");
-  if (!symbol) return "incise_simulation_hook_forces";
-  *(void**)(&table->simulation_hook_forces) = symbol;
-  symbol = find(library, "incise_simulation_settle");
-  if (!symbol) return "incise_simulation_settle";
-  *(void**)(&table->simulation_settle) = symbol;
-  symbol = find(library, "incise_simulation_settle_scene");
-  if (!symbol) return "incise_simulation_settle_scene";
-  *(void**)(&table->simulation_settle_scene) = symbol;
-  symbol = find(library, "incise_simulation_look");
-  if (!symbol) return "incise_simulation_look";
-  *(void**)(&table->simulation_look) = symbol;
-  symbol = find(library, "incise_simulation_undo");
-  if (!symbol) return "incise_simulation_undo";
-  *(void**)(&table->simulation_undo) = symbol;
-  symbol = find(library, "incise_simulation_redo");
-  if (!symbol) return "incise_simulation_redo";
-  *(void**)(&table->simulation_redo) = symbol;
-  symbol = find(library, "incise_simulation_hold");
-  if (!symbol) return "incise_simulation_hold";
-  *(void**)(&table->simulation_hold) = symbol;
-  symbol = find(library, "incise_simulation_move_hold");
-  if (!symbol) return "incise_simulation_move_hold";
-  *(void**)(&table->simulation_move_hold) = symbol;
-  symbol = find(library, "incise_simulation_is_held");
-  if (!symbol) return "incise_simulation_is_held";
-  *(void**)(&table->simulation_is_held) = symbol;
-  symbol = find(library, "incise_simulation_velocities");
-  if (!symbol) return "incise_simulation_velocities";
-  *(void**)(&table->simulation_velocities) = symbol;
-  symbol = find(library, "incise_simulation_set_velocity");
-  if (!symbol) return "incise_simulation_set_velocity";
-  *(void**)(&table->simulation_set_velocity) = symbol;
-  symbol = find(library, "incise_simulation_haptic_snapshot");
-  if (!symbol) return "incise_simulation_haptic_snapshot";
-  *(void**)(&table->simulation_haptic_snapshot) = symbol;
-  symbol = find(library, "incise_default_haptic_options");
-  if (!symbol) return "incise_default_haptic_options";
-  *(void**)(&table->default_haptic_options) = symbol;
-  symbol = find(library, "incise_haptic_tool_create");
-  if (!symbol) return "incise_haptic_tool_create";
-  *(void**)(&table->haptic_tool_create) = symbol;
-  symbol = find(library, "incise_haptic_tool_accept");
-  if (!symbol) return "incise_haptic_tool_accept";
-  *(void**)(&table->haptic_tool_accept) = symbol;
-  symbol = find(library, "incise_haptic_tool_tick");
-  if (!symbol) return "incise_haptic_tool_tick";
-  *(void**)(&table->haptic_tool_tick) = symbol;
-  symbol = find(library, "incise_haptic_tool_free");
-  if (!symbol) return "incise_haptic_tool_free";
-  *(void**)(&table->haptic_tool_free) = symbol;
+  static const char* const names[] = {
+    "incise_abi",
+    "incise_version",
+    "incise_status_name",
+    "incise_last_error",
+    "incise_last_error_code",
+    "incise_last_error_ids",
+    "incise_default_engine_options",
+    "incise_engine_create",
+    "incise_engine_create_box",
+    "incise_engine_read",
+    "incise_engine_read_bytes",
+    "incise_engine_free",
+    "incise_engine_notes",
+    "incise_engine_write",
+    "incise_engine_write_bytes",
+    "incise_engine_write_surface",
+    "incise_engine_counts",
+    "incise_engine_view",
+    "incise_engine_surface",
+    "incise_engine_compact",
+    "incise_engine_pieces",
+    "incise_engine_hash",
+    "incise_engine_quality",
+    "incise_engine_validate",
+    "incise_violation_name",
+    "incise_engine_cut",
+    "incise_engine_cut_plane",
+    "incise_engine_cut_blade",
+    "incise_engine_begin_stroke",
+    "incise_engine_step",
+    "incise_engine_end_stroke",
+    "incise_engine_set_positions",
+    "incise_engine_undo",
+    "incise_engine_redo",
+    "incise_engine_keep_undo",
+    "incise_engine_maintain",
+    "incise_engine_improve",
+    "incise_engine_journal",
+    "incise_engine_step_counts",
+    "incise_engine_step_born",
+    "incise_engine_step_moved",
+    "incise_engine_step_copied",
+    "incise_engine_step_consumed",
+    "incise_engine_step_produced",
+    "incise_engine_step_rewired",
+    "incise_engine_step_opened",
+    "incise_engine_step_closed",
+    "incise_engine_step_died",
+    "incise_engine_step_edits",
+    "incise_engine_step_edit_consumed",
+    "incise_engine_step_edit_produced",
+    "incise_engine_step_new_vertices",
+    "incise_engine_step_new_tets",
+    "incise_cursor_create",
+    "incise_cursor_way",
+    "incise_cursor_move",
+    "incise_cursor_free",
+    "incise_attributes_create",
+    "incise_attributes_add",
+    "incise_attributes_find",
+    "incise_attributes_follow",
+    "incise_attributes_values",
+    "incise_attributes_free",
+    "incise_default_body_options",
+    "incise_default_simulation_options",
+    "incise_simulation_create",
+    "incise_simulation_read",
+    "incise_simulation_read_scene",
+    "incise_simulation_parse_scene",
+    "incise_simulation_free",
+    "incise_simulation_engine",
+    "incise_simulation_frame",
+    "incise_simulation_play",
+    "incise_simulation_cut_report",
+    "incise_simulation_hook_forces",
+    "incise_simulation_settle",
+    "incise_simulation_settle_scene",
+    "incise_simulation_look",
+    "incise_simulation_undo",
+    "incise_simulation_redo",
+    "incise_simulation_hold",
+    "incise_simulation_move_hold",
+    "incise_simulation_is_held",
+    "incise_simulation_velocities",
+    "incise_simulation_set_velocity",
+    "incise_simulation_haptic_snapshot",
+    "incise_default_haptic_options",
+    "incise_haptic_tool_create",
+    "incise_haptic_tool_accept",
+    "incise_haptic_tool_tick",
+    "incise_haptic_tool_free",
+  };
+  const size_t count = sizeof names / sizeof *names;
+  size_t i;
+  /* The table is one pointer after the other, in the order of the names. */
+  (void)sizeof(char[sizeof(incise_table) == sizeof names / sizeof *names * sizeof(void*) ? 1 : -1]);
+  for (i = 0; i < count; ++i) {
+    void* const symbol = find(library, names[i]);
+    if (!symbol) return names[i];
+    memcpy((char*)table + i * sizeof symbol, &symbol, sizeof symbol);
+  }
   return 0;
 }
 

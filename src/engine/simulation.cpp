@@ -10,6 +10,7 @@
 #include "engine/blade_coupling.h"
 #include "engine/wall_area.h"
 #include "incise/core/hash.h"
+#include "incise/mesh/edge_length.h"
 
 namespace incise {
 inline namespace v0 {
@@ -26,17 +27,6 @@ struct Grip {
   std::vector<Vec3> offsets;
   std::size_t first_pull = 0, pulls = 0;  // in this frame
 };
-
-double mean_edge(const TetMesh& mesh) {
-  double sum = 0;
-  std::size_t count = 0;
-  mesh.for_each_tet([&](TetId t) {
-    for (const auto& [a, b] : kEdgeCorners)
-      sum += (mesh.rest(mesh.vertices(t)[a]) - mesh.rest(mesh.vertices(t)[b])).norm();
-    count += 6;
-  });
-  return count > 0 ? sum / static_cast<double>(count) : 1.0;
-}
 
 double stiffest(const Materials& materials) {
   double young = materials.fallback.young;
@@ -344,7 +334,7 @@ Result<Simulation> Simulation::create(TetMesh mesh, SimulationOptions options, s
   if (!(options.body.length_unit > 0 && std::isfinite(options.body.length_unit))) {
     return bad("the length unit must be above 0 m");
   }
-  const double spacing = mean_edge(mesh);
+  const double spacing = mean_edge_length(mesh);
   Result<Engine> engine = Engine::create(std::move(mesh), options.engine);
   if (!engine) return engine.error();
   auto state = std::make_unique<State>(std::move(engine).value(), std::move(solver), std::move(options));

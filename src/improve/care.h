@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "improve/constants.h"
 #include "improve/inradius_ratio.h"
 #include "improve/reference.h"
 #include "improve/surfaces.h"
@@ -47,9 +48,6 @@ struct Care {
   void spend(std::size_t units) { statistics.work_units += units; }
 };
 
-/// The skin leaves its place by at most this share of the local edge, to mend bad tets by the greater one.
-inline constexpr double kFineTolerance = 0.01, kCoarseTolerance = 0.04;
-
 inline double skin_tolerance(const Care& care) {
   return care.gives_way() ? kCoarseTolerance : kFineTolerance;
 }
@@ -59,22 +57,12 @@ inline double skin_share(const Care& care) {
   return care.is_bad ? kBadSkinTolerance : (care.is_at_seam ? kSeamSkinTolerance : kSkinTolerance);
 }
 
-/// To mend bad tets walls and skin may leave their place by this share of the edges that the body came with, however
-/// short cuts have made those that stand there now.
-inline constexpr double kOriginalTolerance = 0.03;
-
 /// How far a surface may leave its place, in the mesh's unit, at one of its vertices where edges are so long.
 inline double surface_tolerance(const Care& care, std::uint32_t tag, VertexId vertex, double edge) {
   const double share = tag == 0 ? skin_tolerance(care) : care.references.tolerance(tag, care.gives_way());
   const bool is_wide = care.gives_way() && (tag == 0 || care.references.knows(tag));
   return std::max(share * edge, is_wide ? kOriginalTolerance * care.references.skin().sizes().at(vertex) : 0.0);
 }
-
-/// An operation is accepted where the worst tet after it is better than the worst before by more than this share.
-inline constexpr double kLeastGain = 1e-3;
-
-/// No operation may leave a tet below this: what rounding could take for positive.
-inline constexpr double kLeastRatio = 1e-9;
 
 /// The worst of a set of tets as they stand.
 inline double worst_of(Care& care, const std::vector<TetId>& tets) {

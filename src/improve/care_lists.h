@@ -6,17 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "improve/constants.h"
 #include "incise/core/grow_array.h"
 #include "incise/geom/quality.h"
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise {
 inline namespace v0 {
-
-/// Tets with an L/r above this that no single operation mends are split for trial.
-inline constexpr double kTried = kRegularLr / 22.0;
-/// Vertices that cuts made are tried so often: a merge makes room for others.
-inline constexpr unsigned kThinningRounds = 3;
 
 /// A tet in care, with its quality when it was put there.
 struct Waiting {

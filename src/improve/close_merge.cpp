@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "improve/constants.h"
 #include "improve/smooth.h"
 #include "incise/geom/quality.h"
 
@@ -12,21 +13,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Edges of at most this share of the mean edge around them are short.
-constexpr double kShort = 0.15;
-/// Where the cut ends there is no reference for the front: it may move by this share of the mean edge.
-constexpr double kFrontReach = 0.06;
-/// Facets turn by less than the angle with this cosine: 60 degrees.
-constexpr double kTurn = 0.5;
-/// A facet whose height is below this share of the mean edge may turn as it likes: it has no direction to speak of.
-constexpr double kLeastHeight = 0.05;
-/// A loss of volume below this share of the mean edge cubed is rounding.
-constexpr double kNoVolume = 1e-13;
-/// Vector areas shorter than this share of what they are the sum of give no way to restore the volume.
-constexpr double kLeastArea = 0.05;
-/// What restores the volume is at most this share of the mean edge.
-constexpr double kGreatestStep = 0.05;
 
 double height_of(const Facet& f) {
   const double longest2 =
@@ -148,7 +134,8 @@ bool CloseMerger::improves(Care& care, const Vec3& place) const {
 bool CloseMerger::keeps_surfaces(Care& care, const Vec3& place) {
   const auto turns = [&](const MovedSide& side) {
     const Vec3 n = vector_area2(side.before), m = vector_area2(side.after);
-    return side.stays && height_of(side.before) > kLeastHeight * edge_ && !(n.dot(m) > kTurn * n.norm() * m.norm());
+    return side.stays && height_of(side.before) > kLeastHeight * edge_ &&
+           !(n.dot(m) > kFaceCosine * n.norm() * m.norm());
   };
   care.note(star_);
   return std::none_of(sides_.begin(), sides_.end(), turns) &&

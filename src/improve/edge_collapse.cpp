@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "improve/constants.h"
 #include "improve/smooth.h"
 #include "incise/geom/quality.h"
 
@@ -12,18 +13,6 @@ inline namespace v0 {
 
 namespace {
 
-/// Edges of a tet that are tried, shortest first.
-constexpr std::size_t kEdgesTried = 3;
-/// Neighbours of a vertex that thinning out tries, nearest first.
-constexpr std::size_t kNeighboursTried = 8;
-/// No new edge is longer than the longest of the vertex by more than this factor.
-constexpr double kLengthCap = 1.5;
-/// New faces turn away from their surface by less than the angle with this cosine: 60 degrees.
-constexpr double kFaceCosine = 0.5;
-/// The step that restores the volume is at most this share of the longest edge of the vertex.
-constexpr double kGreatestStep = 0.05;
-/// What a lip may lose to the other at a front, as a share of the longest edge cubed: six times the volume.
-constexpr double kFrontVolume = 1e-12;
 constexpr unsigned kBoundary = shape::kSkin | shape::kWall;
 
 struct RankedEdge {

@@ -5,18 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "improve/constants.h"
 #include "incise/geom/quality.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// The most tets of a cavity.
-constexpr std::size_t kMostTets = 16;
-constexpr unsigned kNewtonSteps = 6;
-/// A new vertex must make the worst tet better by this share: it makes the mesh larger for good.
-constexpr double kLeastInsertionGain = 0.25;
 
 /// Whether the input folds over at a face: tets on either side may overlap.
 bool is_pinched(const TetMesh& mesh, Side side) {

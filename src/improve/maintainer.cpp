@@ -7,28 +7,12 @@
 #include <iterator>
 #include <utility>
 
+#include "improve/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Tets at the cut with an L/r below this are good enough: each further step costs more and gains less.
-constexpr double kGoal = kRegularLr / 11.0;
-/// Tets with an L/r above this come first of all; of those beside the cut no others are worked on.
-constexpr double kBad = kRegularLr / 18.0;
-/// A tet with a vertex that so many trials in turn led to is left as it is: nothing may be refined for ever.
-constexpr unsigned kMostSplits = 4;
-/// Trials may take this share of the work that all else took, and so many units besides, 5 ms: where a body was bad
-/// before it was cut, few of them help.
-constexpr double kTrialShare = 0.5;
-constexpr std::uint64_t kTrialWork = 50'000;
-/// Where a cut goes on from an older one, thinning out may cost shape down to this L/r: there all is in good shape
-/// already, and nothing would ever be thinned out.
-constexpr double kEnough = kRegularLr / 18.0;
-/// The end of an older cut is dense so many rings of vertices behind the seam.
-constexpr unsigned kSeamRings = 4;
-/// Changes per journal step: what they free is used again from the next one on.
-constexpr std::uint64_t kChangesPerStep = 4096;
 
 /// Whether a side still stands for what a step opened: later steps of a stroke make tets around the blade anew.
 bool is_wall(const TetMesh& mesh, Side side, std::uint32_t tag) {
@@ -272,7 +256,7 @@ void Maintainer::push_stars(const TetMesh& mesh, const std::vector<VertexId>& ce
 void Maintainer::push(const TetMesh& mesh, TetId tet) {
   const TetVertices& v = mesh.vertices(tet);
   const unsigned near = std::max({nearness(v[0]), nearness(v[1]), nearness(v[2]), nearness(v[3])});
-  const double ratio = inradius_ratio(mesh, v), goal = near == 2 ? kGoal : (near == 1 ? kBad : 0.0);
+  const double ratio = inradius_ratio(mesh, v), goal = near == 2 ? kGoal : (near == 1 ? kBadQuality : 0.0);
   if (ratio < goal && !mesh.is_flat_at_load(tet)) {
     heap_.push_back({ratio, tet});
     std::push_heap(heap_.begin(), heap_.end());
@@ -300,7 +284,7 @@ void Maintainer::run_step(TetMesh& mesh, Journal& journal, StageTimes& times) {
   Transaction transaction(mesh, true);
   Care care{transaction, mesh, references_, walker_, statistics_, false, {}, changed_, is_locked_};
   for (std::uint64_t changes = 0; is_due() && has_budget() && changes < kChangesPerStep;) {
-    const bool has_bad = !heap_.empty() && heap_.front().ratio < kBad;
+    const bool has_bad = !heap_.empty() && heap_.front().ratio < kBadQuality;
     const bool has_changed = has_bad || crowd_.is_empty() ? improve_worst(care, times) : thin_out_next(care, times);
     if (has_changed) {
       ++changes;
@@ -321,7 +305,7 @@ bool Maintainer::improve_worst(Care& care, StageTimes& times) {
     return false;
   }
   if (!is_fresh) return false;
-  care.is_bad = worst.ratio < kBad;
+  care.is_bad = worst.ratio < kBadQuality;
   care.is_at_seam = false;
   care.has_met_lock = false;
   const bool has_improved = remedies_.improve(care, worst.tet, options_, times);
@@ -342,7 +326,7 @@ bool Maintainer::thin_out_next(Care& care, StageTimes& times) {
     return false;
   }
   crowd_.advance();
-  return is_there && collapser_.thin_out(care, current.vertex, is_at_seam_ ? kEnough : 1.0);
+  return is_there && collapser_.thin_out(care, current.vertex, is_at_seam_ ? kBadQuality : 1.0);
 }
 
 /// The worst of the tets that wait for a trial; none where there is none.

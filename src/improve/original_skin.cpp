@@ -5,21 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "improve/constants.h"
 #include "incise/mesh/tet_tables.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Cells of neighbouring levels differ by this power of two.
-constexpr int kLevelStep = 2;
-/// Levels by which an element may be smaller than a search that still finds it: 65536 times as small.
-constexpr int kCoarserLevels = 8;
-/// Distance in tolerances within which original vertices count as a piece's own.
-constexpr double kOwn = 3.0;
-/// Distance in tolerances to which pieces that lie further off are held.
-constexpr double kFarthest = 8.0;
 
 /// The level whose cells are just as wide as an extent, or wider.
 int level_of(double extent) {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "improve/constants.h"
 #include "improve/original_sizes.h"
 #include "improve/piece.h"
 #include "incise/core/grow_array.h"
@@ -16,10 +17,6 @@
 
 namespace incise {
 inline namespace v0 {
-
-/// However often it is maintained, skin leaves its place by at most this share of the local edge; by more where seams
-/// are thinned out. To mend bad tets it may by this share of the edges that it had.
-inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadSkinTolerance = 0.02;
 
 /// The skin of a mesh as it was when its journal began, as far as the places go that have changed since.
 ///

@@ -4,20 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "improve/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Facets of a fresh wall that are measured at most, and the share of them that counts as typical.
-constexpr std::size_t kMostSamples = 200, kMostShares = 1000;
-constexpr double kTypicalShare = 0.9;
-/// By this share of them chords are told from bends: in a plane nothing lies off it that has not bent.
-constexpr double kChordShare = 0.25, kChordSlack = 6.0, kGreatestChord = 0.07;
-/// What a piece of wall may go beyond where it was, as a share of the tolerance.
-constexpr double kSlack = 0.3;
-/// However coarse a wall is, it may leave its place by no more than this share of the local edge.
-constexpr double kGreatestTolerance = 2.25 * kWallTolerance;
 
 bool are_near(const Piece& piece, const Piece& other, double tolerance2) {
   return std::all_of(piece.samples.begin(), piece.samples.end(),

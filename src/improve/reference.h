@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "improve/constants.h"
 #include "improve/original_skin.h"
 #include "improve/piece.h"
 #include "incise/geom/triangle_tree.h"
@@ -15,9 +16,6 @@
 
 namespace incise {
 inline namespace v0 {
-
-/// Cut walls leave their place by at most this share of the local edge.
-inline constexpr double kWallTolerance = 0.012;
 
 /// The mean length of the edges that lead from the first corners of a piece's facets, the vertex that they share.
 [[nodiscard]] double mean_spoke(const Piece& piece);

@@ -6,24 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "improve/constants.h"
 #include "incise/geom/predicates.h"
 #include "incise/geom/quality.h"
+#include "incise/mesh/edge_length.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Newton steps per attempt; further ones gain little.
-constexpr unsigned kMaxSteps = 5;
-/// A step is halved so often before it is given up.
-constexpr unsigned kMaxHalvings = 5;
-/// A step that would take a curved surface too far from its place is halved so often.
-constexpr unsigned kShortenings = 3;
-/// A step that gains less than this share of the energy is the last.
-constexpr double kLeastDescent = 1e-2;
-/// A move must make the worst tet better by this share: smaller gains cost more than they are worth.
-constexpr double kLeastSmoothingGain = 0.03;
 
 /// The part of a step that the vertex may take.
 Vec3 restrict_step(const Vec3& step, const VertexSurfaces& surfaces) {
@@ -56,14 +47,6 @@ MaterialPoint coordinates_in(const TetMesh& mesh, TetId tet, const Vec3& place) 
 
 double least_weight(const MaterialPoint& point) {
   return *std::min_element(point.weights.begin(), point.weights.end());
-}
-
-double mean_edge(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star) {
-  double sum = 0;
-  for (const TetId tet : star) {
-    for (const VertexId v : mesh.vertices(tet)) sum += (mesh.rest(v) - mesh.rest(vertex)).norm();
-  }
-  return sum / static_cast<double>(3 * star.size());
 }
 
 }  // namespace
@@ -271,7 +254,7 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
     return true;
   }
   care.note(star_);
-  const double edge = mean_edge(care.mesh, vertex, star_);
+  const double edge = mean_edge_length_by_tets(care.mesh, vertex, star_);
   const double slack = skin_tolerance(care) * edge;
   if (surfaces_.is_front() && !(keeps_front(care.mesh, care.mesh.rest(vertex), surfaces_, slack) &&
                                 keeps_front(care.mesh, place, surfaces_, slack))) {

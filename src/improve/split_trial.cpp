@@ -3,19 +3,12 @@
 
 #include <algorithm>
 
+#include "improve/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// So many edges are split in one trial.
-constexpr unsigned kSplits = 2;
-/// Units of work after which a trial ends, 2.5 ms; nine in ten take less.
-constexpr std::uint64_t kMostWork = 25'000;
-/// All that a trial has touched must be better than the tet was by this share.
-constexpr double kLeastTrialGain = 0.1;
-/// Tets with an L/r above this are worked on in a trial.
-constexpr double kWorkedOn = kRegularLr / 11.0;
 
 unsigned longest_edge(const TetMesh& mesh, TetId tet) {
   const TetVertices& v = mesh.vertices(tet);
@@ -105,7 +98,7 @@ void SplitTrial::take_changed(const Care& care) {
   for (const TetId tet : care.changed) {
     touched_.push_back(tet);
     const double ratio = inradius_ratio(care.mesh, care.mesh.vertices(tet));
-    if (ratio >= kWorkedOn) continue;
+    if (ratio >= kGoal) continue;
     heap_.push_back({ratio, tet});
     std::push_heap(heap_.begin(), heap_.end());
   }

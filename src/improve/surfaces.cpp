@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "improve/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Two surfaces that meet at less than this sine have no line to slide along.
-constexpr double kLeastSine = 0.17;
-
-/// A vertex at a front slides along it, not across: what keeps the volume must turn it from there by no more than
-/// this cosine tells, 2.5 degrees.
-constexpr double kAlongFront = 0.999;
 
 bool is_same_plane(const Vec3& a, const Vec3& b) {
   return a.cross(b).squaredNorm() <= kFlat * kFlat;

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "improve/constants.h"
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise {
@@ -17,16 +18,8 @@ struct SurfaceAt {
   bool is_flat = true;               ///< all faces in one plane, within `kFlat`
 };
 
-/// Unit normals whose cross product is this short belong to one plane.
-inline constexpr double kFlat = 1e-9;
-/// Faces whose normals have at least this cosine with the first of a surface are part of it: 75 degrees.
-inline constexpr double kSmoothCosine = 0.26;
 /// Tag of borders between regions.
 inline constexpr std::uint32_t kBorderTag = 0x7FFFFFFFU;
-
-/// Walls of different strokes whose normals have at least this cosine go on from each other: 20 degrees. Where they
-/// cross at a larger angle there is a crease, to be kept.
-inline constexpr double kSeamCosine = 0.94;
 
 /// Whether faces with these tags may be parts of one surface: walls of successive cuts continue each other.
 inline bool are_alike(std::uint32_t a, std::uint32_t b) {

@@ -63,56 +63,16 @@ T decode(const char* p, const TypeInfo& type) {
   }
 }
 
-class VtkReader {
+/// The numbers of a file, as text or bytes.
+class VtkNumbers {
  public:
-  explicit VtkReader(Job& job) : job_(job), in_(job.bytes, job.name, job.error), cells_(job) {}
+  explicit VtkNumbers(Cursor& in) : in_(in) {}
 
-  bool run() {
-    if (!header()) return false;
-    while (in_.skip_space()) {
-      if (!section(in_.word())) return false;
-    }
-    if (offsets_.empty() || types_.empty()) return in_.fail("the sections CELLS and CELL_TYPES must both be there");
-    if (!sorted_ && !sort_cells()) return false;
-    cells_.finish_notes();
-    return true;
+  void set_binary() {
+    binary_ = true;
+    in_.set_binary();
   }
-
- private:
-  bool header() {
-    const std::string_view first = trim(in_.line());
-    const std::size_t space = first.rfind(' ');
-    const std::string version(space == std::string_view::npos ? "" : first.substr(space + 1));
-    in_.line();  // title
-    const std::string_view encoding = trim(in_.line());
-    binary_ = same_word(encoding, "BINARY");
-    if (!binary_ && !same_word(encoding, "ASCII")) return in_.fail("line 3 must be ASCII or BINARY");
-    if (binary_) in_.set_binary();
-    job_.out.format_name = "legacy VTK " + version.substr(0, 8) + (binary_ ? " binary" : " ASCII");
-    double number = 0;
-    if (!parse_double(version, number) || number < 1 || number >= 6) return in_.fail("version must be 2.0 to 5.1");
-    return true;
-  }
-
-  bool section(std::string_view keyword) {
-    if (same_word(keyword, "DATASET")) return dataset();
-    if (same_word(keyword, "POINTS")) return points();
-    if (same_word(keyword, "CELLS")) return cells();
-    if (same_word(keyword, "CELL_TYPES")) return cell_types();
-    if (same_word(keyword, "CELL_DATA")) return begin_data(true);
-    if (same_word(keyword, "POINT_DATA")) return begin_data(false);
-    if (same_word(keyword, "FIELD")) return field();
-    if (same_word(keyword, "METADATA")) return metadata();
-    return attribute(keyword);
-  }
-
-  bool dataset() {
-    const std::string_view kind = in_.word();
-    if (same_word(kind, "UNSTRUCTURED_GRID")) return true;
-    return job_.fail("DATASET " + std::string(kind.substr(0, 30)) +
-                         " holds no tets; Incise reads UNSTRUCTURED_GRID: mesh the volume first",
-                     ErrorCode::kUnsupported);
-  }
+  [[nodiscard]] bool is_binary() const { return binary_; }
 
   // A count; `check_size` compares it with the rest of the file once the type is known.
   bool size(std::int64_t& n, const char* what) {
@@ -154,13 +114,6 @@ class VtkReader {
     }
     return true;
   }
-  bool ascii_value(double& out) { return in_.real(out, "number"); }
-  bool ascii_value(CellInt& out) {
-    std::int64_t wide = 0;
-    const bool is_number = in_.integer(wide, "integer");
-    out = to_cell_int(wide);
-    return is_number;
-  }
 
   // Arrays of no use here may hold anything, NaN included.
   bool skip_values(std::size_t n, const TypeInfo& type) {
@@ -171,6 +124,15 @@ class VtkReader {
     if (bytes > in_.remaining()) return check_size(n, type) && in_.fail("the file ends within an array");
     in_.seek(in_.position() + bytes);
     return true;
+  }
+
+ private:
+  bool ascii_value(double& out) { return in_.real(out, "number"); }
+  bool ascii_value(CellInt& out) {
+    std::int64_t wide = 0;
+    const bool is_number = in_.integer(wide, "integer");
+    out = to_cell_int(wide);
+    return is_number;
   }
 
   bool skip_words(std::size_t n, const TypeInfo& type) {
@@ -188,14 +150,71 @@ class VtkReader {
     return true;
   }
 
+  Cursor& in_;
+  bool binary_ = false;
+};
+
+class VtkReader {
+ public:
+  explicit VtkReader(Job& job) : job_(job), in_(job.bytes, job.name, job.error), cells_(job) {}
+
+  bool run() {
+    if (!header()) return false;
+    while (in_.skip_space()) {
+      if (!section(in_.word())) return false;
+    }
+    if (offsets_.empty() || types_.empty()) return in_.fail("the sections CELLS and CELL_TYPES must both be there");
+    if (!sorted_ && !sort_cells()) return false;
+    cells_.finish_notes();
+    return true;
+  }
+
+ private:
+  bool header() {
+    const std::string_view first = trim(in_.line());
+    const std::size_t space = first.rfind(' ');
+    const std::string version(space == std::string_view::npos ? "" : first.substr(space + 1));
+    in_.line();  // title
+    const std::string_view encoding = trim(in_.line());
+    if (same_word(encoding, "BINARY")) {
+      numbers_.set_binary();
+    } else if (!same_word(encoding, "ASCII")) {
+      return in_.fail("line 3 must be ASCII or BINARY");
+    }
+    job_.out.format_name = "legacy VTK " + version.substr(0, 8) + (numbers_.is_binary() ? " binary" : " ASCII");
+    double number = 0;
+    if (!parse_double(version, number) || number < 1 || number >= 6) return in_.fail("version must be 2.0 to 5.1");
+    return true;
+  }
+
+  bool section(std::string_view keyword) {
+    if (same_word(keyword, "DATASET")) return dataset();
+    if (same_word(keyword, "POINTS")) return points();
+    if (same_word(keyword, "CELLS")) return cells();
+    if (same_word(keyword, "CELL_TYPES")) return cell_types();
+    if (same_word(keyword, "CELL_DATA")) return begin_data(true);
+    if (same_word(keyword, "POINT_DATA")) return begin_data(false);
+    if (same_word(keyword, "FIELD")) return field();
+    if (same_word(keyword, "METADATA")) return metadata();
+    return attribute(keyword);
+  }
+
+  bool dataset() {
+    const std::string_view kind = in_.word();
+    if (same_word(kind, "UNSTRUCTURED_GRID")) return true;
+    return job_.fail("DATASET " + std::string(kind.substr(0, 30)) +
+                         " holds no tets; Incise reads UNSTRUCTURED_GRID: mesh the volume first",
+                     ErrorCode::kUnsupported);
+  }
+
   bool points() {
     std::int64_t n = 0;
     if (!job_.soup().points.empty()) return in_.fail("there are two POINTS sections");
-    if (!size(n, "number of points")) return false;
-    const TypeInfo* t = type(in_.word());
+    if (!numbers_.size(n, "number of points")) return false;
+    const TypeInfo* t = numbers_.type(in_.word());
     if (t == nullptr) return false;
     std::vector<double> flat;
-    if (!values(static_cast<std::size_t>(n) * 3, *t, flat)) return false;
+    if (!numbers_.values(static_cast<std::size_t>(n) * 3, *t, flat)) return false;
     auto& out = job_.soup().points;
     out.resize(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]};
@@ -206,25 +225,25 @@ class VtkReader {
     std::int64_t n = 0;
     std::int64_t total = 0;
     if (!offsets_.empty()) return in_.fail("there are two CELLS sections");
-    if (!size(n, "number of cells") || !size(total, "size of the cells")) return false;
+    if (!numbers_.size(n, "number of cells") || !numbers_.size(total, "size of the cells")) return false;
     const std::size_t here = in_.position();
     in_.line();
     const bool split = same_word(in_.peek().substr(0, 7), "OFFSETS");
     if (split) return split_cells(static_cast<std::size_t>(n), static_cast<std::size_t>(total));
     in_.seek(here);
     std::vector<CellInt> flat;
-    if (!values(static_cast<std::size_t>(total), kTypes[6], flat)) return false;
+    if (!numbers_.values(static_cast<std::size_t>(total), kTypes[6], flat)) return false;
     return unpack_cells(static_cast<std::size_t>(n), flat);
   }
 
   // Version 5: OFFSETS type, n offsets, CONNECTIVITY type, indices.
   bool split_cells(std::size_t n, std::size_t total) {
     in_.word();
-    const TypeInfo* t = type(in_.word());
-    if (t == nullptr || !values(n, *t, offsets_)) return false;
+    const TypeInfo* t = numbers_.type(in_.word());
+    if (t == nullptr || !numbers_.values(n, *t, offsets_)) return false;
     if (!same_word(in_.word(), "CONNECTIVITY")) return in_.fail("expected CONNECTIVITY");
-    t = type(in_.word());
-    return t != nullptr && values(total, *t, connectivity_);
+    t = numbers_.type(in_.word());
+    return t != nullptr && numbers_.values(total, *t, connectivity_);
   }
 
   // Before version 5: a count and that many indices per cell. The counts are squeezed out in place.
@@ -250,7 +269,7 @@ class VtkReader {
   bool cell_types() {
     std::int64_t n = 0;
     if (!types_.empty()) return in_.fail("there are two CELL_TYPES sections");
-    return size(n, "number of cell types") && values(static_cast<std::size_t>(n), kTypes[6], types_);
+    return numbers_.size(n, "number of cell types") && numbers_.values(static_cast<std::size_t>(n), kTypes[6], types_);
   }
 
   bool sort_cells() {
@@ -262,7 +281,7 @@ class VtkReader {
   bool begin_data(bool of_cells) {
     std::int64_t n = 0;
     of_cells_ = of_cells;
-    if (!size(n, "number of values")) return false;
+    if (!numbers_.size(n, "number of values")) return false;
     n_data_ = static_cast<std::size_t>(n);
     if (offsets_.empty() || types_.empty()) return in_.fail("data come before CELLS and CELL_TYPES");
     if (!sorted_ && !sort_cells()) return false;
@@ -277,10 +296,10 @@ class VtkReader {
     const bool wanted =
         n_data_ > 0 && (of_cells_ ? CellSorter::wants_cell_array(name) : CellSorter::wants_point_array(name));
     if (!wanted || components != 1 || tuples != n_data_ || type.kind == Kind::kBit || type.kind == Kind::kString) {
-      return skip_values(components * tuples, type);
+      return numbers_.skip_values(components * tuples, type);
     }
     std::vector<double> got;
-    if (!values(tuples, type, got)) return false;
+    if (!numbers_.values(tuples, type, got)) return false;
     of_cells_ ? cells_.label_cells(name, got) : cells_.label_points(name, got);
     return true;
   }
@@ -288,7 +307,7 @@ class VtkReader {
   bool field() {
     std::int64_t n = 0;
     in_.word();
-    if (!size(n, "number of arrays")) return false;
+    if (!numbers_.size(n, "number of arrays")) return false;
     for (std::int64_t i = 0; i < n; ++i) {
       const std::string name(in_.word());
       if (same_word(name, "METADATA")) {
@@ -298,8 +317,9 @@ class VtkReader {
       }
       std::int64_t components = 0;
       std::int64_t tuples = 0;
-      if (!size(components, "number of components") || !size(tuples, "number of tuples")) return false;
-      const TypeInfo* t = type(in_.word());
+      if (!numbers_.size(components, "number of components") || !numbers_.size(tuples, "number of tuples"))
+        return false;
+      const TypeInfo* t = numbers_.type(in_.word());
       if (t == nullptr || !array(name, static_cast<std::size_t>(components), static_cast<std::size_t>(tuples), *t)) {
         return false;
       }
@@ -321,8 +341,8 @@ class VtkReader {
     if (same_word(keyword, "LOOKUP_TABLE")) return lookup_table();
     if (same_word(keyword, "COLOR_SCALARS")) {
       std::int64_t n = 0;
-      if (!size(n, "number of components")) return false;
-      return array("", static_cast<std::size_t>(n), n_data_, binary_ ? kTypes[3] : kTypes[13]);
+      if (!numbers_.size(n, "number of components")) return false;
+      return array("", static_cast<std::size_t>(n), n_data_, numbers_.is_binary() ? kTypes[3] : kTypes[13]);
     }
     if (same_word(keyword, "VECTORS") || same_word(keyword, "NORMALS")) return typed_array(name, 3);
     if (same_word(keyword, "TENSORS")) return typed_array(name, 9);
@@ -330,19 +350,19 @@ class VtkReader {
     if (same_word(keyword, "GLOBAL_IDS") || same_word(keyword, "PEDIGREE_IDS")) return typed_array(name, 1);
     if (same_word(keyword, "TEXTURE_COORDINATES")) {
       std::int64_t n = 0;
-      return size(n, "number of components") && typed_array(name, static_cast<std::size_t>(n));
+      return numbers_.size(n, "number of components") && typed_array(name, static_cast<std::size_t>(n));
     }
     return in_.fail("keyword " + in_quotes(keyword) + " is unknown, or the numbers before it are more than announced");
   }
 
   bool typed_array(const std::string& name, std::size_t components) {
-    const TypeInfo* t = type(in_.word());
+    const TypeInfo* t = numbers_.type(in_.word());
     return t != nullptr && array(name, components, n_data_, *t);
   }
 
   // SCALARS name type [components], then usually LOOKUP_TABLE name.
   bool scalars(const std::string& name) {
-    const TypeInfo* t = type(in_.word_in_line());
+    const TypeInfo* t = numbers_.type(in_.word_in_line());
     std::int64_t components = 1;
     if (t == nullptr || (!in_.at_line_end() && !in_.integer_in_line(components, "number of components"))) return false;
     if (components < 1 || components > 4) return in_.fail("SCALARS must have 1 to 4 components");
@@ -359,14 +379,14 @@ class VtkReader {
 
   bool lookup_table() {
     std::int64_t n = 0;
-    if (!size(n, "size of the table")) return false;
-    return skip_values(static_cast<std::size_t>(n) * 4, binary_ ? kTypes[3] : kTypes[13]);
+    if (!numbers_.size(n, "size of the table")) return false;
+    return numbers_.skip_values(static_cast<std::size_t>(n) * 4, numbers_.is_binary() ? kTypes[3] : kTypes[13]);
   }
 
   Job& job_;
   Cursor in_;
+  VtkNumbers numbers_{in_};
   CellSorter cells_;
-  bool binary_ = false;
   bool of_cells_ = false;
   bool sorted_ = false;
   std::size_t n_data_ = 0;

@@ -49,23 +49,179 @@ class StepTable {
 
 }  // namespace
 
-/// Applies one step that has not been applied before.
+/// Applies one step that has not been applied before: what both ways to read it share.
 class Attributes::Stepper {
  public:
   Stepper(Attributes& all, const Step& step, Record& record) : all_(all), step_(step), record_(record) {}
 
-  void run() {
-    if (step_.edits.empty()) {
-      apply_lists();
+  /// By the lists, or, where a step changed one place several times, edit by edit.
+  static void run(Attributes& all, const Step& step, Record& record);
+
+ protected:
+  class ByLists;
+  class ByEdits;
+
+  using Weights = std::array<double, 4>;
+
+  /// A consumed tet and its children; of an edit: all of its tets.
+  struct Family {
+    double volume = 0, children_volume = 0;
+    std::uint32_t children = 0;
+    bool is_pooled = false;  // its children do not fill it: see `find_pool`
+  };
+
+  static double* at(Attribute& attribute, std::uint32_t slot) {
+    return attribute.values.data() + std::size_t{slot} * attribute.spec.width;
+  }
+  /// The vertex whose value a vertex has so far: a copy of this step has none of its own before `copied` is applied.
+  [[nodiscard]] VertexId resolve(VertexId vertex) const {
+    const VertexId* root = roots_.find(vertex);
+    return root == nullptr ? vertex : *root;
+  }
+
+  static bool is_field(const Attribute& attribute) {
+    return attribute.spec.transfer == Transfer::kInterpolate || attribute.spec.transfer == Transfer::kInherit;
+  }
+  /// A new element of an attribute that is not handed down: nothing yet to conserve, or soon computed.
+  static void start(Attribute& attribute, std::uint32_t slot) {
+    if (attribute.spec.transfer == Transfer::kRecompute) {
+      fill_initial(attribute, slot);
     } else {
-      apply_edits();
+      std::fill_n(at(attribute, slot), attribute.spec.width, 0.0);
+    }
+  }
+  void give_birth(Attribute& attribute, const BornVertex& born) {
+    if (attribute.spec.transfer == Transfer::kInterpolate) {
+      mix(attribute, born.id, born.parents, born.weights);
+    } else if (attribute.spec.transfer == Transfer::kInherit) {
+      unsigned best = 0;
+      for (unsigned p = 1; p < 4; ++p) {
+        if (born.parents[p].is_valid() && born.weights[p] > born.weights[best]) best = p;
+      }
+      std::copy_n(at(attribute, resolve(born.parents[best]).value), attribute.spec.width, at(attribute, born.id.value));
+    } else {
+      start(attribute, born.id.value);
+    }
+  }
+  void mix(Attribute& attribute, VertexId to, const TetVertices& from, const Weights& weights) {
+    std::array<double, kMaxWidth> sum{};
+    for (unsigned p = 0; p < 4; ++p) {
+      if (!from[p].is_valid()) continue;
+      const double* value = at(attribute, resolve(from[p]).value);
+      for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
+        sum[k] += weights[p] * value[k];
+      }
+    }
+    std::copy_n(sum.begin(), attribute.spec.width, at(attribute, to.value));
+  }
+  [[nodiscard]] double density(Attribute& attribute, VertexId vertex, std::uint32_t k) const {
+    const double lumped = all_.lumped_[vertex];
+    return lumped > 0 ? at(attribute, vertex.value)[k] / lumped : 0.0;
+  }
+
+  /// Moves a vertex with its copies; shrinking tets around it hand material to growing ones.
+  void exchange(std::span<const MovedVertex> twins) {
+    group_.clear();
+    for (const MovedVertex& moved : twins) {
+      group_.push_back(moved.id);
+      copies_.for_each(moved.id, [&](VertexId copy) { group_.push_back(copy); });
+    }
+    find_star();
+    before_.clear();
+    for (const TetId tet : star_) before_.push_back(all_.volume(all_.tets_[tet]));
+    for (const VertexId v : group_) all_.rest_[v] = twins.front().rest;
+    after_.clear();
+    double lost = 0, won = 0;
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      after_.push_back(all_.volume(all_.tets_[star_[i]]));
+      lost += std::max(0.0, before_[i] - after_[i]);
+      won += std::max(0.0, after_[i] - before_[i]);
+    }
+    if (lost > 0 && won > 0) {
+      for (Attribute& attribute : all_.attributes_) {
+        if (attribute.spec.transfer == Transfer::kConserve) flow(attribute, std::min(1.0, won / lost), won);
+      }
+    }
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      for (const VertexId v : all_.tets_[star_[i]]) all_.lumped_[v] += 0.25 * (after_[i] - before_[i]);
+    }
+  }
+  /// The tets around the group, ascending, whatever the order of the lists.
+  void find_star() {
+    star_.clear();
+    for (const VertexId v : group_) {
+      for (std::uint32_t i = all_.first_corner_[v]; i != kInvalidIndex; i = all_.next_corner_[i]) {
+        star_.push_back(TetId(i >> 2U));
+      }
+    }
+    std::sort(star_.begin(), star_.end());
+    star_.erase(std::unique(star_.begin(), star_.end()), star_.end());
+    for (const TetId tet : star_) {
+      all_.touch(record_, tet);
+      for (const VertexId v : all_.tets_[tet]) all_.touch(record_, v);
+    }
+  }
+  /// `scale`: the part of the lost volume that is won elsewhere; a star that shrinks as a whole keeps the rest.
+  void flow(Attribute& attribute, double scale, double won) {
+    const bool is_lumped = attribute.spec.domain == Domain::kVertex;
+    for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
+      double pool = 0;
+      quarters_.assign(star_.size(), Weights{});
+      for (std::size_t i = 0; i < star_.size(); ++i) {
+        const double part = scale * std::max(0.0, before_[i] - after_[i]);
+        for (unsigned c = 0; c < (is_lumped ? 4U : 1U) && part > 0; ++c) {
+          quarters_[i][c] = is_lumped ? 0.25 * part * density(attribute, all_.tets_[star_[i]][c], k)
+                                      : at(attribute, star_[i].value)[k] * (part / before_[i]);
+          pool += quarters_[i][c];
+        }
+      }
+      for (std::size_t i = 0; i < star_.size(); ++i) {
+        const double gain = pool * (std::max(0.0, after_[i] - before_[i]) / won);
+        if (!is_lumped) {
+          at(attribute, star_[i].value)[k] += gain - quarters_[i][0];
+          continue;
+        }
+        for (unsigned c = 0; c < 4; ++c) {
+          at(attribute, all_.tets_[star_[i]][c].value)[k] += 0.25 * gain - quarters_[i][c];
+        }
+      }
     }
   }
 
- private:
-  using Weights = std::array<double, 4>;
+  void retire() {
+    for (Attribute& attribute : all_.attributes_) {
+      if (attribute.spec.domain == Domain::kTet) {
+        for (const ConsumedTet& tet : step_.consumed) clear(attribute, tet.id.value);
+      } else {
+        for (const VertexId v : step_.died) clear(attribute, v.value);
+      }
+    }
+    for (const VertexId v : step_.died) all_.lumped_[v] = 0;
+  }
+  static void clear(Attribute& attribute, std::uint32_t slot) {
+    std::fill_n(at(attribute, slot), attribute.spec.width, 0.0);
+  }
 
-  void apply_lists() {
+  Attributes& all_;
+  const Step& step_;
+  Record& record_;
+  StepTable<VertexId, VertexId> roots_;   // of copies: the vertex that was there before the copies
+  StepTable<VertexId, VertexId> copies_;  // of roots
+  std::vector<Weights> quarters_;
+
+ private:
+  // Of the vertices that move:
+  std::vector<VertexId> group_;
+  std::vector<TetId> star_;
+  std::vector<double> before_, after_;  // volumes, by star
+};
+
+/// All of a step at once: its lists tell the net effect.
+class Attributes::Stepper::ByLists : private Stepper {
+ public:
+  using Stepper::Stepper;
+
+  void run() {
     tabulate();
     touch_all();
     for (Attribute& attribute : all_.attributes_) {
@@ -86,48 +242,7 @@ class Attributes::Stepper {
     retire();
   }
 
-  /// One edit after the other: each finds the values and places that the one before it left.
-  void apply_edits() {
-    std::size_t consumed = 0, produced = 0;
-    for (std::size_t i = 0; i < step_.edits.size(); ++i) {
-      const Edit& edit = step_.edits[i];
-      consumed_ = std::span(step_.edit_consumed).subspan(consumed, edit.consumed_end - consumed);
-      produced_ = std::span(step_.edit_produced).subspan(produced, edit.produced_end - produced);
-      consumed = edit.consumed_end;
-      produced = edit.produced_end;
-      if (edit.kind == Edit::Kind::kMove) {
-        const std::span<const MovedVertex> twins = twins_at(i);
-        resample(twins);
-        i += twins.size() - 1;
-      } else {
-        remesh(edit);
-      }
-    }
-    retire();
-  }
-  /// The moves from an edit on that take copies of one vertex to one place: what one side of a wall loses the other
-  /// wins.
-  [[nodiscard]] std::span<const MovedVertex> twins_at(std::size_t edit) const {
-    const std::size_t first = step_.edits[edit].vertex;
-    std::size_t count = 1;
-    const auto is_twin = [&](const Edit& next) {
-      const MovedVertex& moved = step_.moved[first];
-      return next.kind == Edit::Kind::kMove && next.vertex == first + count &&
-             step_.moved[next.vertex].old_rest == moved.old_rest && step_.moved[next.vertex].rest == moved.rest;
-    };
-    while (edit + count < step_.edits.size() && is_twin(step_.edits[edit + count])) ++count;
-    return std::span(step_.moved).subspan(first, count);
-  }
-
-  static double* at(Attribute& attribute, std::uint32_t slot) {
-    return attribute.values.data() + std::size_t{slot} * attribute.spec.width;
-  }
-  /// The vertex whose value a vertex has so far: a copy of this step has none of its own before `copied` is applied.
-  [[nodiscard]] VertexId resolve(VertexId vertex) const {
-    const VertexId* root = roots_.find(vertex);
-    return root == nullptr ? vertex : *root;
-  }
-
+ private:
   void tabulate() {
     std::vector<std::pair<VertexId, VertexId>> chain;
     for (const CopiedVertex& copy : step_.copied) {
@@ -173,7 +288,6 @@ class Attributes::Stepper {
     for (const BornVertex& born : step_.born) all_.rest_[born.id] = born.rest;
     for (const CopiedVertex& copied : step_.copied) all_.rest_[copied.id] = all_.rest_[resolve(copied.id)];
   }
-
   void give_vertex_values(Attribute& attribute) {
     const std::uint32_t width = attribute.spec.width;
     for (const BornVertex& born : step_.born) {
@@ -191,41 +305,6 @@ class Attributes::Stepper {
         start(attribute, copied.id.value);
       }
     }
-  }
-  static bool is_field(const Attribute& attribute) {
-    return attribute.spec.transfer == Transfer::kInterpolate || attribute.spec.transfer == Transfer::kInherit;
-  }
-  /// A new element of an attribute that is not handed down: nothing yet to conserve, or soon computed.
-  static void start(Attribute& attribute, std::uint32_t slot) {
-    if (attribute.spec.transfer == Transfer::kRecompute) {
-      fill_initial(attribute, slot);
-    } else {
-      std::fill_n(at(attribute, slot), attribute.spec.width, 0.0);
-    }
-  }
-  void give_birth(Attribute& attribute, const BornVertex& born) {
-    if (attribute.spec.transfer == Transfer::kInterpolate) {
-      mix(attribute, born.id, born.parents, born.weights);
-    } else if (attribute.spec.transfer == Transfer::kInherit) {
-      unsigned best = 0;
-      for (unsigned p = 1; p < 4; ++p) {
-        if (born.parents[p].is_valid() && born.weights[p] > born.weights[best]) best = p;
-      }
-      std::copy_n(at(attribute, resolve(born.parents[best]).value), attribute.spec.width, at(attribute, born.id.value));
-    } else {
-      start(attribute, born.id.value);
-    }
-  }
-  void mix(Attribute& attribute, VertexId to, const TetVertices& from, const Weights& weights) {
-    std::array<double, kMaxWidth> sum{};
-    for (unsigned p = 0; p < 4; ++p) {
-      if (!from[p].is_valid()) continue;
-      const double* value = at(attribute, resolve(from[p]).value);
-      for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
-        sum[k] += weights[p] * value[k];
-      }
-    }
-    std::copy_n(sum.begin(), attribute.spec.width, at(attribute, to.value));
   }
 
   void measure() {
@@ -304,10 +383,6 @@ class Attributes::Stepper {
     }
   }
 
-  [[nodiscard]] double density(Attribute& attribute, VertexId vertex, std::uint32_t k) const {
-    const double lumped = all_.lumped_[vertex];
-    return lumped > 0 ? at(attribute, vertex.value)[k] / lumped : 0.0;
-  }
   /// Material goes from the corners of consumed tets to those of their children, from old vertices to their copies.
   void hand_on(Attribute& attribute) {
     for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
@@ -399,6 +474,53 @@ class Attributes::Stepper {
     }
   }
 
+  StepTable<VertexId, bool> died_;
+  StepTable<TetId, std::uint32_t> parents_;  // index into consumed
+  std::vector<Family> families_;             // by consumed
+  std::vector<double> volumes_;              // by produced
+  double pool_volume_ = 0;                   // of the children in pooled families; 0 where there are none
+  std::vector<Weights> rewired_quarters_;
+};
+
+/// One edit after the other.
+class Attributes::Stepper::ByEdits : private Stepper {
+ public:
+  using Stepper::Stepper;
+
+  /// One edit after the other: each finds the values and places that the one before it left.
+  void run() {
+    std::size_t consumed = 0, produced = 0;
+    for (std::size_t i = 0; i < step_.edits.size(); ++i) {
+      const Edit& edit = step_.edits[i];
+      consumed_ = std::span(step_.edit_consumed).subspan(consumed, edit.consumed_end - consumed);
+      produced_ = std::span(step_.edit_produced).subspan(produced, edit.produced_end - produced);
+      consumed = edit.consumed_end;
+      produced = edit.produced_end;
+      if (edit.kind == Edit::Kind::kMove) {
+        const std::span<const MovedVertex> twins = twins_at(i);
+        resample(twins);
+        i += twins.size() - 1;
+      } else {
+        remesh(edit);
+      }
+    }
+    retire();
+  }
+
+ private:
+  /// The moves from an edit on that take copies of one vertex to one place: what one side of a wall loses the other
+  /// wins.
+  [[nodiscard]] std::span<const MovedVertex> twins_at(std::size_t edit) const {
+    const std::size_t first = step_.edits[edit].vertex;
+    std::size_t count = 1;
+    const auto is_twin = [&](const Edit& next) {
+      const MovedVertex& moved = step_.moved[first];
+      return next.kind == Edit::Kind::kMove && next.vertex == first + count &&
+             step_.moved[next.vertex].old_rest == moved.old_rest && step_.moved[next.vertex].rest == moved.rest;
+    };
+    while (edit + count < step_.edits.size() && is_twin(step_.edits[edit + count])) ++count;
+    return std::span(step_.moved).subspan(first, count);
+  }
   void resample(std::span<const MovedVertex> twins) {
     for (const MovedVertex& moved : twins) {
       all_.touch(record_, moved.id);
@@ -493,6 +615,7 @@ class Attributes::Stepper {
       }
     }
   }
+
   void refill_tets(Attribute& attribute) {
     const std::uint32_t width = attribute.spec.width;
     held_.clear();
@@ -545,119 +668,25 @@ class Attributes::Stepper {
     }
   }
 
-  /// Moves a vertex with its copies; shrinking tets around it hand material to growing ones.
-  void exchange(std::span<const MovedVertex> twins) {
-    group_.clear();
-    for (const MovedVertex& moved : twins) {
-      group_.push_back(moved.id);
-      copies_.for_each(moved.id, [&](VertexId copy) { group_.push_back(copy); });
-    }
-    find_star();
-    before_.clear();
-    for (const TetId tet : star_) before_.push_back(all_.volume(all_.tets_[tet]));
-    for (const VertexId v : group_) all_.rest_[v] = twins.front().rest;
-    after_.clear();
-    double lost = 0, won = 0;
-    for (std::size_t i = 0; i < star_.size(); ++i) {
-      after_.push_back(all_.volume(all_.tets_[star_[i]]));
-      lost += std::max(0.0, before_[i] - after_[i]);
-      won += std::max(0.0, after_[i] - before_[i]);
-    }
-    if (lost > 0 && won > 0) {
-      for (Attribute& attribute : all_.attributes_) {
-        if (attribute.spec.transfer == Transfer::kConserve) flow(attribute, std::min(1.0, won / lost), won);
-      }
-    }
-    for (std::size_t i = 0; i < star_.size(); ++i) {
-      for (const VertexId v : all_.tets_[star_[i]]) all_.lumped_[v] += 0.25 * (after_[i] - before_[i]);
-    }
-  }
-  /// The tets around the group, ascending, whatever the order of the lists.
-  void find_star() {
-    star_.clear();
-    for (const VertexId v : group_) {
-      for (std::uint32_t i = all_.first_corner_[v]; i != kInvalidIndex; i = all_.next_corner_[i]) {
-        star_.push_back(TetId(i >> 2U));
-      }
-    }
-    std::sort(star_.begin(), star_.end());
-    star_.erase(std::unique(star_.begin(), star_.end()), star_.end());
-    for (const TetId tet : star_) {
-      all_.touch(record_, tet);
-      for (const VertexId v : all_.tets_[tet]) all_.touch(record_, v);
-    }
-  }
-  /// `scale`: the part of the lost volume that is won elsewhere; a star that shrinks as a whole keeps the rest.
-  void flow(Attribute& attribute, double scale, double won) {
-    const bool is_lumped = attribute.spec.domain == Domain::kVertex;
-    for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
-      double pool = 0;
-      quarters_.assign(star_.size(), Weights{});
-      for (std::size_t i = 0; i < star_.size(); ++i) {
-        const double part = scale * std::max(0.0, before_[i] - after_[i]);
-        for (unsigned c = 0; c < (is_lumped ? 4U : 1U) && part > 0; ++c) {
-          quarters_[i][c] = is_lumped ? 0.25 * part * density(attribute, all_.tets_[star_[i]][c], k)
-                                      : at(attribute, star_[i].value)[k] * (part / before_[i]);
-          pool += quarters_[i][c];
-        }
-      }
-      for (std::size_t i = 0; i < star_.size(); ++i) {
-        const double gain = pool * (std::max(0.0, after_[i] - before_[i]) / won);
-        if (!is_lumped) {
-          at(attribute, star_[i].value)[k] += gain - quarters_[i][0];
-          continue;
-        }
-        for (unsigned c = 0; c < 4; ++c) {
-          at(attribute, all_.tets_[star_[i]][c].value)[k] += 0.25 * gain - quarters_[i][c];
-        }
-      }
-    }
-  }
-
-  void retire() {
-    for (Attribute& attribute : all_.attributes_) {
-      if (attribute.spec.domain == Domain::kTet) {
-        for (const ConsumedTet& tet : step_.consumed) clear(attribute, tet.id.value);
-      } else {
-        for (const VertexId v : step_.died) clear(attribute, v.value);
-      }
-    }
-    for (const VertexId v : step_.died) all_.lumped_[v] = 0;
-  }
-  static void clear(Attribute& attribute, std::uint32_t slot) {
-    std::fill_n(at(attribute, slot), attribute.spec.width, 0.0);
-  }
-
-  /// A consumed tet and its children; of an edit: all of its tets.
-  struct Family {
-    double volume = 0, children_volume = 0;
-    std::uint32_t children = 0;
-    bool is_pooled = false;  // its children do not fill it: see `find_pool`
-  };
-
-  Attributes& all_;
-  const Step& step_;
-  Record& record_;
-  StepTable<VertexId, VertexId> roots_;   // of copies: the vertex that was there before the copies
-  StepTable<VertexId, VertexId> copies_;  // of roots
-  StepTable<VertexId, bool> died_;
-  StepTable<TetId, std::uint32_t> parents_;  // index into consumed
-  std::vector<Family> families_;             // by consumed
-  std::vector<double> volumes_;              // by produced
-  double pool_volume_ = 0;                   // of the children in pooled families; 0 where there are none
-  std::vector<Weights> quarters_, rewired_quarters_;
   // Of the edit at work:
   std::span<const ConsumedTet> consumed_;
   std::span<const ProducedTet> produced_;
+  std::vector<Family> families_;          // one of all, or by consumed_
+  std::vector<double> volumes_;           // by produced_
   std::vector<std::uint32_t> parent_of_;  // index into consumed_, by produced_
   std::vector<double> old_volumes_;       // by consumed_
   std::vector<VertexId> orphans_;
   std::vector<double> held_, pools_;  // values by consumed_; sums by family
   bool is_one_family_ = true;
-  std::vector<VertexId> group_;
-  std::vector<TetId> star_;
-  std::vector<double> before_, after_;  // volumes, by star
 };
+
+void Attributes::Stepper::run(Attributes& all, const Step& step, Record& record) {
+  if (step.edits.empty()) {
+    ByLists(all, step, record).run();
+  } else {
+    ByEdits(all, step, record).run();
+  }
+}
 
 Attributes::Attributes(const TetMesh& mesh, const Journal& journal)
     : base_(journal.position()), base_serial_(journal.serial_before(journal.position())) {
@@ -758,7 +787,7 @@ void Attributes::apply(const Step& step) {
   for (const VertexId v : step.new_vertices) vertex_slots = std::max(vertex_slots, v.value + 1);
   for (const TetId t : step.new_tets) tet_slots = std::max(tet_slots, t.value + 1);
   resize(vertex_slots, tet_slots);
-  Stepper(*this, step, record).run();
+  Stepper::run(*this, step, record);
   mark(record, false);
   ++applied_;
 }

@@ -13,7 +13,6 @@ namespace incise {
 inline namespace v0 {
 namespace {
 
-constexpr double kBadRatio = 200;  // the paper's limit for a tet fit to simulate
 constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 
 double longest_edge_squared(const std::array<Vec3, 4>& p) {

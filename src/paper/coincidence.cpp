@@ -5,31 +5,17 @@
 #include <cmath>
 
 #include "cut/constants.h"
+#include "incise/mesh/edge_length.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
-/// Mean distance from a vertex to its neighbours.
-double mean_edge_length(const TetMesh& mesh, VertexId centre, const std::vector<TetId>& star) {
-  std::vector<VertexId> neighbours;
-  double sum = 0;
-  for (const TetId tet : star) {
-    for (const VertexId v : mesh.vertices(tet)) {
-      if (v != centre && std::find(neighbours.begin(), neighbours.end(), v) == neighbours.end()) {
-        neighbours.push_back(v);
-        sum += (mesh.rest(v) - mesh.rest(centre)).norm();
-      }
-    }
-  }
-  return sum / static_cast<double>(neighbours.size());
-}
-
 bool coincides(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, double longest, StarWalker& walker) {
   const auto hit = sheet.tree().closest(mesh.rest(vertex), kCoincident * longest);
   return hit.is_valid() &&
-         std::sqrt(hit.distance2) <= kCoincident * mean_edge_length(mesh, vertex, walker.star(mesh, vertex));
+         std::sqrt(hit.distance2) <= kCoincident * mean_edge_length_at(mesh, vertex, walker.star(mesh, vertex));
 }
 
 }  // namespace

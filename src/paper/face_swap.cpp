@@ -6,7 +6,7 @@
 
 #include "incise/mesh/remesh.h"
 #include "incise/mesh/star.h"
-#include "paper/paper_quality.h"
+#include "paper/paper_stage.h"
 
 namespace incise {
 inline namespace v0 {
@@ -14,10 +14,9 @@ namespace paper {
 
 namespace {
 
-class FaceSwapper {
+class FaceSwapper : private PaperStage {
  public:
-  explicit FaceSwapper(Transaction& transaction)
-      : transaction_(transaction), mesh_(transaction.mesh()), meter_(transaction.mesh()) {}
+  explicit FaceSwapper(Transaction& transaction) : PaperStage(transaction) {}
 
   MaintainStatistics run(const std::vector<TetId>& tets) {
     for (const TetId tet : tets) {
@@ -25,8 +24,7 @@ class FaceSwapper {
         swap_an_edge(tet);
       }
     }
-    done_.work_units = meter_.evaluations();
-    return done_;
+    return done();
   }
 
  private:
@@ -87,12 +85,7 @@ class FaceSwapper {
     return worst;
   }
 
-  Transaction& transaction_;
-  const TetMesh& mesh_;
-  QualityMeter meter_;
-  StarWalker walker_;
   std::vector<TetId> produced_;
-  MaintainStatistics done_;
 };
 
 }  // namespace

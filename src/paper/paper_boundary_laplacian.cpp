@@ -4,6 +4,7 @@
 #include "paper/least_squares_plane.h"
 #include "paper/paper_classes.h"
 #include "paper/paper_move.h"
+#include "paper/paper_stage.h"
 
 namespace incise {
 inline namespace v0 {
@@ -27,16 +28,14 @@ Vec3 smooth_on_wall(const Vec3& place, std::span<const Vec3> neighbours) {
 
 namespace {
 
-class BoundarySmoother {
+class BoundarySmoother : private PaperStage {
  public:
-  explicit BoundarySmoother(Transaction& transaction)
-      : transaction_(transaction), mesh_(transaction.mesh()), meter_(transaction.mesh()) {}
+  explicit BoundarySmoother(Transaction& transaction) : PaperStage(transaction) {}
 
   MaintainStatistics run(const std::vector<VertexId>& vertices) {
     smooth_all(vertices, VertexClass::kContour);
     smooth_all(vertices, VertexClass::kSurface);
-    done_.work_units = meter_.evaluations();
-    return done_;
+    return done();
   }
 
  private:
@@ -60,13 +59,8 @@ class BoundarySmoother {
     return smooth_on_wall(mesh_.rest(v), neighbours_);
   }
 
-  Transaction& transaction_;
-  const TetMesh& mesh_;
-  QualityMeter meter_;
   ClassFinder classes_;
-  StarWalker walker_;
   std::vector<Vec3> neighbours_;
-  MaintainStatistics done_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "incise/mesh/star.h"
+#include "paper/constants.h"
 
 namespace incise {
 inline namespace v0 {
@@ -16,11 +17,6 @@ enum class VertexClass : std::uint8_t {
   kContour,  ///< two surfaces meet, or one folds: along the line
   kCorner,   ///< more than two lines, a line that ends or turns, or an unclear place: nowhere
 };
-
-/// Boundary edges whose faces enclose a greater angle than this are sharp, and so are contours that turn by more:
-/// 45°, as its cosine √½. Below it lie the facets of a curved skin of a few hundred faces; above it what one sees as an
-/// edge.
-inline constexpr double kSharpCosine = 0.70710678118654752440;
 
 /// Finds on what a vertex lies. Keeps scratch memory and the last answer.
 ///

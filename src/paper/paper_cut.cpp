@@ -15,6 +15,7 @@
 #include "cut/sweep.h"
 #include "incise/mesh/verbs.h"
 #include "paper/coincidence.h"
+#include "paper/constants.h"
 #include "paper/contact.h"
 #include "paper/crossing.h"
 #include "paper/dividable.h"
@@ -25,13 +26,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Two crossings of one edge closer than this share of it are one graze, not two sheets.
-constexpr double kGrazeShare = 0.02;
-/// The most children of a tet.
-constexpr std::size_t kMostChildren = 16;
-/// An edge crossed twice is bisected at most so often.
-constexpr unsigned kMaxBisectionRounds = 8;
 
 /// Cuts along a sheet as the paper does, after the fact: one part of a sweep.
 class SheetCut {

@@ -5,7 +5,7 @@
 
 #include "incise/mesh/collapse.h"
 #include "paper/paper_classes.h"
-#include "paper/paper_quality.h"
+#include "paper/paper_stage.h"
 
 namespace incise {
 inline namespace v0 {
@@ -94,10 +94,10 @@ bool is_safe_to_merge(const TetMesh& mesh, TetId tet, VertexId b, VertexId c) {
 
 namespace {
 
-class EdgeMerger {
+class EdgeMerger : private PaperStage {
  public:
   EdgeMerger(Transaction& transaction, const MergeThresholds& thresholds)
-      : transaction_(transaction), mesh_(transaction.mesh()), thresholds_(thresholds), meter_(transaction.mesh()) {}
+      : PaperStage(transaction), thresholds_(thresholds) {}
 
   MaintainStatistics run(const std::vector<TetId>& tets) {
     bool has_merged = true;
@@ -107,8 +107,7 @@ class EdgeMerger {
         has_merged |= mesh_.is_live(tet) && eliminate(tet);
       }
     }
-    done_.work_units = meter_.evaluations();
-    return done_;
+    return done();
   }
 
  private:
@@ -225,14 +224,10 @@ class EdgeMerger {
     return true;
   }
 
-  Transaction& transaction_;
-  const TetMesh& mesh_;
   MergeThresholds thresholds_;
-  QualityMeter meter_;
   ClassFinder classes_;
   CollapsePlanner planner_;
   CollapsePlan plan_;
-  MaintainStatistics done_;
 };
 
 }  // namespace

@@ -3,15 +3,12 @@
 
 #include "incise/mesh/star.h"
 #include "incise/mesh/transaction.h"
+#include "paper/constants.h"
 #include "paper/paper_quality.h"
 
 namespace incise {
 inline namespace v0 {
 namespace paper {
-
-/// How often a move that does harm is tried: the whole way, half, a quarter, an eighth. What is left after that is less
-/// than the paper's smoothing is worth.
-inline constexpr unsigned kMoveTries = 4;
 
 /// Moves a vertex to `target`, or as far on the way there as no tet around it turns over and the worst of them is not
 /// bad-shaped (`kBadShape`) or no worse than the worst before. Returns whether it moved.

@@ -5,14 +5,11 @@
 
 #include "incise/geom/quality.h"
 #include "incise/mesh/tet_mesh.h"
+#include "paper/constants.h"
 
 namespace incise {
 inline namespace v0 {
 namespace paper {
-
-/// L/r above which a tet is bad-shaped. Merging and Boundary Laplacian may not make a tet worse than this, nor worse
-/// than the worst about already is. **Source:** Paper §4.3, Table 3 ("measurement > 200").
-inline constexpr double kBadShape = 200.0;
 
 /// Measures tets at rest as the paper does, L/r, lower is better, and counts how often: the work units.
 /// **Source:** Paper §3.1.

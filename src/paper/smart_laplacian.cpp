@@ -3,8 +3,8 @@
 
 #include "incise/mesh/verbs.h"
 #include "paper/paper_classes.h"
-#include "paper/paper_quality.h"
 #include "paper/paper_region.h"
+#include "paper/paper_stage.h"
 
 namespace incise {
 inline namespace v0 {
@@ -12,21 +12,18 @@ namespace paper {
 
 namespace {
 
-class InsideSmoother {
+class InsideSmoother : private PaperStage {
  public:
-  explicit InsideSmoother(Transaction& transaction)
-      : transaction_(transaction), mesh_(transaction.mesh()), meter_(transaction.mesh()) {}
+  explicit InsideSmoother(Transaction& transaction) : PaperStage(transaction) {}
 
   /// Algorithm 3.
   MaintainStatistics run(const std::vector<VertexId>& vertices) {
-    MaintainStatistics done;
     for (const VertexId v : vertices) {
       if (mesh_.is_live(v) && classes_.classify(mesh_, v) == VertexClass::kInside && smooth(v)) {
-        ++done.moved_vertices;
+        ++done_.moved_vertices;
       }
     }
-    done.work_units = meter_.evaluations();
-    return done;
+    return done();
   }
 
  private:
@@ -61,11 +58,7 @@ class InsideSmoother {
     return sum / static_cast<double>(star_.size());
   }
 
-  Transaction& transaction_;
-  const TetMesh& mesh_;
-  QualityMeter meter_;
   ClassFinder classes_;
-  StarWalker walker_;
   std::vector<TetId> star_;
 };
 

@@ -8,7 +8,7 @@
 
 #include "render/ink_style.h"
 #include "render/marks_shaders.h"
-#include "render/stop_watch.h"
+#include "render/thread_timer.h"
 
 namespace incise {
 inline namespace v0 {
@@ -161,7 +161,7 @@ void MarksPass::gather_corners(const app::Picture& picture) {
 }
 
 void MarksPass::upload(const app::Picture& picture, DrawStatistics& statistics) {
-  StopWatch watch;
+  ThreadTimer watch;
   gather_lines(picture);
   gather_balls(picture.marks);
   gather_corners(picture);

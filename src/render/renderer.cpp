@@ -10,8 +10,8 @@
 #include "render/canvas.h"
 #include "render/marks_pass.h"
 #include "render/occlusion_pass.h"
-#include "render/stop_watch.h"
 #include "render/surface_pass.h"
+#include "render/thread_timer.h"
 #include "render/view_matrices.h"
 #include "render/viewport_check.h"
 
@@ -143,7 +143,7 @@ Status Renderer::State::draw_passes(const app::Picture& picture, const ViewMatri
 
 Status Renderer::State::draw(const app::Picture& picture, const app::Viewport& viewport, unsigned framebuffer) {
   statistics = {};
-  StopWatch watch;
+  ThreadTimer watch;
   const Box body = picture.surface.topology ? bounds_of(picture.surface) : Box{};
   if (!is_finite(body)) return bad_argument("the surface has a point that is not finite");
   const Result<ViewMatrices> view = make_view(picture, viewport, body);

@@ -9,8 +9,8 @@
 
 #include "app/view/color_map.h"
 #include "render/ink_style.h"
-#include "render/stop_watch.h"
 #include "render/surface_shaders.h"
+#include "render/thread_timer.h"
 
 namespace incise {
 inline namespace v0 {
@@ -101,7 +101,7 @@ Status SurfacePass::upload(const app::SurfaceFrame& frame, DrawStatistics& stati
     topology_ = nullptr;
     return {};
   }
-  StopWatch watch;
+  ThreadTimer watch;
   if (const Status status = check(frame); !status.ok()) return status;
   statistics.compare_ms += watch.lap();
   const app::SurfaceTopology& topology = *frame.topology;

@@ -1,18 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs into WORK_DIR, then builds and runs programs in C that know only the prefix: by CMake, and by pkg-config.
-set(prefix ${WORK_DIR}/prefix)
-set(consumer_build ${WORK_DIR}/build)
-file(REMOVE_RECURSE ${prefix} ${consumer_build})
+include(${CMAKE_CURRENT_LIST_DIR}/../install/run_step.cmake)
 
-function(run_step what)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT status EQUAL 0)
-    message(FATAL_ERROR "${what} failed (${status}):\n${output}")
-  endif()
-  message(STATUS "${what}: done\n${output}")
-endfunction()
-
-run_step("Install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
 run_step("Configure" ${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${consumer_build} -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_COMPILER=${CC} -DWANTED_VERSION=${VERSION} -DEXAMPLE=${EXAMPLE})
 run_step("Build" ${CMAKE_COMMAND} --build ${consumer_build})

@@ -9,6 +9,9 @@
 namespace incise {
 inline namespace v0 {
 
+/// L/r above which a tet is not fit to simulate. **Source:** Paper §4.3, Table 3 ("measurement > 200").
+inline constexpr double kBadRatio = 200.0;
+
 /// The quality of a set of tets at rest, as the paper's tables give it. All zero where the set is empty.
 ///
 /// L/r is the longest edge over the inradius: 2√6 ≈ 4.899 for a regular tet, larger is worse. Flat tets have none;

@@ -75,8 +75,6 @@ class Solver {
   Solver() = default;
   Solver(const Solver&) = default;
   Solver& operator=(const Solver&) = default;
-  Solver(Solver&&) = default;
-  Solver& operator=(Solver&&) = default;
 };
 
 }  // namespace v0

@@ -4,22 +4,13 @@
 
 #include <optional>
 
-#include "app/hands/tools.h"
+#include "app/hands/hand_tool.h"
 #include "app/view/picking.h"
 #include "app/view/picture.h"
 
 namespace incise {
 inline namespace v0 {
 namespace app {
-
-/// Where the pointer is at one moment of a drag.
-struct PointerPlace {
-  Vec2 pixel = Vec2::Zero();
-  Ray ray;
-  std::optional<SurfaceHit> hit;
-  bool is_wall = false;  ///< the hit is on the wall of a cut, or inside the body
-  double pressure = 1;   ///< of a pen, in [0, 1]
-};
 
 /// One stroke at a time. The blade follows skin; where the pointer meets the inside of the wound or nothing at all, it
 /// goes on in the plane through the last good place.

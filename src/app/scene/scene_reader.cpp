@@ -35,32 +35,52 @@ constexpr std::size_t kMaxTargetPoints = 1000;  // each part of an attempt is co
 constexpr double kLineTolerance = 0.05;         // of the target line's length
 constexpr double kDepthTolerance = 0.25;        // of the depth
 
-class SceneReader {
+/// A scene as far as it is read, and what all of its readers need.
+class SceneParts {
  public:
-  SceneReader(std::string_view file_name, const fs::path& folder) : read_(file_name) { scene_.folder = folder; }
+  SceneParts(std::string_view file_name, const fs::path& folder) : read_(file_name) { scene_.folder = folder; }
 
-  Result<Scene> run(const JsonValue& root) {
-    if (read_header(root) && read_body(root) && read_options(root) && read_hands(root) &&
-        read_exercise(root.find("exercise")) && read_frames(root) && read_view(root.find("view"))) {
-      return std::move(scene_);
+ protected:
+  /// Reads each item of a list that may be left out, by a member of `reader`; `path` ends with the list's key.
+  template <class Reader>
+  bool read_list(Reader& reader, const JsonValue& owner, const std::string& path,
+                 bool (Reader::*read_item)(const JsonValue&, const std::string&)) {
+    const JsonValue* list = owner.find(path.substr(path.rfind('.') + 1));
+    if (list == nullptr) return true;
+    if (!read_.is_array(*list, path, 0, kMaxSceneItems)) return false;
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      if (!(reader.*read_item)(list->items[i], at(path, i))) return false;
     }
-    return blade_error_ ? *blade_error_ : read_.error();
+    return true;
+  }
+  /// Four numbers nx, ny, nz, d.
+  bool read_plane(const JsonValue& value, const std::string& path, HalfSpace& out) {
+    double numbers[4] = {};
+    if (!read_.numbers(value, path, numbers, 4)) return false;
+    out = {Vec3(numbers[0], numbers[1], numbers[2]), numbers[3]};
+    const double length = out.normal.norm();
+    return (length > 0 && std::isfinite(length)) ||
+           read_.fail(value, path, "needs a normal that is not zero: [nx,ny,nz,d]");
+  }
+  bool has_one(const JsonValue& value, const std::string& path, const std::vector<std::string_view>& keys) {
+    int found = 0;
+    std::string names;
+    for (const std::string_view key : keys) {
+      found += value.find(key) != nullptr ? 1 : 0;
+      names += (names.empty() ? "" : ", ") + std::string(key);
+    }
+    return found == 1 || read_.fail(value, path, "needs one of the keys " + names);
   }
 
- private:
-  using ReadItem = bool (SceneReader::*)(const JsonValue&, const std::string&);
+  RangeReader read_;
+  Scene scene_;
+  std::optional<Error> blade_error_;
+};
 
-  bool read_header(const JsonValue& root) {
-    return read_.is_format(root, "incise-scene", kVersion) &&
-           read_.is_object(root, "", {"format",  "version",  "name",          "model",  "length_unit", "materials",
-                                      "gravity", "damping",  "attachments",   "tools",  "hooks",       "strokes",
-                                      "frames",  "duration", "frame_seconds", "settle", "seed",        "solver",
-                                      "cut",     "maintain", "contact",       "view",   "exercise"}) &&
-           read_.optional_text(root, "", "name", scene_.name) &&
-           read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
-  }
-
-  // --- the body
+/// The body: model, materials, what holds it.
+class SceneBodyReader : public SceneParts {
+ public:
+  using SceneParts::SceneParts;
 
   bool read_body(const JsonValue& root) {
     BodyOptions& body = scene_.options.body;
@@ -69,9 +89,10 @@ class SceneReader {
            read_.need_ranged(root, "", "length_unit", kAbove0, body.length_unit) && read_materials(root) &&
            read_.optional_point(root, "", "gravity", body.gravity) &&
            read_.optional_ranged(root, "", "damping", kAtLeast0, body.damping) &&
-           read_list(root, "attachments", &SceneReader::read_attachment);
+           read_list(*this, root, "attachments", &SceneBodyReader::read_attachment);
   }
 
+ private:
   bool read_model(const JsonValue& value) {
     SceneModel& model = scene_.model;
     if (!read_.is_object(value, "model", {"file", "box", "regions"})) return false;
@@ -82,9 +103,8 @@ class SceneReader {
     if (box != nullptr && !read_box(*box, model.box)) return false;
     if (!read_.optional_text(value, "model", "file", model.file)) return false;
     if (box == nullptr && model.file.empty()) return read_.fail(value, "model.file", "is empty; name a mesh file");
-    return read_list(value, "model.regions", &SceneReader::read_painting);
+    return read_list(*this, value, "model.regions", &SceneBodyReader::read_painting);
   }
-
   bool read_box(const JsonValue& value, SceneBox& box) {
     const std::string path = "model.box";
     if (!read_.is_object(value, path, {"cells", "size", "origin", "jitter"})) return false;
@@ -109,7 +129,6 @@ class SceneReader {
     }
     return tets <= kMaxBoxTets || read_.fail(value, path, "make more than 2^28 tets; take fewer");
   }
-
   bool read_region(const JsonValue& value, const std::string& path, std::int32_t& region) {
     std::uint64_t label = 0;
     if (read_.member(value, path, "region") == nullptr ||
@@ -119,24 +138,12 @@ class SceneReader {
     region = static_cast<std::int32_t>(label);
     return true;
   }
-
   bool read_painting(const JsonValue& value, const std::string& path) {
     RegionPaint& paint = scene_.model.regions.emplace_back();
     if (!read_.is_object(value, path, {"region", "below"}) || !read_region(value, path, paint.region)) return false;
     const JsonValue* below = read_.member(value, path, "below");
     return below != nullptr && read_plane(*below, path + ".below", paint.below);
   }
-
-  /// Four numbers nx, ny, nz, d.
-  bool read_plane(const JsonValue& value, const std::string& path, HalfSpace& out) {
-    double numbers[4] = {};
-    if (!read_.numbers(value, path, numbers, 4)) return false;
-    out = {Vec3(numbers[0], numbers[1], numbers[2]), numbers[3]};
-    const double length = out.normal.norm();
-    return (length > 0 && std::isfinite(length)) ||
-           read_.fail(value, path, "needs a normal that is not zero: [nx,ny,nz,d]");
-  }
-
   bool read_materials(const JsonValue& root) {
     const JsonValue* value = root.find("materials");
     if (value == nullptr) return true;
@@ -148,7 +155,7 @@ class SceneReader {
           read_material(*fallback, path, scene_.options.materials.fallback))) {
       return false;
     }
-    return read_list(*value, "materials.regions", &SceneReader::read_region_material);
+    return read_list(*this, *value, "materials.regions", &SceneBodyReader::read_region_material);
   }
   bool read_region_material(const JsonValue& value, const std::string& path) {
     Materials& all = scene_.options.materials;
@@ -170,7 +177,6 @@ class SceneReader {
            read_.optional_ranged(value, path, "toughness", kAtLeast0, material.toughness) &&
            read_.optional_ranged(value, path, "cut_friction", kAtLeast0, material.cut_friction);
   }
-
   bool read_attachment(const JsonValue& value, const std::string& path) {
     Attachment& held = scene_.attachments.emplace_back();
     return read_.is_object(value, path, {"box", "ball", "below", "surface", "stiffness"}) &&
@@ -197,8 +203,12 @@ class SceneReader {
     return read_.need_point(value, path, "centre", ball.centre) &&
            read_.need_ranged(value, path, "radius", kAbove0, ball.radius);
   }
+};
 
-  // --- how it is computed
+/// How it is computed.
+class SceneOptionsReader : public SceneBodyReader {
+ public:
+  using SceneBodyReader::SceneBodyReader;
 
   bool read_options(const JsonValue& root) {
     SimulationOptions& options = scene_.options;
@@ -206,6 +216,8 @@ class SceneReader {
            read_settle(root.find("settle")) && read_solver(root.find("solver")) && read_cut(root.find("cut")) &&
            read_maintain(root.find("maintain")) && read_contact(root.find("contact"));
   }
+
+ private:
   bool read_settle(const JsonValue* value) {
     if (value == nullptr) return true;
     std::uint64_t frames = 0;
@@ -267,14 +279,20 @@ class SceneReader {
            read_.optional_ranged(*value, "contact", "stiffness", kAtLeast0, options.contact_stiffness) &&
            read_.optional_ranged(*value, "contact", "flat_height", kAtLeast0, options.flat_height);
   }
+};
 
-  // --- what is done to it
+/// What is done to it: tools, hooks, strokes.
+class SceneHandsReader : public SceneOptionsReader {
+ public:
+  using SceneOptionsReader::SceneOptionsReader;
 
   bool read_hands(const JsonValue& root) {
-    return read_list(root, "tools", &SceneReader::read_tool) && read_list(root, "hooks", &SceneReader::read_hook) &&
-           read_list(root, "strokes", &SceneReader::read_blade_entry);
+    return read_list(*this, root, "tools", &SceneHandsReader::read_tool) &&
+           read_list(*this, root, "hooks", &SceneHandsReader::read_hook) &&
+           read_list(*this, root, "strokes", &SceneHandsReader::read_blade_entry);
   }
 
+ protected:
   /// A time that is 0 or more, and after the one before it.
   bool read_time(const JsonValue& value, const std::string& path, std::vector<double>& times) {
     double t = 0;
@@ -296,7 +314,6 @@ class SceneReader {
     }
     return true;
   }
-
   bool read_tool(const JsonValue& value, const std::string& path) {
     SceneTool& tool = scene_.tools.emplace_back();
     std::vector<std::string_view> kinds = {"plane"};
@@ -363,7 +380,6 @@ class SceneReader {
       return read_.is_object(key, where, points) && read_time(key, where, tool.times) && read_key(key, where);
     });
   }
-
   bool read_hook(const JsonValue& value, const std::string& path) {
     SceneHook& hook = scene_.hooks.emplace_back();
     return read_.is_object(value, path, {"name", "radius", "stiffness", "path"}) &&
@@ -375,12 +391,10 @@ class SceneReader {
                     read_.need_point(key, where, "position", hook.positions.emplace_back());
            });
   }
-
   /// How the strokes of one blade lie in time.
   struct Timing {
     double start = 0, stretch = 1, pause = 0.1;
   };
-
   bool read_blade_entry(const JsonValue& value, const std::string& path) {
     return read_blade_entry(value, path, scene_.strokes);
   }
@@ -444,8 +458,12 @@ class SceneReader {
                       "begins at " + short_number(first) + " s, but the stroke before it ends at " +
                           short_number(before) + " s; leave two frames between strokes, in order of time");
   }
+};
 
-  // --- what a trainee shall do
+/// What a trainee shall do.
+class SceneExerciseReader : public SceneHandsReader {
+ public:
+  using SceneHandsReader::SceneHandsReader;
 
   bool read_exercise(const JsonValue* value) {
     if (value == nullptr) return true;
@@ -467,6 +485,8 @@ class SceneReader {
     exercise.strokes = static_cast<std::uint32_t>(strokes);
     return read_ideal(value->find("ideal"), path + ".ideal", exercise.ideal);
   }
+
+ private:
   bool read_target(const JsonValue& value, const std::string& path, Exercise& exercise) {
     const JsonValue* target = read_.member(value, path, "target");
     if (target == nullptr || !read_.points(*target, path + ".target", kMaxTargetPoints, exercise.target)) return false;
@@ -503,8 +523,12 @@ class SceneReader {
     ideal.push_back(scene_.strokes[static_cast<std::size_t>(value->whole)]);
     return true;
   }
+};
 
-  // --- how it is first seen
+/// How it is first seen.
+class SceneViewReader : public SceneExerciseReader {
+ public:
+  using SceneExerciseReader::SceneExerciseReader;
 
   bool read_view(const JsonValue* value) {
     if (value == nullptr) return true;
@@ -519,6 +543,8 @@ class SceneReader {
            read_.optional_ranged(*value, "view", "opacity", {0, 1, true}, view.skin_opacity) &&
            read_name(*value, "theme", kThemeNames, view.theme) && read_clip(value->find("clip"), view);
   }
+
+ private:
   bool read_eye(const JsonValue& value, SceneView& view) {
     const JsonValue* target = value.find("target");
     const JsonValue* distance = value.find("distance");
@@ -546,9 +572,31 @@ class SceneReader {
     }
     return read_.fail(*view.find(key), "view." + key, "must be one of " + all);
   }
+};
 
-  // --- how long
+/// The whole scene. Its readers come one on top of the other, since an exercise names the strokes before it.
+class SceneReader : public SceneViewReader {
+ public:
+  using SceneViewReader::SceneViewReader;
 
+  Result<Scene> run(const JsonValue& root) {
+    if (read_header(root) && read_body(root) && read_options(root) && read_hands(root) &&
+        read_exercise(root.find("exercise")) && read_frames(root) && read_view(root.find("view"))) {
+      return std::move(scene_);
+    }
+    return blade_error_ ? *blade_error_ : read_.error();
+  }
+
+ private:
+  bool read_header(const JsonValue& root) {
+    return read_.is_format(root, "incise-scene", kVersion) &&
+           read_.is_object(root, "", {"format",  "version",  "name",          "model",  "length_unit", "materials",
+                                      "gravity", "damping",  "attachments",   "tools",  "hooks",       "strokes",
+                                      "frames",  "duration", "frame_seconds", "settle", "seed",        "solver",
+                                      "cut",     "maintain", "contact",       "view",   "exercise"}) &&
+           read_.optional_text(root, "", "name", scene_.name) &&
+           read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
+  }
   bool read_frames(const JsonValue& root) {
     const bool has_frames = root.find("frames") != nullptr;
     double duration = last_key_time() + kTail;
@@ -570,32 +618,6 @@ class SceneReader {
     for (const SceneTool& tool : scene_.tools) last = std::max(last, tool.times.empty() ? 0 : tool.times.back());
     return last;
   }
-
-  // --- what all of them need
-
-  /// Reads each item of a list that may be left out; `path` ends with the list's key.
-  bool read_list(const JsonValue& owner, const std::string& path, ReadItem read_item) {
-    const JsonValue* list = owner.find(path.substr(path.rfind('.') + 1));
-    if (list == nullptr) return true;
-    if (!read_.is_array(*list, path, 0, kMaxSceneItems)) return false;
-    for (std::size_t i = 0; i < list->items.size(); ++i) {
-      if (!(this->*read_item)(list->items[i], at(path, i))) return false;
-    }
-    return true;
-  }
-  bool has_one(const JsonValue& value, const std::string& path, const std::vector<std::string_view>& keys) {
-    int found = 0;
-    std::string names;
-    for (const std::string_view key : keys) {
-      found += value.find(key) != nullptr ? 1 : 0;
-      names += (names.empty() ? "" : ", ") + std::string(key);
-    }
-    return found == 1 || read_.fail(value, path, "needs one of the keys " + names);
-  }
-
-  RangeReader read_;
-  Scene scene_;
-  std::optional<Error> blade_error_;
 };
 
 }  // namespace

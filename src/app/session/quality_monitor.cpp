@@ -7,13 +7,13 @@
 
 #include "app/view/surface_view.h"
 #include "incise/geom/quality.h"
+#include "incise/mesh/quality_stats.h"
 
 namespace incise {
 inline namespace v0 {
 namespace app {
 namespace {
 
-constexpr float kBadRatio = 200;  // paper, Table 3
 constexpr std::size_t kBytesPerBin = 256 / QualityFigures::kBins;
 
 float ratio_of(const TetMesh& mesh, TetId tet) {
@@ -81,7 +81,7 @@ void QualityMonitor::sum() {
   for (const float ratio : ratios_) {
     if (ratio == 0) continue;
     ++now_.tets;
-    bad += ratio > kBadRatio ? 1 : 0;
+    bad += ratio > static_cast<float>(kBadRatio) ? 1 : 0;
     const auto above = std::upper_bound(kFloors.begin() + 1, kFloors.end(), ratio);
     ++now_.histogram[static_cast<std::size_t>(above - kFloors.begin()) - 1];
     if (std::isinf(ratio)) {

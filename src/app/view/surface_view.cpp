@@ -8,6 +8,7 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/journal_cursor.h"
 #include "incise/mesh/journal_visitor.h"
+#include "incise/mesh/quality_stats.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/star.h"
 
@@ -18,7 +19,6 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kIdealRatio = 4.898979485566356;  // 2√6, of a regular tet
-constexpr double kBadRatio = 200;                  // paper, Table 3
 constexpr double kMostBytes = 255;
 
 /// Points of different kinds are never shared.

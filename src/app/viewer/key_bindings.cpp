@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <iterator>
 
 namespace incise {
 inline namespace v0 {
@@ -13,13 +14,7 @@ namespace {
 constexpr bool kControl = true;
 constexpr bool kShift = true;
 
-constexpr KeyBinding kBindings[] = {
-    {Action::kOrbit, {"1"}, "Tools", "Orbit: a drag turns the view"},
-    {Action::kScalpel, {"2"}, "Tools", "Scalpel: a drag cuts along the surface"},
-    {Action::kPlaneCut, {"3"}, "Tools", "Plane cut: a drag draws the plane's line"},
-    {Action::kGrasp, {"4"}, "Tools", "Grasp: a drag pulls the tissue"},
-    {Action::kPin, {"5"}, "Tools", "Pin: a click holds the tissue, or lets it go"},
-    {Action::kProbe, {"6"}, "Tools", "Probe: a click tells what is there"},
+constexpr KeyBinding kOthers[] = {
     {Action::kDeeper, {"]"}, "Tools", "Scalpel deeper (also Ctrl+wheel)"},
     {Action::kShallower, {"["}, "Tools", "Scalpel shallower"},
     {Action::kTiltLeft, {","}, "Tools", "Tilt the scalpel to the left (also Shift+wheel)"},
@@ -66,6 +61,15 @@ constexpr KeyBinding kBindings[] = {
     {Action::kHelp, {"F1"}, "Window", "This list"},
     {Action::kQuit, {"Q", kControl}, "Window", "Quit"},
 };
+
+constexpr auto kBindings = [] {
+  std::array<KeyBinding, kToolCount + std::size(kOthers)> all{};
+  for (std::size_t i = 0; i < kToolCount; ++i) {
+    all[i] = {action_of(static_cast<ToolKind>(i)), {kTools[i].key}, "Tools", kTools[i].text};
+  }
+  for (std::size_t i = 0; i < std::size(kOthers); ++i) all[kToolCount + i] = kOthers[i];
+  return all;
+}();
 
 }  // namespace
 

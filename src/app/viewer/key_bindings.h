@@ -8,18 +8,16 @@
 #include <string_view>
 #include <vector>
 
+#include "app/hands/tool_table.h"
+
 namespace incise {
 inline namespace v0 {
 namespace app {
 
 /// Everything that a person can ask for by a key.
 enum class Action : std::uint8_t {
-  kOrbit,
-  kScalpel,
-  kPlaneCut,
-  kGrasp,
-  kPin,
-  kProbe,
+  kFirstTool,  ///< the tools, in the order of `ToolKind`
+  kLastTool = kFirstTool + kToolCount - 1,
   kDeeper,
   kShallower,
   kTiltLeft,
@@ -62,6 +60,11 @@ enum class Action : std::uint8_t {
   kQuit,
   kCount
 };
+
+/// Chooses a tool.
+[[nodiscard]] constexpr Action action_of(ToolKind tool) {
+  return static_cast<Action>(tool);
+}
 
 /// A key with what is held beside it.
 struct KeyPress {

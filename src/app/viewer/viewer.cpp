@@ -105,7 +105,7 @@ void Viewer::handle(const PointerEvent& event, const Viewport& viewport) {
   State& s = *state_;
   PointerEvent seen = event;
   const bool is_press = event.kind == PointerEvent::Kind::kPress && event.button == PointerEvent::Button::kLeft;
-  const bool is_looking = s.tools.tool() == ToolKind::kOrbit || s.tools.tool() == ToolKind::kProbe;
+  const bool is_looking = kTools[static_cast<std::size_t>(s.tools.tool())].only_looks;
   const bool only_looks = event.alt || (is_looking && !event.shift);  // with Shift every tool grasps
   const bool is_watched = !s.options.mouse_is_hand || s.session.view().is_replay;
   if (is_press && is_watched && !only_looks) {
@@ -151,15 +151,11 @@ void Viewer::notify(const std::string& text) {
 }
 
 bool Viewer::State::act_on_tools(Action action) {
+  if (action <= Action::kLastTool) {
+    tools.choose(static_cast<ToolKind>(action));
+    return true;
+  }
   switch (action) {
-    case Action::kOrbit:
-    case Action::kScalpel:
-    case Action::kPlaneCut:
-    case Action::kGrasp:
-    case Action::kPin:
-    case Action::kProbe:
-      tools.choose(static_cast<ToolKind>(action));
-      break;
     case Action::kDeeper:
       change_settings(kDepthFactor, 0);
       break;

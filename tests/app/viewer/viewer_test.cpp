@@ -389,7 +389,7 @@ TEST_F(ViewerTest, pointer_events_reach_the_tools_and_the_simulation) {
 
 TEST_F(ViewerTest, a_plane_cut_is_made) {
   act(Action::kPause);
-  act(Action::kPlaneCut);
+  act(app::action_of(ToolKind::kPlaneCut));
   ASSERT_TRUE(sees([](const SessionView& view) { return !view.is_paused; }));
   send(Kind::kPress, {100, 290});
   send(Kind::kMove, {700, 310});
@@ -398,7 +398,7 @@ TEST_F(ViewerTest, a_plane_cut_is_made) {
 }
 
 TEST_F(ViewerTest, a_click_probes) {
-  act(Action::kProbe);
+  act(app::action_of(ToolKind::kProbe));
   send(Kind::kPress, top(0.5));
   send(Kind::kRelease, top(0.5));
   EXPECT_TRUE(sees([](const SessionView& view) { return view.probe.has_value(); }));
@@ -413,7 +413,7 @@ TEST_F(ViewerTest, a_paused_session_says_nothing_where_the_view_is_turned) {
   send(Kind::kPress, top(0.5), false, true);
   EXPECT_EQ(state().notice, "");
   send(Kind::kRelease, top(0.5));
-  act(Action::kOrbit);
+  act(app::action_of(ToolKind::kOrbit));
   send(Kind::kPress, top(0.5));
   EXPECT_EQ(state().notice, "");
 }
@@ -446,14 +446,14 @@ TEST_F(ViewerTest, a_mouse_that_is_no_hand_turns_the_view_with_either_button) {
 
 TEST_F(ViewerTest, a_replay_refuses_to_grasp_whatever_the_tool) {
   show(app::Session::open(std::filesystem::path(write_simulation_recording(folder_))).value());
-  act(Action::kOrbit);
+  act(app::action_of(ToolKind::kOrbit));
   send(Kind::kPress, top(0.5), true);
   EXPECT_TRUE(viewer_->tools().hands().hooks.empty());
   EXPECT_NE(state().notice, "");
 }
 
 TEST_F(ViewerTest, another_session_takes_the_hands_off) {
-  act(Action::kPin);
+  act(app::action_of(ToolKind::kPin));
   send(Kind::kPress, top(0.5));
   send(Kind::kRelease, top(0.5));
   ASSERT_EQ(viewer_->tools().hands().hooks.size(), 1U);

@@ -9,7 +9,7 @@ inline namespace v0 {
 namespace render {
 
 /// Processor time of this thread from one lap to the next: what others do on the same core does not count.
-class StopWatch {
+class ThreadTimer {
  public:
   /// Milliseconds since the last lap, or since it was made.
   double lap() {
