@@ -36,7 +36,7 @@ MEMBERS = re.compile(r"^(?P<space> *)(?P<type>(?:inline constexpr |static conste
 def as_c(line, is_first):
     """A line of the C header, with doxygen's comments."""
     if is_first:
-        return "/** @file incise.h"
+        return "/** @file c/incise.h"
     if re.match(r"\s*/\* ?(-{4}|C names|NOLINT)", line):
         return line
     if re.match(r"\s*/\*", line):
