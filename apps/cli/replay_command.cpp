@@ -72,9 +72,8 @@ int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
 
 Command add_replay(CLI::App& root) {
   const auto arguments = std::make_shared<ReplayArguments>();
-  CLI::App* words =
-      add_command(root, "replay", "Repeat what --record has recorded; exit 4 where the result differs",
-                  "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu");
+  CLI::App* words = add_command(root, "replay", "Repeat what --record has recorded; exit 4 where the result differs",
+                                "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu");
   words
       ->add_option("REC", arguments->recording, "Recording: JSON lines of format incise-recording or incise-simulation")
       ->required();
