@@ -17,8 +17,8 @@ CONVENTIONS = (
     (r"^#define INCISE_API __attribute__", "Makes a call visible outside the library."),
     (r"^  u?int(8|16|32)_t pad(\[\d+\])?;$", "unused; 0"),
     # C++
-    (r"^ +\w+\(\w+&&(?: other)?\)(?: noexcept)?(?:;| :| \{)", "Moves."),
-    (r"^ +\w+& operator=\(\w+&&(?: other)?\) noexcept(?:;| \{)", "Moves."),
+    (r"^ +\w+\(\w+&&(?: other)?\)(?: noexcept)?(?:;| :| = default;| \{)", "Moves."),
+    (r"^ +\w+& operator=\(\w+&&(?: other)?\)(?: noexcept)?(?:;| = default;| \{)", "Moves."),
     (r"^ +(?:\w+\(const \w+&(?: other)?\)|\w+& operator=\(const \w+&(?: other)?\))(?:;| :| = default;| \{)", "Copies."),
     (r"^ +friend (?:constexpr )?bool operator(?:==|!=|<)\(", "Compares by value."),
     (r"^ +\w+& operator\+=\(const \w+& other\)", "Adds what another one counted."),

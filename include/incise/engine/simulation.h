@@ -120,7 +120,7 @@ class Simulation {
   [[nodiscard]] const TetMesh& mesh() const;
   /// What relaxes the tissue. Follow the journal by `frame` alone.
   [[nodiscard]] const Solver& solver() const;
-  /// The same, to change it.
+  /// The same, to hold and release vertices of a solver of your own.
   [[nodiscard]] Solver& solver();
   /// Whether that is the solver that Incise has.
   [[nodiscard]] bool has_body() const;
