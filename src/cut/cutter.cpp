@@ -362,7 +362,8 @@ bool Cutter::hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Propos
     const double greatest = (is_left ? kTurnBack : kGiveWay) * stroke_.spacing;
     for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
       if (!stroke_.material.is_accepted(point)) continue;
-      if (!is_apart && stroke_.material.lead(point) > greatest) continue;
+      const bool is_elsewhere = !is_left || stroke_.material.is_in_tissue(point);  // beside the body it merely follows
+      if (!is_apart && is_elsewhere && stroke_.material.lead(point) > greatest) continue;
       stroke_.material.hold(point);
       has_held = true;
     }

@@ -55,6 +55,7 @@ class MaterialBlade {
                                double distance) const;
   /// Holds a point of the blade in this step.
   void hold(std::size_t point) { points_[point].is_accepted = false; }
+  [[nodiscard]] bool is_in_tissue(std::size_t point) const { return points_[point].tet.is_valid(); }
   [[nodiscard]] bool is_accepted(std::size_t point) const { return points_[point].is_accepted; }
   /// How far ahead of the crack's tip a point of the blade is, along the direction of cutting.
   [[nodiscard]] double lead(std::size_t point) const { return points_[point].lead; }

@@ -104,6 +104,10 @@ TEST(Leaks, no_point_of_the_blade_is_left_behind_at_the_skin) {
                    {BodyKind::kShuffled, Motion::kCurve, 30, 41007, 0.6}});
 }
 
+TEST(Leaks, a_blade_that_is_beside_the_body_has_not_turned_back) {
+  expect_no_leaks({{BodyKind::kBall, Motion::kReversal, 30, 61010, 0.4}});
+}
+
 TEST(Leaks, a_crumb_between_the_lips_joins_no_pieces) {
   expect_no_leaks({{BodyKind::kShuffled, Motion::kStrongTremor, 60, 703, 0.6}});
 }
