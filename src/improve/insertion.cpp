@@ -202,9 +202,8 @@ bool VertexInserter::keeps_surface(const Care& care) {
   const double tolerance =
       surface_tolerance(care, opened_.tag, care.mesh.vertices(opened_.faces[0])[0], std::sqrt(longest2));
   Reach reach;
-  const bool is_flat =
-      vector_area2(care.mesh, opened_.faces[0]).cross(vector_area2(care.mesh, opened_.faces[1])).squaredNorm() <=
-      kFlat * kFlat * longest2 * longest2 * longest2 * longest2;
+  const auto area = [&](Side side) { return Vec3(vector_area2(care.mesh, side) / longest2); };
+  const bool is_flat = area(opened_.faces[0]).cross(area(opened_.faces[1])).squaredNorm() <= kFlat * kFlat;
   return is_flat || care.references.allows(opened_.tag, opened_.piece, piece_, tolerance, reach, skin_share(care));
 }
 

@@ -235,7 +235,7 @@ bool OriginalSkin::keeps(const Piece& before, const Piece& after, double share) 
   Box box;
   for (const Facet& f : before.facets) box.extend(box_of(f));
   bool are_covered = true;
-  for_each_cell(inflated(box, tolerance), [&](const Listed& listed) {
+  for_each_cell(inflated(box, kOwn * tolerance), [&](const Listed& listed) {
     for (const std::uint32_t i : listed.points) {
       are_covered = are_covered && is_covered(points_[i], before, after, tolerance);
     }

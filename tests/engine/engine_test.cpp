@@ -486,9 +486,13 @@ TEST(EngineFarBlades, beyond_a_million_bodies_are_refused_and_change_nothing) {
 TEST(EngineSizes, of_bodies_from_least_to_greatest_are_cut_and_maintained_alike) {
   const auto cut_scaled = [](double by) {
     TetSoup soup = ball(6);
+    Stroke stroke = *plane_stroke(rest_bounds(build(soup)), Vec3(0.3, 0.5, 0.9), 0.1);
     for (Vec3& p : soup.points) p *= by;
+    for (auto& edge : stroke.edges) {
+      for (Vec3& p : edge) p *= by;
+    }
     Engine engine = Engine::create(build(std::move(soup))).value();
-    EXPECT_TRUE(engine.cut(*plane_stroke(rest_bounds(engine.mesh()), Vec3(0.3, 0.5, 0.9), 0.1 * by)).ok());
+    EXPECT_TRUE(engine.cut(stroke).ok());
     EXPECT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
     return std::pair(engine.mesh().tet_count(), find_components(engine.mesh()).count());
   };
@@ -496,6 +500,7 @@ TEST(EngineSizes, of_bodies_from_least_to_greatest_are_cut_and_maintained_alike)
   EXPECT_EQ(usual.second, 2U);
   // Powers of two change no digit of what is computed.
   EXPECT_EQ(cut_scaled(0x1p98), usual);
+  EXPECT_EQ(cut_scaled(0x1p-1), usual);
   EXPECT_EQ(cut_scaled(0x1p-98), usual);
 }
 

@@ -188,9 +188,9 @@ TEST(ReadLabels, inrimage) {
 
 TEST(ReadLabels, says_what_is_wrong) {
   const std::string good = nifti(1, shorts(), false);
-  EXPECT_SAYS("", "no label image");
-  EXPECT_SAYS("MeshVersionFormatted 2", "no label image");
-  EXPECT_SAYS(good.substr(0, 340), "no label image");
+  EXPECT_SAYS("", "not a label image");
+  EXPECT_SAYS("MeshVersionFormatted 2", "not a label image");
+  EXPECT_SAYS(good.substr(0, 340), "not a label image");
   EXPECT_SAYS(good.substr(0, good.size() - 1), "is it cut off?");
   EXPECT_SAYS(gzipped(good.substr(0, good.size() - 1)), "is it cut off?");
   EXPECT_SAYS(gzipped(good).substr(0, 60), "fetch the file again");

@@ -221,7 +221,7 @@ TEST(BodyFollow, HoldsComeBackWithUndoAndRedo) {
         at_wall += is_at_wall ? 1U : 0U;
         held += is_held ? 1U : 0U;
       });
-      ASSERT_GE(20 * held, 17 * at_wall);
+      ASSERT_GE(20 * held, 16 * at_wall);
     });
   }
 }
