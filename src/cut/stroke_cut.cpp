@@ -27,6 +27,8 @@ constexpr double kFinalMargin = 0.04;
 /// What lies further behind the front than so many spacings is settled, at rest and in a body that moves: less than
 /// that, and a blade that trembles would come back to it.
 constexpr double kBand = 0.5, kMovingBand = 1.0;
+/// What lies beyond the rim of an older cut is measured by edges up to so many times as long as those that cuts left.
+constexpr double kMostShortened = 8.0;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
@@ -481,7 +483,7 @@ void StrokeCut::let_go_of_older_cut(const TetMesh& mesh) {
   for (std::size_t i = 0; i < waiting.size(); ++i) {
     const ClosedEdge& edge = complex_.edges()[waiting[i]];
     const double length = (mesh.rest(edge.b) - mesh.rest(edge.a)).norm();
-    const double scale = std::max(length, kLeastScale * spacing_);
+    const double scale = std::max({length, kLeastScale * spacing_, std::min(spacing_, kMostShortened * length)});
     if (!edge.is_flagged() || !may_let_go(waiting[i]) || !is_at_border(waiting[i]) ||
         !older.pass(edge.position, edge.normal, beside() * scale, kBeyondRim * scale)) {
       continue;
