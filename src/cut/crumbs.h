@@ -36,10 +36,9 @@ struct CrumbScratch {
   ZeroedArray<std::uint8_t> blocked, state;  ///< by tet slot
 };
 
-/// Takes the incision faces of crumbs out of `incision` and adds them to `dropped`, so that a
-/// crumb stays attached to the piece that it shares its faces with. Where it touches two pieces it stays with one, and
-/// they come apart. Returns how many crumbs. Cost: O(incision faces) plus a search of a few tets around each small tet
-/// beside one.
+/// Takes the incision faces of crumbs out of `incision` and adds them to `dropped`, so that a crumb stays attached to
+/// the piece that it shares its faces with. Where it touches two pieces it stays with one, and they come apart. Returns
+/// how many crumbs. Cost: O(incision faces) plus a search of a few tets around each small tet beside one.
 std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbRules& rules, std::vector<IncisionFace>& incision,
                           std::vector<IncisionFace>& dropped, CrumbScratch& scratch);
 

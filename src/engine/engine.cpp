@@ -143,7 +143,11 @@ Engine::Conductor::Conductor(TetMesh mesh, EngineOptions options)
       maintainer_(options_.maintain),
       earlier_strokes_(highest_tag(mesh_)),
       rest_box_(rest_bounds(mesh_)),
-      box_(rest_box_) {}
+      box_(rest_box_) {
+  if (!is_paper()) {
+    maintainer_.set_original(mesh_);
+  }
+}
 
 Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   if (is_in_stroke_) {
@@ -195,7 +199,7 @@ Status Engine::Conductor::check_steps(std::size_t first_step) {
 void Engine::Conductor::take_back(std::size_t first_step) {
   journal_.take_back(mesh_, first_step);
   cutter_.forget();
-  maintainer_.forget(first_step);
+  maintainer_.forget();
   paper_first_step_ = kNothingWaits;
   forget_lost_redo();
 }
@@ -524,16 +528,13 @@ Status Engine::Conductor::keep_undo(std::size_t operations) {
   return {};
 }
 
-/// Whoever in the engine reads the journal has read what is forgotten, or keeps it from being so.
+/// The paper's maintenance, which reads the journal later, keeps what it needs.
 void Engine::Conductor::trim_history() {
   if (operations_.size() <= kept_operations_) {
     return;
   }
   for (; operations_.size() > kept_operations_; operations_.pop_front()) {
     oldest_position_ = operations_.front().end;
-  }
-  if (maintains()) {
-    maintainer_.follow(mesh_, journal_);
   }
   journal_.trim(std::min(oldest_position_, paper_first_step_));
 }
@@ -554,7 +555,7 @@ bool Engine::Conductor::undo() {
   while (journal_.position() > target) {
     journal_.undo(mesh_);
   }
-  maintainer_.forget(target);
+  maintainer_.forget();
   paper_first_step_ = kNothingWaits;
   return true;
 }

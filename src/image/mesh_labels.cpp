@@ -169,6 +169,7 @@ class LabelMesher {
     Maintainer maintainer;
     Journal journal;
     StageTimes times;
+    maintainer.set_original(out_.mesh);
     maintainer.take_up_all(out_.mesh);
     out_.maintain = maintainer.run(out_.mesh, journal, kUnlimitedWork, times);
   }

@@ -41,9 +41,6 @@ struct Care {
     return may;
   }
 
-  /// To be called with tets whose boundary an operation is about to judge or to change.
-  void note(std::span<const TetId> tets) const { references.skin().note(mesh, tets); }
-
   /// Counts evaluations of tets.
   void spend(std::size_t units) { statistics.work_units += units; }
 };
@@ -61,7 +58,8 @@ inline double skin_share(const Care& care) {
 inline double surface_tolerance(const Care& care, std::uint32_t tag, VertexId vertex, double edge) {
   const double share = tag == 0 ? skin_tolerance(care) : care.references.tolerance(tag, care.gives_way());
   const bool is_wide = care.gives_way() && (tag == 0 || care.references.knows(tag));
-  return std::max(share * edge, is_wide ? kOriginalTolerance * care.references.skin().sizes().at(vertex) : 0.0);
+  return std::max(share * edge,
+                  is_wide ? kOriginalTolerance * care.references.sizes().at(care.mesh.rest(vertex)) : 0.0);
 }
 
 /// The worst of a set of tets as they stand.

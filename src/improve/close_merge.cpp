@@ -137,7 +137,6 @@ bool CloseMerger::keeps_surfaces(Care& care, const Vec3& place) {
     return side.stays && height_of(side.before) > kLeastHeight * edge_ &&
            !(n.dot(m) > kFaceCosine * n.norm() * m.norm());
   };
-  care.note(star_);
   return std::none_of(sides_.begin(), sides_.end(), turns) &&
          std::all_of(tags_.begin(), tags_.end(), [&](std::uint32_t tag) { return keeps_tag(care, tag, place); });
 }

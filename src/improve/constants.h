@@ -44,7 +44,7 @@ inline constexpr double kLeastRatio = 1e-9;
 inline constexpr double kFineTolerance = 0.01, kCoarseTolerance = 0.04;
 /// Skin from where it was before all, however often it is maintained; more where seams are thinned out. To mend bad
 /// tets it may by the last share of the edges that it had.
-inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadSkinTolerance = 0.02;
+inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadSkinTolerance = 0.019;
 /// To mend bad tets walls and skin may leave their place by this share of the edges that the body came with, however
 /// short cuts have made those that stand there now.
 inline constexpr double kOriginalTolerance = 0.03;
@@ -143,12 +143,16 @@ inline constexpr unsigned kSeamRings = 4;
 /// Changes per journal step: what they free is used again from the next one on.
 inline constexpr std::uint64_t kChangesPerStep = 4096;
 
-// --- how the original skin is found again
+// --- how the sizes of the body's elements are found again
 
-/// Cells of neighbouring levels differ by this power of two.
-inline constexpr int kLevelStep = 2;
-/// Levels by which an element may be smaller than a search that still finds it: 65536 times as small.
-inline constexpr int kCoarserLevels = 8;
+/// Cells that sizes are averaged over are at least so many edges wide: less, and places between vertices have none;
+/// more, and the sizes of a graded mesh are smeared.
+inline constexpr double kSizeCell = 4.0;
+/// A vertex counts in cells of so many levels, each twice as wide as the one before: for places in cells without a
+/// vertex.
+inline constexpr int kSizeLevels = 3;
+/// Cells are counted from the origin by whole numbers of so many bits.
+inline constexpr int kMostBits = 52;
 
 }  // namespace v0
 }  // namespace incise

@@ -263,8 +263,6 @@ bool EdgeCollapser::improves(Care& care) const {
 }
 
 bool EdgeCollapser::keeps_surfaces(const Care& care) {
-  care.note(star_);
-  care.note(around_);
   for (unsigned i = 0; i < surfaces_.count; ++i) {
     const SurfaceAt& surface = surfaces_.surfaces[i];
     const Vec3 normal = surface.vector_area.normalized();
@@ -315,7 +313,6 @@ bool EdgeCollapser::keeps_current(const Care& care) const {
 }
 
 bool EdgeCollapser::carry_out(Care& care) {
-  care.note(star_);
   const bool has_moved = moves(care);
   if (has_moved && !move_vertex(care, plan_.into, place_, plan_.around)) {
     return false;

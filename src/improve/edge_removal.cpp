@@ -69,7 +69,6 @@ bool EdgeRemover::try_edge(Care& care, VertexId a, VertexId b, TetId seed) {
   if (makes_known_face(care) || !keeps_current(care.mesh, plan_)) {
     return false;
   }
-  care.note(plan_.consumed);
   apply(care.transaction, plan_, care.changed);
   ++care.statistics.removed_edges;
   return true;
@@ -185,7 +184,6 @@ bool FaceRemover::try_face(Care& care, Side face) {
       !keeps_current(mesh, plan_)) {
     return false;
   }
-  care.note(plan_.consumed);
   apply(care.transaction, plan_, care.changed);
   ++care.statistics.removed_faces;
   return true;

@@ -248,7 +248,6 @@ bool VertexInserter::stays_sound(const TetMesh& mesh, const Vec3& current) const
 bool VertexInserter::carry_out(Care& care) {
   cavity_ = best_cavity_;
   place_ = best_place_;
-  care.note(cavity_);
   collect_bases(care);
   if (!keeps_surface(care) && !come_nearer(care)) {
     return false;

@@ -69,7 +69,6 @@ MaintainStatistics Maintainer::run(TetMesh& mesh, Journal& journal, std::uint64_
   work_units_ = work_units;
   should_stop_ = &should_stop;
   const std::size_t tets_before = mesh.tet_count();
-  if (is_due() || waits_for_trials()) references_.skin().follow(mesh, journal);
   while (has_budget()) {
     if (is_due()) {
       run_step(mesh, journal, times);
@@ -87,8 +86,7 @@ bool Maintainer::has_work() const {
   return is_due() || waits_for_trials() || !touched_.empty() || !held_.empty() || crowd_.has_waiting();
 }
 
-void Maintainer::forget(std::size_t position) {
-  references_.skin().rewind(position);
+void Maintainer::forget() {
   heap_.clear();
   crowd_.clear();
   hopeless_.clear();
@@ -291,7 +289,7 @@ void Maintainer::run_step(TetMesh& mesh, Journal& journal, StageTimes& times) {
       requeue(care);
     }
   }
-  if (journal.append_if_changed(transaction.commit())) references_.skin().skip(journal);
+  journal.append_if_changed(transaction.commit());
   other_work_ += statistics_.work_units - spent;
 }
 
@@ -378,7 +376,6 @@ bool Maintainer::try_next_split(TetMesh& mesh, Journal& journal, StageTimes& tim
     }
     requeue(care);
     journal.append(transaction.commit());
-    references_.skin().skip(journal);
     return true;
   }
   trial_work_ += statistics_.work_units - before.work_units;

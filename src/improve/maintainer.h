@@ -27,9 +27,8 @@ inline namespace v0 {
 /// better mesh. Quality is judged at rest; tets that are positive as the mesh stands deformed
 /// stay so. Vertices move within what they are part of: interior ones freely, those of a wall or of the skin in their
 /// surface, those where surfaces meet along the line, corners not; the volume on either side of every wall is kept.
-/// Skin stays close to where it was before the first change of all: `run` follows the journal, and remembers the skin
-/// of every place when it changes there first. What a budget left undone waits for the next call. Not thread-safe; the
-/// result does not depend on threads or clocks.
+/// Skin stays close to where the original had it, over all changes. What a budget left undone waits for the next call.
+/// Not thread-safe; the result does not depend on threads or clocks.
 /// **Source:** Paper §2.5 and §3; M. Wicke et al., "Dynamic local remeshing for elastoplastic simulation", 2010;
 /// B. Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 2007. Differs from the paper: vertices are
 /// inserted and removed, and no average decides.
@@ -39,6 +38,9 @@ class Maintainer {
   /// With other remedies than the usual ones.
   Maintainer(MaintainOptions options, Remedies remedies) : options_(options), remedies_(std::move(remedies)) {}
 
+  /// Skin and sizes of elements are judged by those of a mesh as it stands at rest: the body before the first cut.
+  /// Without this call skin is held to where each operation finds it. Cost: O(tets), 30 ns each.
+  void set_original(const TetMesh& mesh) { references_.set_original(mesh); }
   /// Begins a stroke: a number may have been used before, by one that was undone.
   void begin_reference(std::uint32_t stroke) { references_.begin(stroke); }
   /// The surface that the walls of a stroke shall stay close to, in the rest shape: what it has swept so far. Each call
@@ -61,13 +63,10 @@ class Maintainer {
   MaintainStatistics run(TetMesh& mesh, Journal& journal, std::uint64_t work_units, StageTimes& times,
                          const ShouldStop& should_stop = {}, const IsLocked& is_locked = {});
 
-  /// Reads the steps of the journal that `run` would read: they may then be trimmed. Cost: O(steps).
-  void follow(const TetMesh& mesh, const Journal& journal) { references_.skin().follow(mesh, journal); }
-
   /// Whether tets wait for another `run`.
   [[nodiscard]] bool has_work() const;
-  /// Drops what is in care: after an undo. `position`: how many steps of the journal are still the same.
-  void forget(std::size_t position);
+  /// Drops what is in care: after an undo.
+  void forget();
 
  private:
   [[nodiscard]] bool waits_for_trials() const;

@@ -1,41 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sizes of elements as they were before any cut: a mean per vertex, handed on to the vertices that cuts make.
+// The sizes of elements as they were before any cut: means over cubes of a few elements in width, so that a graded mesh
+// has its own size everywhere.
 #include "improve/original_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "improve/constants.h"
+#include "incise/mesh/edge_length.h"
 
 namespace incise {
 inline namespace v0 {
 
-OriginalSizes::Mean& OriginalSizes::entry(VertexId vertex) {
-  means_.ensure(std::size_t{vertex.value} + 1);
-  return means_[vertex.value];
+namespace {
+
+/// The level whose cells are wider than an extent, by at most a factor of 2.
+int level_of(double extent) {
+  int exponent = 0;
+  std::frexp(extent, &exponent);
+  return exponent;
 }
 
-void OriginalSizes::note_edge(VertexId a, VertexId b, double length) {
-  for (const VertexId v : {a, b}) {
-    Mean& mean = entry(v);
-    mean.sum += length;
-    mean.count += 1;
+}  // namespace
+
+std::size_t OriginalSizes::CellHash::operator()(const Cell& cell) const {
+  std::uint64_t hash = static_cast<std::uint64_t>(cell.level) * 0x9E3779B97F4A7C15U;
+  for (const std::int64_t at : cell.at) {
+    hash = (hash ^ static_cast<std::uint64_t>(at)) * 0xD6E8FEB86659FD93U;
+    hash ^= hash >> 32U;
   }
+  return static_cast<std::size_t>(hash);
 }
 
-void OriginalSizes::follow(const Step& step) {
-  for (const BornVertex& born : step.born) {
-    double sum = 0, weight = 0;
-    for (std::size_t i = 0; i < born.parents.size(); ++i) {
-      const double size = born.parents[i].is_valid() && born.weights[i] > 0 ? at(born.parents[i]) : 0.0;
-      if (size == 0) continue;
-      sum += born.weights[i] * size;
-      weight += born.weights[i];
+OriginalSizes::Cell OriginalSizes::cell_of(const Vec3& place, int level) {
+  const auto at = [&](double coordinate) {
+    return static_cast<std::int64_t>(std::floor(std::ldexp(coordinate, -level)));
+  };
+  return {level, {at(place.x()), at(place.y()), at(place.z())}};
+}
+
+void OriginalSizes::measure(const TetMesh& mesh) {
+  means_.clear();
+  levels_.clear();
+  mesh.for_each_vertex([&](VertexId v) {
+    const TetId tet = mesh.tet_of(v);
+    if (!tet.is_valid()) return;
+    const double edge = mean_edge_length_by_tets(mesh, v, {&tet, 1});
+    const int finest = std::max(level_of(kSizeCell * edge), level_of(mesh.rest(v).cwiseAbs().maxCoeff()) - kMostBits);
+    for (int level = finest; level < finest + kSizeLevels; ++level) {
+      Mean& mean = means_[cell_of(mesh.rest(v), level)];
+      mean.sum += edge;
+      mean.count += 1;
+      if (std::find(levels_.begin(), levels_.end(), level) == levels_.end()) levels_.push_back(level);
     }
-    entry(born.id) = {sum, weight};
-  }
-  for (const CopiedVertex& copied : step.copied) entry(copied.id) = {at(copied.source), 1.0};
+  });
+  std::sort(levels_.begin(), levels_.end());
 }
 
-double OriginalSizes::at(VertexId vertex) const {
-  if (vertex.value >= means_.capacity()) return 0.0;
-  const Mean& mean = means_[vertex.value];
-  return mean.count > 0 ? mean.sum / mean.count : 0.0;
+double OriginalSizes::at(const Vec3& place) const {
+  for (const int level : levels_) {
+    const auto mean = means_.find(cell_of(place, level));
+    if (mean != means_.end()) return mean->second.sum / mean->second.count;
+  }
+  return 0.0;
 }
 
 }  // namespace v0

@@ -107,7 +107,6 @@ bool Peeler::opens_manifold(Care& care) {
 }
 
 bool Peeler::keeps_surface(const Care& care) {
-  care.note({&tet_, 1});
   before_.clear();
   after_.clear();
   for (const unsigned s : outer_) {
@@ -150,7 +149,6 @@ bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
   place = mesh.rest(vertex) + step;
   const double bound = std::max(worst_of(care, star_) * (1.0 + kLeastGain), kLeastRatio);
   care.spend(star_.size());
-  care.note(star_);
   const double edge = longest_edge(mesh, tet_);
   if ((mesh.shape_of(vertex) & shape::kSkin) != 0 &&
       !care.references.allows_apex(0, mesh.rest(vertex), place, skin_tolerance(care) * edge, edge, skin_share(care))) {
@@ -168,7 +166,6 @@ void Peeler::take_away(Care& care) {
   const TetVertices corners = mesh.vertices(tet_);
   const TetId heir = mesh.links(tet_)[inner_[0]].side().tet();
   plan_.consumed.assign({heir, tet_});
-  care.note(plan_.consumed);
   plan_.produced.assign({{mesh.vertices(heir), 0}});
   plan_.tag = tag_;
   for (const VertexId v : corners) {

@@ -67,6 +67,11 @@ double mean_spoke(const Piece& piece) {
   return sum / static_cast<double>(2 * piece.facets.size());
 }
 
+void References::set_original(const TetMesh& mesh) {
+  skin_.measure(mesh);
+  sizes_.measure(mesh);
+}
+
 void References::measure(const TetMesh& mesh, const std::vector<OpenedFace>& opened) {
   const auto sweep = opened.empty() ? sweeps_.end() : sweeps_.find(opened.front().tag);
   if (sweep == sweeps_.end()) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "improve/constants.h"
+#include "improve/original_sizes.h"
 #include "improve/original_skin.h"
 #include "improve/piece.h"
 #include "incise/geom/triangle_tree.h"
@@ -26,8 +27,11 @@ using Reach = std::optional<double>;
 /// The surfaces that boundaries shall stay close to: the sweep of each stroke, at rest, and the skin as it was.
 class References {
  public:
-  /// The skin as it was: what is about to change must be noted there.
-  [[nodiscard]] OriginalSkin& skin() { return skin_; }
+  /// Skin and sizes are to be compared with those of a mesh as it stands at rest. Without this call no skin and no size
+  /// is known. Cost: O(tets).
+  void set_original(const TetMesh& mesh);
+  [[nodiscard]] const OriginalSkin& skin() const { return skin_; }
+  [[nodiscard]] const OriginalSizes& sizes() const { return sizes_; }
 
   /// Begins a stroke: nothing is known of one of that number before.
   void begin(std::uint32_t stroke) { sweeps_.erase(stroke); }
@@ -77,6 +81,7 @@ class References {
 
   std::map<std::uint32_t, Sweep> sweeps_;
   OriginalSkin skin_;
+  OriginalSizes sizes_;
 };
 
 }  // namespace v0

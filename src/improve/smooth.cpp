@@ -164,9 +164,6 @@ bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vect
   if (!may_move(care.mesh, vertex, place, star)) {
     return false;
   }
-  if (care.mesh.shape_of(vertex) != 0) {
-    care.note(star);
-  }
   const MaterialPoint point = locate(care.mesh, place, star);
   care.transaction.move(vertex, place, point.basis, point.weights);
   ++care.statistics.moved_vertices;
@@ -253,7 +250,6 @@ bool Smoother::keeps_surfaces(const Care& care, VertexId vertex, const Vec3& pla
   if (!is_curved()) {
     return true;
   }
-  care.note(star_);
   const double edge = mean_edge_length_by_tets(care.mesh, vertex, star_);
   const double slack = skin_tolerance(care) * edge;
   if (surfaces_.is_front() && !(keeps_front(care.mesh, care.mesh.rest(vertex), surfaces_, slack) &&

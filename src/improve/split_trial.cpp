@@ -46,7 +46,6 @@ bool SplitTrial::split(Care& care, TetId tet, unsigned edge) {
   if ((care.mesh.shape_of(ends[0]) & care.mesh.shape_of(ends[1]) & shape::kPinched) != 0) return false;
   const SplitEdgePlan plan = plan_split_edge(care.mesh, ends[0], ends[1], tet, 0.5);
   if (!plan || !care.may_change(plan.ring) || exists_elsewhere(care, ends, plan.ring)) return false;
-  care.note(plan.ring);
   const bool is_front = is_at_front(care.mesh, ends, tet);
   const SplitEdgeResult result = apply(care.transaction, plan);
   if (is_front) {

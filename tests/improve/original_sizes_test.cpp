@@ -4,46 +4,48 @@
 
 #include <gtest/gtest.h>
 
+#include "improve/maintainer_cases.h"
+#include "incise/mesh/edge_length.h"
+#include "support/random_strokes.h"
+
 namespace incise::test {
 namespace {
 
-Step step_with_birth(VertexId id, std::array<VertexId, 4> parents, std::array<double, 4> weights) {
-  Step step;
-  step.born.push_back({id, parents, weights, Vec3::Zero(), Vec3::Zero()});
-  return step;
-}
-
-TEST(OriginalSizes, are_unknown_before_anything_was_noted) {
+TEST(OriginalSizes, are_unknown_before_anything_was_measured) {
   const OriginalSizes sizes;
-  EXPECT_EQ(sizes.at(VertexId(7)), 0.0);
+  EXPECT_EQ(sizes.at(Vec3(0.5, 0.5, 0.5)), 0.0);
 }
 
-TEST(OriginalSizes, are_the_mean_of_the_edges_noted_at_a_vertex) {
+TEST(OriginalSizes, are_about_the_mean_edge_everywhere_in_a_body) {
+  const TetMesh mesh = build(kuhn_cube(5));
   OriginalSizes sizes;
-  sizes.note_edge(VertexId(0), VertexId(1), 1.0);
-  sizes.note_edge(VertexId(1), VertexId(2), 3.0);
-  EXPECT_EQ(sizes.at(VertexId(0)), 1.0);
-  EXPECT_EQ(sizes.at(VertexId(1)), 2.0);
-  EXPECT_EQ(sizes.at(VertexId(2)), 3.0);
+  sizes.measure(mesh);
+  const double edge = mean_edge_length(mesh);
+  Random random(1);
+  for (unsigned i = 0; i < 500; ++i) EXPECT_NEAR(sizes.at(random.point(0, 1)), edge, 0.15 * edge);
 }
 
-TEST(OriginalSizes, are_handed_on_to_vertices_that_are_born_and_copied) {
+TEST(OriginalSizes, of_a_graded_body_are_its_own_in_each_place) {
+  TetSoup soup = kuhn_cube(16);
+  for (Vec3& p : soup.points) p = Vec3(p.x() * p.x() * p.x() * p.x(), 0.01 * p.y(), 0.01 * p.z());
+  const TetMesh mesh = build(soup);
   OriginalSizes sizes;
-  sizes.note_edge(VertexId(0), VertexId(2), 1.0);
-  sizes.note_edge(VertexId(1), VertexId(3), 5.0);
-  Step step = step_with_birth(VertexId(9), {VertexId(0), VertexId(1), VertexId(), VertexId()}, {0.25, 0.75, 0, 0});
-  step.copied.push_back({VertexId(10), VertexId(9)});
-  sizes.follow(step);
-  EXPECT_DOUBLE_EQ(sizes.at(VertexId(9)), 4.0);
-  EXPECT_DOUBLE_EQ(sizes.at(VertexId(10)), 4.0);
+  sizes.measure(mesh);
+  EXPECT_LT(sizes.at(Vec3(0.001, 0.005, 0.005)), 0.01);
+  EXPECT_GT(sizes.at(Vec3(0.9, 0.005, 0.005)), 0.05);
 }
 
-TEST(OriginalSizes, of_a_slot_that_is_used_again_are_those_of_the_new_vertex) {
-  OriginalSizes sizes;
-  sizes.note_edge(VertexId(0), VertexId(1), 2.0);
-  sizes.note_edge(VertexId(9), VertexId(8), 7.0);
-  sizes.follow(step_with_birth(VertexId(9), {VertexId(0), VertexId(), VertexId(), VertexId()}, {1, 0, 0, 0}));
-  EXPECT_EQ(sizes.at(VertexId(9)), 2.0);
+TEST(OriginalSizes, grow_with_the_body) {
+  OriginalSizes sizes, larger;
+  TetSoup soup = ball(5);
+  sizes.measure(build(soup));
+  for (Vec3& p : soup.points) p *= 1024.0;
+  larger.measure(build(soup));
+  Random random(2);
+  for (unsigned i = 0; i < 100; ++i) {
+    const Vec3 p = random.point(-0.5, 0.5);
+    EXPECT_EQ(larger.at(1024.0 * p), 1024.0 * sizes.at(p));
+  }
 }
 
 }  // namespace

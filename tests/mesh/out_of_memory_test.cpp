@@ -6,7 +6,7 @@
 
 #include "incise/mesh/transaction.h"
 #include "incise/mesh/verbs.h"
-#include "mesh/failing_allocator.h"
+#include "support/allocation.h"
 #include "support/bodies.h"
 #include "support/engines.h"
 

@@ -7,8 +7,8 @@
 #include <new>
 
 #include "incise/sim/simulated_operator.h"
-#include "sim/allocation_count.h"
 #include "sim/haptic_scenes.h"
+#include "support/allocation.h"
 
 namespace incise {
 namespace {

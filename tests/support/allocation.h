@@ -5,7 +5,8 @@
 
 namespace incise::test {
 
-/// How often this program has called operator new so far. Link `failing_allocator.cpp`.
+/// How often this program has called operator new so far, on any thread. Programs that ask list
+/// `allocation.cpp` among their own sources: it replaces operator new.
 [[nodiscard]] std::size_t allocation_count();
 
 /// While it lives, the calls of operator new after the first `count` throw std::bad_alloc. One at a time.

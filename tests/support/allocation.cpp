@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replaces the allocation of the whole program; apart, since GCC takes inlined replacements for a mismatch.
-#include "sim/allocation_count.h"
+#include "support/allocation.h"
 
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 namespace {
 
+constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 std::atomic<std::size_t> g_allocations{0};
+std::atomic<std::size_t> g_last{kNever};  // calls above this fail
 
 }  // namespace
 
 void* operator new(std::size_t size) {
-  ++g_allocations;
+  if (++g_allocations > g_last) throw std::bad_alloc();
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
@@ -28,6 +31,12 @@ namespace incise::test {
 
 std::size_t allocation_count() {
   return g_allocations;
+}
+FailingAllocator::FailingAllocator(std::size_t count) {
+  g_last = g_allocations + count;
+}
+FailingAllocator::~FailingAllocator() {
+  g_last = kNever;
 }
 
 }  // namespace incise::test
