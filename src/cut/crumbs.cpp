@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// Crumbs stay where they hang: each is joined again to one piece by its largest face, or to a crumb that hangs on one.
 #include "cut/crumbs.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace incise {
 inline namespace v0 {
@@ -10,8 +12,10 @@ namespace {
 
 constexpr std::size_t kMaxCrumbTets = 256;
 constexpr std::size_t kMaxPieceSearch = 512;
-/// A piece may look so many times too thick while it is searched: its walls come last.
+/// A piece may look so many times too thick while it is searched, and as thick as it likes while it has few tets: its
+/// walls come last.
 constexpr double kWhileGrowing = 2.0;
+constexpr std::size_t kFewTets = 32;
 
 class CrumbFinder {
  public:
@@ -36,16 +40,18 @@ class CrumbFinder {
   }
 
   std::uint64_t run() {
-    std::uint64_t crumbs = 0;
-    for (std::uint32_t i = 0; i < incision_.size(); ++i) {
-      for (const TetId seed : {incision_[i].a.tet(), incision_[i].b.tet()}) {
-        if (state_[seed.value] == kUnseen && is_crumb(seed)) {
-          crumbs += attach() ? 1U : 0U;
-        }
+    for (const IncisionFace& face : incision_) {
+      for (const TetId seed : {face.a.tet(), face.b.tet()}) {
+        if (state_[seed.value] == kUnseen && is_crumb(seed)) add_crumb();
       }
     }
+    if (crumbs_.empty()) return 0;
+    collect_borders();
+    std::uint64_t kept = 0;
+    for (; attach_next(); ++kept) {
+    }
     drop_faces();
-    return crumbs;
+    return kept;
   }
 
  private:
@@ -70,7 +76,7 @@ class CrumbFinder {
     bool is_large = false;
     for (std::size_t i = 0; i < piece_.size() && !is_large; ++i) {
       add_to(shaving, piece_[i]);
-      is_large = (shaving.volume >= limit && !is_thin(shaving, kWhileGrowing)) || piece_.size() > kMaxCrumbTets;
+      is_large = piece_.size() > kMaxCrumbTets || (shaving.volume >= limit && !may_be_thin(shaving));
       for (unsigned s = 0; s < 4 && !is_large; ++s) {
         const Link link = mesh_.links(piece_[i])[s];
         if (link.is_boundary() || is_blocked(Side(piece_[i], s))) {
@@ -116,38 +122,64 @@ class CrumbFinder {
   [[nodiscard]] bool is_thin(const Shaving& shaving, double slack) const {
     return 4 * shaving.volume <= slack * rules_.thin * shaving.walls;
   }
-  [[nodiscard]] bool is_in_piece(TetId tet) const {
-    return std::find(piece_.begin(), piece_.end(), tet) != piece_.end();
+  /// Whether the piece may turn out to be thin when all of it is known.
+  [[nodiscard]] bool may_be_thin(const Shaving& shaving) const {
+    return rules_.thin > 0 && (piece_.size() <= kFewTets || is_thin(shaving, kWhileGrowing));
   }
   [[nodiscard]] double area_of(Side side) const {
     const auto v = mesh_.vertices(side);
     return (mesh_.rest(v[1]) - mesh_.rest(v[0])).cross(mesh_.rest(v[2]) - mesh_.rest(v[0])).norm();
   }
-  /// Drops the faces between the crumb and the piece behind its largest face.
-  bool attach() {
-    struct Border {
-      std::uint32_t face;
-      TetId behind;
-      double area;
-    };
-    std::vector<Border> borders;
+  /// A crumb, and once it is attached a tet of the piece that it hangs on, be it by other crumbs.
+  struct Crumb {
+    std::vector<TetId> tets;
+    TetId home = {};
+    [[nodiscard]] bool is_attached() const { return home.is_valid(); }
+  };
+  /// A face on which a crumb may hang; `behind` is no tet of that crumb.
+  struct Border {
+    std::uint32_t face, crumb, behind_crumb;  ///< `behind_crumb`: kInvalidIndex where `behind` is in none
+    TetId behind;
+    double area;
+  };
+  void add_crumb() {
+    for (const TetId tet : piece_) crumb_of_.emplace(tet.value, static_cast<std::uint32_t>(crumbs_.size()));
+    crumbs_.push_back({piece_});
+  }
+  [[nodiscard]] std::uint32_t crumb_of(TetId tet) const {
+    const auto found = crumb_of_.find(tet.value);
+    return found == crumb_of_.end() ? kInvalidIndex : found->second;
+  }
+  void collect_borders() {
     for (std::uint32_t i = 0; i < incision_.size(); ++i) {
-      const bool has_a = is_in_piece(incision_[i].a.tet()), has_b = is_in_piece(incision_[i].b.tet());
-      if (has_a == has_b) continue;
-      const auto [inside, behind] = has_a ? incision_[i] : IncisionFace{incision_[i].b, incision_[i].a};
-      if (rules_.are_apart && rules_.are_apart(inside.tet(), behind.tet())) continue;
-      borders.push_back({i, behind.tet(), area_of(behind)});
+      const IncisionFace& face = incision_[i];
+      const std::uint32_t a = crumb_of(face.a.tet()), b = crumb_of(face.b.tet());
+      if (a == b || (rules_.stands_open && rules_.stands_open(face))) continue;
+      if (rules_.are_apart && rules_.are_apart(face.a.tet(), face.b.tet())) continue;
+      if (a != kInvalidIndex) borders_.push_back({i, a, b, face.b.tet(), area_of(face.b)});
+      if (b != kInvalidIndex) borders_.push_back({i, b, a, face.a.tet(), area_of(face.a)});
     }
-    if (borders.empty()) {
-      return false;
+  }
+  /// The piece behind a border, by one of its tets; invalid while that is a crumb that hangs on nothing yet.
+  [[nodiscard]] TetId home_behind(const Border& border) const {
+    return border.behind_crumb == kInvalidIndex ? border.behind : crumbs_[border.behind_crumb].home;
+  }
+  /// Hangs one more crumb on what is no crumb, or hangs on such a piece already: crumbs side by side would else hang on
+  /// each other, and fall together. The largest face first. Returns whether there was one.
+  bool attach_next() {
+    const Border* largest = nullptr;
+    for (const Border& border : borders_) {
+      if (crumbs_[border.crumb].is_attached() || !home_behind(border).is_valid()) continue;
+      if (largest == nullptr || border.area > largest->area) largest = &border;
     }
-    const auto largest = std::max_element(borders.begin(), borders.end(),
-                                          [](const Border& x, const Border& y) { return x.area < y.area; });
-    const std::vector<TetId> piece = piece_around(largest->behind);
-    for (const Border& border : borders) {
-      if (std::find(piece.begin(), piece.end(), border.behind) != piece.end()) {
-        is_dropped_[border.face] = true;
-      }
+    if (largest == nullptr) return false;
+    const TetId home = home_behind(*largest);
+    crumbs_[largest->crumb].home = home;
+    const std::vector<TetId> piece = piece_around(home);
+    for (const Border& border : borders_) {
+      const TetId behind = home_behind(border);
+      if (border.crumb != largest->crumb || !behind.is_valid()) continue;
+      if (std::find(piece.begin(), piece.end(), behind) != piece.end()) is_dropped_[border.face] = true;
     }
     return true;
   }
@@ -185,7 +217,10 @@ class CrumbFinder {
   ZeroedArray<std::uint8_t>&blocked_, &state_;
   std::vector<TetId> touched_;  // whose entries may not be zero
   std::vector<bool> is_dropped_;
-  std::vector<TetId> piece_;
+  std::vector<TetId> piece_;    // the last one searched
+  std::vector<Crumb> crumbs_;
+  std::unordered_map<std::uint32_t, std::uint32_t> crumb_of_;  // by tet slot; looked up, never iterated
+  std::vector<Border> borders_;
 };
 
 }  // namespace

@@ -27,6 +27,8 @@ struct CrumbRules {
   /// back beside its cut, shavings would fall. In length units; 0: none is.
   double thin = 0.0;
   std::function<bool(Side)> is_older;  ///< of a wall: asked where `thin` is above 0
+  /// Where set: whether a face was open before. A crumb does not hang on such a one.
+  std::function<bool(const IncisionFace&)> stands_open = {};
   /// Where set: whether a tet of a crumb and one behind its face are of two pieces. A crumb hangs on its own one only.
   std::function<bool(TetId, TetId)> are_apart = {};
 };

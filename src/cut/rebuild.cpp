@@ -465,16 +465,13 @@ class Rebuild::Run {
     };
     rules.thin = settings_.thin;
     rules.is_older = [&](Side side) { return is_older_wall(mesh_, complex_, side); };
+    rules.stands_open = [&](const IncisionFace& face) { return stands_open(face); };
     if (pieces_.has_several()) rules.are_apart = [&](TetId a, TetId b) { return pieces_.are_apart(a, b); };
     dropped_.clear();
     result_.crumbs_kept += incise::keep_crumbs(mesh_, rules, incision_, dropped_, owner_.crumbs_);
     for (const IncisionFace& face : dropped_) {
-      if (stands_open(face)) {
-        incision_.push_back(face);
-      } else {
-        close(face);
-        if (settings_.keeps_pieces) note_closed(face);
-      }
+      close(face);
+      if (settings_.keeps_pieces) note_closed(face);
     }
   }
   /// Whether a face was open before, between tets that stay: it is never joined again but where nothing separates it.
