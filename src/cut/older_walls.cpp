@@ -44,16 +44,18 @@ bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, doub
   const Vec3 margin = Vec3::Constant(reach);
   bool does_pass = false;
   surface_.for_each_near(mesh_, {place - margin, place + margin}, [&](Side side) {
-    if (does_pass || !is_older_wall(mesh_, complex_, side)) return;
+    if (does_pass) return;
     const auto v = mesh_.vertices(side);
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
     const double length = area.norm(), cosine = area.dot(n);
     if (!(std::abs(cosine) > kAlongOlder * length)) return;
+    if (std::abs(area.dot(place - a)) > 1.001 * reach * length) return;  // off its plane: a cheap bound of `across`
     const Vec3 way = place - closest_on_triangle(place, a, b, c).point;
     const double across = way.dot(area) / length;
     const double along2 = way.squaredNorm() - across * across;
-    does_pass = std::abs(across) <= beside && along2 <= beyond * beyond;
+    does_pass =
+        std::abs(across) <= beside && along2 <= beyond * beyond && is_older_wall(mesh_, complex_, side);
   });
   return does_pass;
 }
@@ -62,7 +64,6 @@ double OlderWalls::first_met(const Vec3& from, const Vec3& to, double least_sine
   double first = 2.0;
   if (!exist()) return first;
   surface_.for_each_near(mesh_, {from.cwiseMin(to), from.cwiseMax(to)}, [&](Side side) {
-    if (!is_older_wall(mesh_, complex_, side)) return;
     const auto v = mesh_.vertices(side);
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
@@ -73,7 +74,7 @@ double OlderWalls::first_met(const Vec3& from, const Vec3& to, double least_sine
     const Vec3 x = from + share * (to - from);
     const bool is_in = area.dot((b - a).cross(x - a)) >= 0 && area.dot((c - b).cross(x - b)) >= 0 &&
                        area.dot((a - c).cross(x - c)) >= 0;
-    if (is_in) first = std::min(first, share);
+    if (is_in && share < first && is_older_wall(mesh_, complex_, side)) first = share;
   });
   return first;
 }

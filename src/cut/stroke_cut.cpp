@@ -227,12 +227,15 @@ bool StrokeCut::is_entered(const TetMesh& mesh, const Strip& strip, const Master
       return segment_crosses_triangle(p, q, corner(k[0]), corner(k[1]), corner(k[2]));
     });
   };
-  for (std::uint32_t t = 0; t < strip.sheet.triangle_count(); ++t) {
-    if (strip.sheet.reaches_on(t)) continue;
+  Box around;
+  for (unsigned c = 0; c < 4; ++c) around.extend(mesh.rest(master.vertices[c]));
+  bool is_entered = false;
+  strip.sheet.tree().for_each_overlap(around, [&](std::uint32_t t) {
+    if (is_entered || strip.sheet.reaches_on(t)) return;
     const SosPoint p = strip.sheet.point(t, 0), q = strip.sheet.point(t, 1), r = strip.sheet.point(t, 2);
-    if (pierces(p, q) || pierces(q, r) || pierces(r, p)) return true;
-  }
-  return false;
+    is_entered = pierces(p, q) || pierces(q, r) || pierces(r, p);
+  });
+  return is_entered;
 }
 
 /// What joins a strip to an older cut may pass through that cut's wall, and must not notch the other lip: it counts
