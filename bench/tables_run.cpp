@@ -56,6 +56,9 @@ bool cut_once(Engine& engine, const std::vector<Stroke>& strokes, CutResult& out
     out.cut_ms += middle - start;
     out.maintain_ms += thread_ms() - middle;
   }
+  const double start = thread_ms();
+  out.stages += engine.maintain()->times;  // the paper's incision is complete: what its front has held
+  out.maintain_ms += thread_ms() - start;
   return true;
 }
 

@@ -84,21 +84,23 @@ class Engine::Conductor {
     std::size_t end = 0;  ///< journal position after it
     bool is_stroke = true;
     Continuation continuation = {};
+    IncisionFront front = {};  ///< after it, in the paper's profile
   };
 
   /// The stroke under way.
   struct OpenStroke {
     StrokeReport report;
     std::size_t first_step = 0;
-    std::vector<BladePose> poses;  ///< the first; for the paper's profile all
-    std::size_t steps = 0;         ///< taken so far
-    Continuation from = {};        ///< until its first step
-    Continuation to = {};          ///< once it has ended
+    BladePose first_pose;
+    std::size_t steps = 0;   ///< taken so far
+    Continuation from = {};  ///< until its first step
+    Continuation to = {};    ///< once it has ended
   };
 
   [[nodiscard]] std::string name_of_next_pose() const;
   Status check_steps(std::size_t first_step);
   void take_back(std::size_t first_step);
+  void restore_front();
   void forget_lost_redo();
   void trim_history();
   [[nodiscard]] bool is_paper() const { return options_.cut.profile == Profile::kPaper; }
@@ -106,13 +108,15 @@ class Engine::Conductor {
   void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step, const IsLocked& is_locked = {});
   [[nodiscard]] IsLocked busy() const;
   void maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times);
+  Result<CutStatistics> cut_step(const BladePose& pose, StepReport& report);
   void go_on_from_last_stroke();
   Status close_stroke();
   void maintain_between_sheets(MaintainStatistics& sum, StageTimes& times);
   Error abort_stroke(std::size_t first_step, Error error);
-  Result<StrokeReport> end_stroke_as_paper();
+  Status close_stroke_as_paper();
   MaintainStatistics maintain(std::uint64_t work_units, StageTimes& times, const ShouldStop& should_stop,
                               const IsLocked& is_locked = {});
+  MaintainStatistics maintain_incision(StageTimes& times);
   void push_operation(bool is_stroke) { push_operation(is_stroke, Continuation()); }
   void push_operation(bool is_stroke, Continuation continuation);
 
@@ -121,7 +125,8 @@ class Engine::Conductor {
   EngineOptions options_;
   Cutter cutter_;
   Maintainer maintainer_;
-  std::size_t paper_first_step_ = kNothingWaits;  // of the strokes that the paper's maintenance has not seen
+  PaperCutter paper_cutter_;
+  PaperMaintainer paper_maintainer_;
   std::deque<Operation> operations_;
   std::size_t kept_operations_ = static_cast<std::size_t>(-1);
   std::size_t oldest_position_ = 0;  // of the journal, that undo leads back to
@@ -132,8 +137,6 @@ class Engine::Conductor {
   bool is_in_stroke_ = false;
   bool has_moved_ = false;  // the body stands otherwise than at rest
   Box rest_box_, box_;      // around the body at load, and as it stands
-
-  static constexpr std::size_t kNothingWaits = static_cast<std::size_t>(-1);
 };
 
 Engine::Conductor::Conductor(TetMesh mesh, EngineOptions options)
@@ -141,6 +144,7 @@ Engine::Conductor::Conductor(TetMesh mesh, EngineOptions options)
       options_(std::move(options)),
       cutter_(options_.cut),
       maintainer_(options_.maintain),
+      paper_cutter_(options_.threads),
       earlier_strokes_(highest_tag(mesh_)),
       rest_box_(rest_bounds(mesh_)),
       box_(rest_box_) {
@@ -163,9 +167,8 @@ Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   report.stroke = next_stroke();
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first_step = journal_.position();
-  Result<CutStatistics> cut = is_paper()
-                                  ? cut_as_paper(mesh_, journal_, stroke, report.stroke, options_.threads, report.times)
-                                  : cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
+  Result<CutStatistics> cut = is_paper() ? paper_cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times)
+                                         : cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
   if (!cut) {
     forget_lost_redo();
     return cut.error();
@@ -200,8 +203,16 @@ void Engine::Conductor::take_back(std::size_t first_step) {
   journal_.take_back(mesh_, first_step);
   cutter_.forget();
   maintainer_.forget();
-  paper_first_step_ = kNothingWaits;
+  paper_maintainer_.forget();
+  restore_front();
   forget_lost_redo();
+}
+
+/// The front of the paper's incisions, as the last operation left it.
+void Engine::Conductor::restore_front() {
+  IncisionFront front = operations_.empty() ? IncisionFront() : operations_.back().front;
+  front.renew(mesh_);
+  paper_cutter_.restore(std::move(front));
 }
 
 /// What was undone before a call that then failed has left the journal for its steps.
@@ -267,7 +278,7 @@ Result<std::uint32_t> Engine::Conductor::begin_stroke(const BladePose& pose) {
   open_ = {};
   open_.report.stroke = next_stroke();
   open_.first_step = journal_.position();
-  open_.poses = {pose};
+  open_.first_pose = pose;
   maintainer_.begin_reference(open_.report.stroke);
   if (!operations_.empty()) {
     const Continuation& last = operations_.back().continuation;
@@ -275,7 +286,9 @@ Result<std::uint32_t> Engine::Conductor::begin_stroke(const BladePose& pose) {
         last.pause && cutter_.may_go_on(mesh_, journal_, *last.pause, last.first_step, pose.edge, has_moved_);
     if (goes_on) open_.from = last;
   }
-  if (!is_paper() && !open_.from.pause) {
+  if (is_paper()) {
+    paper_cutter_.begin(mesh_, journal_, pose.edge, has_moved_, open_.report.stroke);
+  } else if (!open_.from.pause) {
     cutter_.begin(mesh_, journal_, pose.edge, has_moved_, open_.report.stroke);
   }
   is_in_stroke_ = true;
@@ -289,22 +302,16 @@ Result<StepReport> Engine::Conductor::step(const BladePose& pose) {
   if (Status status = check_pose(pose); !status) {
     return status.error();
   }
-  if (const std::size_t count = open_.poses.front().edge.size(); pose.edge.size() != count) {
+  if (const std::size_t count = open_.first_pose.edge.size(); pose.edge.size() != count) {
     return bad_pose(name_of_next_pose(), "its edge has " + points(pose.edge.size()) +
                                              "; all poses of a stroke have as many as its first, " +
                                              std::to_string(count));
   }
   ++open_.steps;
-  if (is_paper()) {
-    open_.poses.push_back(pose);
-    return StepReport{};
-  }
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first_step = journal_.position();
   StepReport report;
-  go_on_from_last_stroke();
-  maintain_between_sheets(report.maintain, report.times);
-  Result<CutStatistics> cut = cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
+  Result<CutStatistics> cut = cut_step(pose, report);
   if (!cut) {
     return abort_stroke(first_step, cut.error());
   }
@@ -313,7 +320,7 @@ Result<StepReport> Engine::Conductor::step(const BladePose& pose) {
     return abort_stroke(first_step, status.error());
   }
   const std::size_t first_maintaining = journal_.position();
-  maintain_wake(busy(), report.maintain, report.times);
+  if (!is_paper()) maintain_wake(busy(), report.maintain, report.times);
   if (Status status = check_steps(first_maintaining); !status) {
     return abort_stroke(first_step, status.error());
   }
@@ -324,12 +331,21 @@ Result<StepReport> Engine::Conductor::step(const BladePose& pose) {
   return report;
 }
 
+Result<CutStatistics> Engine::Conductor::cut_step(const BladePose& pose, StepReport& report) {
+  if (is_paper()) {
+    return paper_cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
+  }
+  go_on_from_last_stroke();
+  maintain_between_sheets(report.maintain, report.times);
+  return cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
+}
+
 /// Before its first step a stroke that starts where the last one ended takes over the cut.
 void Engine::Conductor::go_on_from_last_stroke() {
   if (!open_.from.pause) return;
   const Continuation from = std::exchange(open_.from, {});
   if (!cutter_.go_on(mesh_, journal_, *from.pause, from.first_step, has_moved_, open_.report.stroke)) {
-    cutter_.begin(mesh_, journal_, open_.poses.front().edge, has_moved_, open_.report.stroke);
+    cutter_.begin(mesh_, journal_, open_.first_pose.edge, has_moved_, open_.report.stroke);
   }
 }
 
@@ -363,11 +379,8 @@ Result<StrokeReport> Engine::Conductor::end_stroke() {
   if (!is_in_stroke_) {
     return no_stroke();
   }
-  if (is_paper()) {
-    return end_stroke_as_paper();
-  }
   const std::size_t first_step = journal_.position();
-  if (Status status = close_stroke(); !status) {
+  if (Status status = is_paper() ? close_stroke_as_paper() : close_stroke(); !status) {
     return abort_stroke(first_step, status.error());
   }
   is_in_stroke_ = false;
@@ -398,19 +411,21 @@ Status Engine::Conductor::close_stroke() {
   return check_steps(first_maintaining);
 }
 
-/// The paper's profile cuts a stroke as a whole, once its sweep is known.
-Result<StrokeReport> Engine::Conductor::end_stroke_as_paper() {
-  is_in_stroke_ = false;
-  if (open_.poses.size() < 2) {  // the blade was lifted where it was put down
-    push_operation(true);
-    return std::move(open_.report);
+/// Cuts to where the blade was last. The paper merges and maintains once the incision is made.
+Status Engine::Conductor::close_stroke_as_paper() {
+  std::size_t first_step = journal_.position();
+  Result<CutStatistics> cut = paper_cutter_.end(mesh_, journal_, open_.report.times);
+  if (!cut) {
+    return cut.error();
   }
-  Stroke stroke;
-  for (const BladePose& pose : open_.poses) {
-    stroke.times.push_back(static_cast<double>(stroke.times.size()));
-    stroke.edges.push_back(pose.edge);
+  open_.report.cut += *cut;
+  if (Status status = check_steps(first_step); !status) {
+    return status;
   }
-  return cut(stroke);
+  first_step = journal_.position();
+  take_up({}, open_.report.stroke, open_.first_step);
+  open_.report.maintain += maintain(options_.maintain.work_units, open_.report.times, {});
+  return check_steps(first_step);
 }
 
 Status Engine::Conductor::set_positions(std::span<const Vec3> positions) {
@@ -443,7 +458,7 @@ void Engine::Conductor::take_up(const SweptTriangles& sweep, std::uint32_t tag, 
     return;
   }
   if (is_paper()) {
-    paper_first_step_ = std::min(paper_first_step_, first_step);
+    paper_maintainer_.take_up(first_step);
     return;
   }
   maintainer_.extend_reference(tag, sweep.points, sweep.triangles);
@@ -459,11 +474,13 @@ MaintainStatistics Engine::Conductor::maintain(std::uint64_t work_units, StageTi
   if (!is_paper()) {
     return maintainer_.run(mesh_, journal_, work_units, times, should_stop, is_locked);
   }
-  if (paper_first_step_ == kNothingWaits || work_units == 0) {
-    return {};
-  }
-  const std::size_t first_step = std::exchange(paper_first_step_, kNothingWaits);
-  return maintain_as_paper(mesh_, journal_, first_step, options_.maintain, times);
+  return work_units == 0 ? MaintainStatistics() : maintain_incision(times);
+}
+
+/// Leaves out the front of an incision that may go on.
+MaintainStatistics Engine::Conductor::maintain_incision(StageTimes& times) {
+  if (!paper_maintainer_.has_work() && !paper_maintainer_.has_held()) return {};
+  return paper_maintainer_.run(mesh_, journal_, paper_cutter_.front().vertices(mesh_), options_.maintain, times);
 }
 
 Result<MaintainReport> Engine::Conductor::maintain(std::uint64_t work_units, const ShouldStop& should_stop) {
@@ -472,6 +489,7 @@ Result<MaintainReport> Engine::Conductor::maintain(std::uint64_t work_units, con
   }
   MaintainReport report;
   const std::size_t first_step = journal_.position();
+  if (is_paper() && work_units > 0 && !paper_maintainer_.has_work()) paper_cutter_.restore({});  // it is complete
   report.maintain = maintain(work_units, report.times, should_stop);
   if (Status status = check_steps(first_step); !status) {
     take_back(first_step);
@@ -479,12 +497,13 @@ Result<MaintainReport> Engine::Conductor::maintain(std::uint64_t work_units, con
   }
   if (!operations_.empty()) {
     operations_.back().end = journal_.position();
+    operations_.back().front = paper_cutter_.front();
   }
   return report;
 }
 
 bool Engine::Conductor::has_maintenance() const {
-  return is_paper() ? paper_first_step_ != kNothingWaits : maintainer_.has_work();
+  return is_paper() ? paper_maintainer_.has_work() : maintainer_.has_work();
 }
 
 Result<MaintainReport> Engine::Conductor::improve(const ShouldStop& should_stop) {
@@ -494,6 +513,8 @@ Result<MaintainReport> Engine::Conductor::improve(const ShouldStop& should_stop)
   MaintainReport report;
   const std::size_t first_step = journal_.position();
   if (maintains() && is_paper()) {
+    paper_cutter_.restore({});
+    paper_maintainer_.forget();
     report.maintain = maintain_all_as_paper(mesh_, journal_, options_.maintain, report.times);
   } else if (maintains()) {
     maintainer_.take_up_all(mesh_);
@@ -508,7 +529,7 @@ Result<MaintainReport> Engine::Conductor::improve(const ShouldStop& should_stop)
 }
 
 void Engine::Conductor::push_operation(bool is_stroke, Continuation continuation) {
-  operations_.push_back({journal_.position(), is_stroke, std::move(continuation)});
+  operations_.push_back({journal_.position(), is_stroke, std::move(continuation), paper_cutter_.front()});
   if (operations_.size() > kKeptContinuations) {
     operations_[operations_.size() - kKeptContinuations - 1].continuation = {};
   }
@@ -536,7 +557,7 @@ void Engine::Conductor::trim_history() {
   for (; operations_.size() > kept_operations_; operations_.pop_front()) {
     oldest_position_ = operations_.front().end;
   }
-  journal_.trim(std::min(oldest_position_, paper_first_step_));
+  journal_.trim(std::min(oldest_position_, paper_maintainer_.first_step()));
 }
 
 bool Engine::Conductor::undo() {
@@ -556,7 +577,8 @@ bool Engine::Conductor::undo() {
     journal_.undo(mesh_);
   }
   maintainer_.forget();
-  paper_first_step_ = kNothingWaits;
+  paper_maintainer_.forget();
+  restore_front();
   return true;
 }
 
@@ -570,6 +592,7 @@ bool Engine::Conductor::redo() {
   while (journal_.position() < operations_.back().end) {
     journal_.redo(mesh_);
   }
+  restore_front();
   return true;
 }
 

@@ -25,11 +25,12 @@ void mark_coincident(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& nea
   for (const CutEdge& edge : near.edges.edges()) {
     if (edge.is_flagged()) longest = std::max(longest, (mesh.rest(edge.b) - mesh.rest(edge.a)).norm());
   }
+  near.coincidence = kCoincident * longest;
   for (const CutEdge& edge : near.edges.edges()) {
     if (!edge.is_flagged()) continue;
     for (const VertexId v : {edge.a, edge.b}) {
       std::uint32_t& asked = near.index_of_vertex[v.value];
-      if (asked != 0) continue;
+      if (asked != 0 || near.is_on[v.value] != 0) continue;
       asked = 1;
       if (coincides(mesh, sheet, v, longest, walker)) near.mark_on(v);
     }

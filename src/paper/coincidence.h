@@ -9,8 +9,8 @@ namespace incise {
 inline namespace v0 {
 
 /// Marks the vertices with a flagged edge that coincide with the sheet (within `kCoincident` of their mean edge): they
-/// take part in the cut themselves, since a split point there would be the vertex given twice. Cost: one star per
-/// vertex close to the sheet.
+/// take part in the cut themselves, since a split point there would be the vertex given twice. Then notes of each near
+/// tet which corners do, those marked before included. Cost: one star per vertex close to the sheet.
 void mark_coincident(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& neighbourhood, StarWalker& walker);
 
 }  // namespace v0

@@ -18,6 +18,27 @@ inline constexpr std::size_t kMostChildren = 16;
 /// An edge crossed twice is bisected at most so often; what is crossed twice then still is taken as crossed once.
 inline constexpr unsigned kMaxBisectionRounds = 8;
 
+/// A stroke goes on with an incision where a collision point at that one's front lies in the plane of its sheet within
+/// so many of its vertex's mean edges (`kFrontOffset`), and within so many of the longest ones of the sheet itself
+/// (`kFrontReach`), and the two sheets enclose less than 45° there (`kFrontCosine`: √½). Two strokes of one hand meet
+/// within rounding; with more than a tenth of an edge a cut beside another one is drawn into it. A point may lie an
+/// uncut tet behind the front, whose edges are longer than those that are left of it.
+inline constexpr double kFrontReach = 2.0;
+inline constexpr double kFrontOffset = 0.1;
+inline constexpr double kFrontCosine = 0.70710678118654752440;
+
+/// A stroke goes on from the one before where its blade stands within so many spacings of where that would.
+inline constexpr double kStandsWithin = 0.05;
+/// In a body that moves the blade takes its way in parts of an element, or of the body's size over this where elements
+/// are smaller; and is near the body within so many of its diagonals.
+inline constexpr double kMostParts = 64;
+inline constexpr double kNearBody = 0.1;
+/// Where its next strip would cross an edge of the present wound's lips, by more than this share of the edge from the
+/// lip, a blade is held while it is less than so many spacings ahead of the cut: else strong shaking would hold it for
+/// ever. Less of either, and a trembling blade cuts crumbs off the lips.
+inline constexpr double kBesideLip = 0.05;
+inline constexpr double kGiveWay = 0.75;
+
 namespace paper {
 
 /// L/r above which a tet is bad-shaped. Merging and Boundary Laplacian may not make a tet worse than this, nor worse
@@ -27,6 +48,9 @@ inline constexpr double kBadShape = kBadRatio;
 /// 45°, as its cosine √½. Below it lie the facets of a curved skin of a few hundred faces; above it what one sees as an
 /// edge.
 inline constexpr double kSharpCosine = 0.70710678118654752440;
+/// Two faces at an edge lie in one plane where the sine of their angle is at most this: rounding, no more. With more,
+/// swaps on the boundary would change the volume.
+inline constexpr double kFlatSine = 1e-6;
 /// How often a move that does harm is tried: the whole way, half, a quarter, an eighth. What is left after that is less
 /// than the paper's smoothing is worth.
 inline constexpr unsigned kMoveTries = 4;

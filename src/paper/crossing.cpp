@@ -82,7 +82,8 @@ std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet&
   CoincidenceMemo coincidence(mesh, sheet);
   for (std::uint32_t i = 0; i < neighbourhood.edges.size(); ++i) {
     const CutEdge& edge = neighbourhood.edges[i];
-    if (edge.crossings.count == 0) {
+    const bool is_on = neighbourhood.is_on[edge.a.value] != 0 || neighbourhood.is_on[edge.b.value] != 0;
+    if (edge.crossings.count == 0 || is_on) {
       continue;
     }
     const auto coincident = [&](VertexId vertex, double length) { return coincidence.find(vertex, length); };

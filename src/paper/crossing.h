@@ -26,8 +26,9 @@ struct DoublyCrossed {
 
 /// The edges that two parts of the sheet pass through more than `gap` of the edge apart, ascending. They must be
 /// bisected in between, or one crossing would hide the other. An end that coincides with the sheet counts as crossed
-/// there. A single smooth part that an edge leaves and enters again (a graze: the edge is nearly a chord) is left
-/// alone; the cut then follows the chord. Cost: O(edges), with a search of the sheet for ends of crossed edges.
+/// there; edges at vertices that are marked already are passed over: they are not split. A single smooth part that an
+/// edge leaves and enters again (a graze: the edge is nearly a chord) is left alone; the cut then follows the chord.
+/// Cost: O(edges), with a search of the sheet for ends of crossed edges.
 std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet& sheet,
                                                const Neighbourhood& neighbourhood, double gap);
 

@@ -37,6 +37,22 @@ class PaperSeparator {
     }
   }
 
+  /// Algorithm 1. Lines 1-6 find the potential vertices of type II; every vertex of a face may be of type I.
+  std::vector<VertexId> find_dividable_vertices() {
+    std::vector<VertexId> potential;
+    for (const IncisionFace& face : incision_) {
+      if (is_joined_incision(face.a)) {
+        for (const VertexId v : mesh_.vertices(face.a)) {
+          potential.push_back(v);
+        }
+      }
+    }
+    std::sort(potential.begin(), potential.end());
+    potential.erase(std::unique(potential.begin(), potential.end()), potential.end());
+    std::erase_if(potential, [&](VertexId v) { return dividability_of(v) == Dividability::kNot; });
+    return potential;
+  }
+
   Separation run() {
     bool has_changed = true;
     while (has_changed) {
@@ -71,21 +87,6 @@ class PaperSeparator {
       has_changed |= divide(v);
     }
     return has_changed;
-  }
-  /// Algorithm 1. Lines 1-6 find the potential vertices of type II; every vertex of a face may be of type I.
-  std::vector<VertexId> find_dividable_vertices() {
-    std::vector<VertexId> potential;
-    for (const IncisionFace& face : incision_) {
-      if (is_joined_incision(face.a)) {
-        for (const VertexId v : mesh_.vertices(face.a)) {
-          potential.push_back(v);
-        }
-      }
-    }
-    std::sort(potential.begin(), potential.end());
-    potential.erase(std::unique(potential.begin(), potential.end()), potential.end());
-    std::erase_if(potential, [&](VertexId v) { return dividability_of(v) == Dividability::kNot; });
-    return potential;
   }
   Dividability dividability_of(VertexId v) {
     const std::vector<LinkEdge> faces = faces_at(v);
@@ -276,6 +277,11 @@ void mark_wall(Transaction& transaction, const IncisionFace& face) {
   };
   for (const VertexId v : a) mark(v, std::find(b.begin(), b.end(), v) != b.end());
   for (const VertexId v : b) mark(v, std::find(a.begin(), a.end(), v) != a.end());
+}
+
+std::vector<VertexId> find_dividable_vertices(Transaction& transaction, const std::vector<IncisionFace>& incision,
+                                              StarWalker& walker) {
+  return PaperSeparator(transaction, incision, 1, walker).find_dividable_vertices();
 }
 
 Separation separate_as_paper(Transaction& transaction, std::vector<IncisionFace> incision, std::uint32_t tag,

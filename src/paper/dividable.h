@@ -30,6 +30,11 @@ enum class Dividability : std::uint8_t {
   kSector,  ///< type II: some of them form a sector between two surface edges
 };
 
+/// Algorithm 1 on a mesh as it stands: the vertices of `incision` that its joined faces make dividable, ascending.
+/// `transaction` is left as it is. Cost: O(faces · stars).
+std::vector<VertexId> find_dividable_vertices(Transaction& transaction, const std::vector<IncisionFace>& incision,
+                                              StarWalker& walker);
+
 /// The paper's separation to the letter: Algorithm 1 with both kinds of dividable vertex and Algorithm 2, in turn until
 /// neither finds anything.
 ///

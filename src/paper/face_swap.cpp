@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "incise/geom/predicates.h"
 #include "incise/mesh/remesh.h"
 #include "incise/mesh/star.h"
 #include "paper/paper_stage.h"
@@ -16,13 +17,11 @@ namespace {
 
 class FaceSwapper : private PaperStage {
  public:
-  explicit FaceSwapper(Transaction& transaction) : PaperStage(transaction) {}
+  FaceSwapper(Transaction& transaction, const Held& held) : PaperStage(transaction, held) {}
 
   MaintainStatistics run(const std::vector<TetId>& tets) {
     for (const TetId tet : tets) {
-      if (mesh_.is_live(tet) && !swap_a_face(tet)) {
-        swap_an_edge(tet);
-      }
+      static_cast<void>(mesh_.is_live(tet) && (swap_a_face(tet) || swap_an_edge(tet) || swap_a_flat_pair(tet)));
     }
     return done();
   }
@@ -51,6 +50,56 @@ class FaceSwapper : private PaperStage {
     }
     return false;
   }
+  /// Two tets become two others: a pair whose outer faces at an edge lie in one plane, on the boundary; inside the body
+  /// four become four, the pair and the one behind that plane.
+  bool swap_a_flat_pair(TetId tet) {
+    const TetVertices v = mesh_.vertices(tet);
+    return std::any_of(kEdgeCorners.begin(), kEdgeCorners.end(), [&](const auto& edge) {
+      const VertexId a = v[edge[0]], b = v[edge[1]];
+      find_edge_ring(mesh_, a, b, tet, ring_);
+      if (!has_one_region()) return false;
+      if (!ring_.is_closed) return ring_.tets.size() == 2 && has_one_tag(a, b) && turn(a, b, 0, 2, {{0, 1, 2}});
+      return ring_.tets.size() == 4 &&
+             (turn(a, b, 0, 2, {{0, 1, 2}, {0, 2, 3}}) || turn(a, b, 1, 3, {{0, 1, 3}, {1, 2, 3}}));
+    });
+  }
+  /// Puts the edge between two vertices of the ring in place of (a, b), if the four lie in one plane.
+  bool turn(VertexId a, VertexId b, std::size_t i, std::size_t j, const std::vector<RingTriangle>& triangles) {
+    const VertexId p = ring_.vertices[i], q = ring_.vertices[j];
+    if (!is_flat(a, b, p, q) || exists({p, q})) return false;
+    RemeshPlan plan;
+    fill_edge_removal(mesh_, a, b, ring_, triangles, plan);
+    const bool is_positive = std::all_of(plan.produced.begin(), plan.produced.end(), [&](const NewTet& tet) {
+      const TetVertices& v = tet.vertices;
+      return orient3d(mesh_.rest(v[0]), mesh_.rest(v[1]), mesh_.rest(v[2]), mesh_.rest(v[3])) > 0;
+    });
+    if (!is_positive || !swap(plan)) return false;
+    ++done_.removed_edges;
+    return true;
+  }
+  /// Whether (a, b, p) and (b, a, q) lie in one plane, and beside each other.
+  [[nodiscard]] bool is_flat(VertexId a, VertexId b, VertexId p, VertexId q) const {
+    const Vec3 &at = mesh_.rest(a), along = mesh_.rest(b) - at;
+    const Vec3 n = along.cross(mesh_.rest(p) - at), m = (mesh_.rest(q) - at).cross(along);
+    return n.dot(m) > 0 && n.cross(m).squaredNorm() <= kFlatSine * kFlatSine * n.squaredNorm() * m.squaredNorm();
+  }
+  [[nodiscard]] bool has_one_region() const {
+    return std::all_of(ring_.tets.begin(), ring_.tets.end(),
+                       [&](TetId tet) { return mesh_.region(tet) == mesh_.region(ring_.tets.front()); });
+  }
+  /// Whether the boundary faces at the edge of an open ring carry one tag.
+  [[nodiscard]] bool has_one_tag(VertexId a, VertexId b) const {
+    const auto tag_at = [&](TetId tet) {
+      std::uint32_t tag = 0;
+      for (unsigned s = 0; s < 4; ++s) {
+        const Link link = mesh_.links(tet)[s];
+        const VertexId opposite = mesh_.vertices(tet)[s];
+        if (link.is_boundary() && opposite != a && opposite != b) tag = link.tag() + 1;
+      }
+      return tag;
+    };
+    return tag_at(ring_.tets.front()) == tag_at(ring_.tets.back());
+  }
   /// The three corners that the two tets of a 3-2 swap have in common.
   static std::vector<VertexId> shared_face(const RemeshPlan& plan) {
     const TetVertices &first = plan.produced[0].vertices, &second = plan.produced[1].vertices;
@@ -68,7 +117,9 @@ class FaceSwapper : private PaperStage {
     });
   }
   bool swap(const RemeshPlan& plan) {
-    if (!(worst_after(plan) < worst_before(plan))) {
+    const bool is_held =
+        std::any_of(plan.consumed.begin(), plan.consumed.end(), [&](TetId tet) { return held_.holds(mesh_, tet); });
+    if (is_held || !(worst_after(plan) < worst_before(plan))) {
       return false;
     }
     apply(transaction_, plan, produced_);
@@ -85,13 +136,14 @@ class FaceSwapper : private PaperStage {
     return worst;
   }
 
+  EdgeRing ring_;
   std::vector<TetId> produced_;
 };
 
 }  // namespace
 
-MaintainStatistics swap_faces(Transaction& transaction, const std::vector<TetId>& tets) {
-  return FaceSwapper(transaction).run(tets);
+MaintainStatistics swap_faces(Transaction& transaction, const std::vector<TetId>& tets, const Held& held) {
+  return FaceSwapper(transaction, held).run(tets);
 }
 
 }  // namespace paper

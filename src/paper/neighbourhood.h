@@ -29,6 +29,7 @@ struct Neighbourhood {
   ZeroedArray<std::uint8_t> is_on;             ///< by vertex slot: takes part in the cut; set by `mark_on`
   std::vector<VertexId> on;                    ///< the vertices so marked
   ZeroedArray<std::uint32_t> index_of_vertex;  ///< scratch of one stage at a time; all zero between stages
+  double coincidence = 0.0;                    ///< within so much of the sheet, in length units, vertices were marked
 
   void mark_on(VertexId vertex) {
     is_on.ensure(std::size_t{vertex.value} + 1);

@@ -30,7 +30,7 @@ namespace {
 
 class BoundarySmoother : private PaperStage {
  public:
-  explicit BoundarySmoother(Transaction& transaction) : PaperStage(transaction) {}
+  BoundarySmoother(Transaction& transaction, const Held& held) : PaperStage(transaction, held) {}
 
   MaintainStatistics run(const std::vector<VertexId>& vertices) {
     smooth_all(vertices, VertexClass::kContour);
@@ -59,14 +59,14 @@ class BoundarySmoother : private PaperStage {
     return smooth_on_wall(mesh_.rest(v), neighbours_);
   }
 
-  ClassFinder classes_;
+  ClassFinder classes_{&held_};
   std::vector<Vec3> neighbours_;
 };
 
 }  // namespace
 
-MaintainStatistics smooth_boundary(Transaction& transaction, const std::vector<VertexId>& vertices) {
-  return BoundarySmoother(transaction).run(vertices);
+MaintainStatistics smooth_boundary(Transaction& transaction, const std::vector<VertexId>& vertices, const Held& held) {
+  return BoundarySmoother(transaction, held).run(vertices);
 }
 
 }  // namespace paper

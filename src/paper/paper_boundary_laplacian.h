@@ -6,6 +6,7 @@
 
 #include "incise/improve/options.h"
 #include "incise/mesh/transaction.h"
+#include "paper/held.h"
 
 namespace incise {
 inline namespace v0 {
@@ -28,7 +29,8 @@ Vec3 smooth_on_wall(const Vec3& place, std::span<const Vec3> neighbours);
 /// the order given. Skin stays but for the contours on it; corners stay. Moves that would turn a tet over or make it
 /// bad-shaped are shortened (`move_towards`). The two lips are smoothed on their own.
 /// Cost: O(their stars). **Source:** Paper §3.4, Figures 9 and 10.
-MaintainStatistics smooth_boundary(Transaction& transaction, const std::vector<VertexId>& vertices);
+MaintainStatistics smooth_boundary(Transaction& transaction, const std::vector<VertexId>& vertices,
+                                   const Held& held = {});
 
 }  // namespace paper
 }  // namespace v0

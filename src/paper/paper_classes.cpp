@@ -59,7 +59,9 @@ VertexClass ClassFinder::classify(const TetMesh& mesh, VertexId vertex) {
   rim_.clear();
   contour_.clear();
   const std::vector<TetId>& star = walker_.star(mesh, vertex);
-  const bool is_clear = (mesh.shape_of(vertex) & shape::kPinched) == 0 && !star.empty() && has_one_region(mesh, star);
+  const bool is_held = held_ != nullptr && held_->holds(vertex);
+  const bool is_clear =
+      !is_held && (mesh.shape_of(vertex) & shape::kPinched) == 0 && !star.empty() && has_one_region(mesh, star);
   if (!is_clear) {
     return VertexClass::kCorner;
   }

@@ -5,6 +5,7 @@
 
 #include "incise/mesh/star.h"
 #include "paper/constants.h"
+#include "paper/held.h"
 
 namespace incise {
 inline namespace v0 {
@@ -26,6 +27,8 @@ enum class VertexClass : std::uint8_t {
 /// **Source:** Paper §2.5 (inside, surface and contour vertices). Differs: corners, which the paper does not name.
 class ClassFinder {
  public:
+  /// Vertices that are held count as corners; `held` must outlive the finder.
+  explicit ClassFinder(const Held* held = nullptr) : held_(held) {}
   /// Cost: O(star), about 0.5 µs.
   VertexClass classify(const TetMesh& mesh, VertexId vertex);
 
@@ -39,6 +42,7 @@ class ClassFinder {
   void find_contour(const TetMesh& mesh);
   [[nodiscard]] bool turns_sharply(const TetMesh& mesh, VertexId vertex) const;
 
+  const Held* held_;
   StarWalker walker_;
   std::vector<Side> fan_;      // boundary faces around the vertex, in order
   std::vector<VertexId> rim_;  // fan_[i] lies between rim_[i] and rim_[i + 1]

@@ -1,168 +1,303 @@
 // SPDX-License-Identifier: Apache-2.0
-// The profile paper: what a stroke swept is cut part by part, each as a whole, by bisection and Algorithms 1 and 2
+// The profile paper: what the blade swept since the last frame is cut by bisection and Algorithms 1 and 2
 // (docs/internals.md, 3.12).
 #include "paper/paper_cut.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
+#include <numeric>
 #include <utility>
-#include <vector>
 
 #include "cut/constants.h"
-#include "cut/cut_context.h"
-#include "cut/pinched_edges.h"
+#include "cut/far_blade.h"
 #include "cut/spacing.h"
-#include "cut/sweep.h"
-#include "incise/mesh/verbs.h"
-#include "paper/coincidence.h"
 #include "paper/constants.h"
 #include "paper/contact.h"
-#include "paper/crossing.h"
-#include "paper/dividable.h"
-#include "paper/neighbourhood.h"
-#include "paper/subdivide.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
-/// Cuts along a sheet as the paper does, after the fact: one part of a sweep.
-class SheetCut {
- public:
-  explicit SheetCut(unsigned threads) : threads_(threads) {}
-
-  /// Appends up to two journal steps: the cut, and the repair of edges that two fans of tets share. Errors:
-  /// kOutOfMemory where ids would run out. Cost: one pass over the mesh, then O(cut tets · rounds).
-  Status cut(const CutContext& context, const Sheet& sheet, std::uint32_t tag);
-
- private:
-  void find_contact(Transaction& transaction, const Sheet& sheet, StageTimes& times);
-  void collide(Transaction& transaction, const Sheet& sheet);
-  void bisect(Transaction& transaction, const CutEdge& edge, double t);
-  Subdivision divide(Transaction& transaction, CutStatistics& statistics, StageTimes& times);
-  void separate(Transaction& transaction, const Subdivision& subdivision, std::uint32_t tag, CutStatistics& statistics,
-                StageTimes& times);
-  void part_edges(const CutContext& context, const Subdivision& subdivision);
-
-  unsigned threads_;
-  Neighbourhood near_;
-  SplitTemplates templates_;
-  StarWalker walker_;
-};
-
-Status SheetCut::cut(const CutContext& context, const Sheet& sheet, std::uint32_t tag) {
-  CutStatistics& statistics = context.statistics;
-  const std::size_t tets_before = context.mesh.tet_count();
-  Transaction transaction(context.mesh);
-  find_contact(transaction, sheet, context.times);
-  if (std::size_t{context.mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
-    return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
-  }
-  const std::size_t coincident = near_.on.size();
-  const Subdivision subdivision = divide(transaction, statistics, context.times);
-  separate(transaction, subdivision, tag, statistics, context.times);
-  statistics.snapped_vertices += coincident;
-  statistics.new_vertices += transaction.new_vertices().size();
-  context.journal.append_if_changed(transaction.commit());
-  part_edges(context, subdivision);
-  statistics.created_tets += context.mesh.tet_count() - tets_before;
-  return {};
-}
-
-void SheetCut::find_contact(Transaction& transaction, const Sheet& sheet, StageTimes& times) {
-  const StageZone zone(times, Stage::kCollision);
-  collide(transaction, sheet);
-  mark_coincident(transaction.mesh(), sheet, near_, walker_);
-}
-
-Subdivision SheetCut::divide(Transaction& transaction, CutStatistics& statistics, StageTimes& times) {
-  const StageZone zone(times, Stage::kSubdivide);
-  statistics.blocked_edges += plan_subdivision(transaction.mesh(), templates_, near_);
-  statistics.cut_tets += static_cast<std::uint64_t>(
-      std::count_if(near_.tets.begin(), near_.tets.end(), [](const NearTet& tet) { return tet.is_cuttable; }));
-  Subdivision subdivision = subdivide(transaction, templates_, near_);
-  subdivision.incision = find_paper_incision(transaction.mesh(), near_, subdivision);
-  return subdivision;
-}
-
-void SheetCut::separate(Transaction& transaction, const Subdivision& subdivision, std::uint32_t tag,
-                        CutStatistics& statistics, StageTimes& times) {
-  const StageZone zone(times, Stage::kSeparate);
-  const Separation separation = separate_as_paper(transaction, subdivision.incision, tag, walker_);
-  statistics.incision_faces += separation.opened_faces;
-  statistics.latent_faces += separation.latent_faces;
-  statistics.copied_vertices += separation.copied_vertices;
-  statistics.pinched_edges += separation.pinched_edges;
-}
-
-void SheetCut::part_edges(const CutContext& context, const Subdivision& subdivision) {
-  const StageZone zone(context.times, Stage::kSeparate);
-  Transaction transaction(context.mesh);
-  context.statistics.pinched_edges += part_pinched_edges(transaction, subdivision.incision, walker_);
-  context.statistics.new_vertices += transaction.new_vertices().size();
-  context.journal.append_if_changed(transaction.commit());
-}
-
-/// Finds the crossings of the mesh's edges with the sheet; edges crossed twice are bisected in between and retried.
-void SheetCut::collide(Transaction& transaction, const Sheet& sheet) {
-  const TetMesh& mesh = transaction.mesh();
-  for (unsigned round = 0;; ++round) {
-    find_crossings(mesh, sheet, find_near_tets(mesh, sheet, threads_), near_, threads_);
-    const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet, near_, kGrazeShare);
-    if (twice.empty() || round == kMaxBisectionRounds) {
-      return;
-    }
-    for (const DoublyCrossed& crossed : twice) {
-      bisect(transaction, near_.edges[crossed.edge], crossed.t);
-    }
-  }
-}
-void SheetCut::bisect(Transaction& transaction, const CutEdge& edge, double t) {
-  const TetMesh& mesh = transaction.mesh();
-  if (mesh.is_overshared_at_load(edge.a, edge.b)) {
-    return;
-  }
-  for (const TetId tet : walker_.star(mesh, edge.a)) {
-    if (mesh.corner_of(tet, edge.b) < 4) {
-      const SplitEdgePlan plan = plan_split_edge(mesh, edge.a, edge.b, tet, t);
-      if (plan) {
-        apply(transaction, plan);
-      }
-      return;
-    }
-  }
-}
-
-/// The parts of a sweep that meet each other are cut one after the other, in the order of time.
-Status cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag, unsigned threads) {
-  SheetCut cut(threads);
-  const double spacing = typical_spacing(context.mesh);
-  const SweptSurface surface = sweep(stroke, kOwnSlit * spacing);
-  for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
-    if (Status status = cut.cut(context, Sheet(surface, part), tag); !status) return status;
-    ++context.statistics.sheets;
-  }
-  return {};
+std::vector<std::uint32_t> all_triangles(const SweptSurface& surface) {
+  std::vector<std::uint32_t> all(surface.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
 }
 
 }  // namespace
 
-Result<CutStatistics> cut_as_paper(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
-                                   unsigned threads, StageTimes& times) {
-  if (Status status = check(stroke); !status) return status.error();
+/// Runs some work; where it fails, what it did is taken back.
+template <class Work>
+Result<CutStatistics> PaperCutter::guarded(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work) {
   const std::size_t start = journal.position();
+  const IncisionFront before = front_;
   CutStatistics statistics;
-  statistics.steps = stroke.times.size() - 1;
   Status status;
   try {
-    status = cut_parts({mesh, journal, times, statistics}, stroke, tag, threads);
+    status = work(CutContext{mesh, journal, times, statistics});
   } catch (const std::bad_alloc&) {
     status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
   }
   if (status) return statistics;
   journal.take_back(mesh, start);
+  restore(before);
   return status.error();
+}
+
+void PaperCutter::restore(IncisionFront front) {
+  front_ = std::move(front);
+  stroke_.may_go_on = false;
+  complex_.clear();
+  surface_.forget();
+}
+
+// --- a stroke as a whole
+
+Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
+                                       StageTimes& times) {
+  if (Status status = check(stroke); !status) return status.error();
+  return guarded(mesh, journal, times, [&](const CutContext& context) {
+    context.statistics.steps = stroke.times.size() - 1;
+    stroke_.may_go_on = false;
+    Status status = cut_parts(context, stroke, tag);
+    front_.end_stroke(context.statistics.cut_tets > 0);
+    return status;
+  });
+}
+
+/// The parts of a sweep that meet each other are cut one after the other, in the order of time.
+Status PaperCutter::cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
+  const double spacing = typical_spacing(context.mesh);
+  const SweptSurface surface = sweep(stroke, kOwnSlit * spacing);
+  for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
+    front_.begin_sheet();
+    if (Status status = sheet_cut_.cut(context, Sheet(surface, part), tag, front_); !status) return status;
+    context.statistics.latent_faces += sheet_cut_.latent_faces();
+    ++context.statistics.sheets;
+  }
+  return {};
+}
+
+// --- frame by frame
+
+void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
+                        std::uint32_t tag) {
+  surface_.follow(mesh, journal);
+  stroke_.tag = tag;
+  stroke_.has_cut = false;
+  const bool stands = stroke_.may_go_on && stands_at_end(mesh, row, has_moved);
+  if (stands && has_moved) return;
+  const std::vector<Vec3> start = stands ? stroke_.last_row : std::vector<Vec3>(row.begin(), row.end());
+  if (!stands) front_.begin_sheet();
+  stroke_ = {};
+  stroke_.tag = tag;
+  stroke_.spacing = typical_spacing(mesh);
+  stroke_.last_row = start;
+  stroke_.is_in_material = has_moved;
+  if (has_moved) {
+    put_in_place(mesh, start);
+  } else {
+    stroke_.motion.begin(start, stroke_.spacing);
+  }
+}
+
+/// Whether a blade stands where that of the stroke that has ended would.
+bool PaperCutter::stands_at_end(const TetMesh& mesh, std::span<const Vec3> row, bool has_moved) {
+  if (row.size() != stroke_.last_row.size()) return false;
+  if (has_moved && stroke_.is_in_material) {
+    complex_.clear();
+    stroke_.material.find_masters(mesh, surface_, complex_);
+    return stroke_.material.stands_at(mesh, complex_, row, kStandsWithin * stroke_.spacing);
+  }
+  if (has_moved || stroke_.is_in_material) return false;
+  bool stands = true;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    stands = stands && (row[c] - stroke_.last_row[c]).norm() <= kStandsWithin * stroke_.spacing;
+  }
+  return stands;
+}
+
+Result<CutStatistics> PaperCutter::step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row,
+                                        const Vec3& direction, bool has_moved, StageTimes& times) {
+  return guarded(mesh, journal, times, [&](const CutContext& context) -> Status {
+    context.statistics.steps = 1;
+    find_surface(context);
+    if (has_moved && !stroke_.is_in_material) enter_material(context.mesh);
+    const std::vector<Vec3> before = std::exchange(stroke_.last_row, {row.begin(), row.end()});
+    if (stroke_.is_in_material) {
+      stroke_.direction = direction;
+      return step_in_material(context, before);
+    }
+    return follow(context, stroke_.motion.advance(stroke_.last_row, stroke_.sheet, touches(context.mesh), {}, false));
+  });
+}
+
+Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTimes& times) {
+  return guarded(mesh, journal, times, [&](const CutContext& context) {
+    find_surface(context);
+    Status status;
+    if (stroke_.is_in_material) {
+      if (stroke_.motion.is_at_start()) status = cut_to(context, stroke_.last_row);
+      stroke_.is_last = true;
+      if (status) status = cut_to(context, stroke_.last_row);
+      stroke_.is_last = false;
+      stroke_.material.find_tips(context.mesh, complex_);
+    } else {
+      status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
+    }
+    if (stroke_.has_cut) context.statistics.latent_faces += sheet_cut_.latent_faces();
+    if (!stroke_.motion.is_at_start()) ++context.statistics.sheets;
+    front_.end_stroke(stroke_.has_cut);
+    stroke_.may_go_on = status.ok();
+    return status;
+  });
+}
+
+void PaperCutter::find_surface(const CutContext& context) {
+  const StageZone zone(context.times, Stage::kCollision);
+  surface_.follow(context.mesh, context.journal);
+}
+
+BladeMotion::Touches PaperCutter::touches(const TetMesh& mesh) const {
+  return [&mesh](const SweptSurface& surface) {
+    return !find_near_tets(mesh, Sheet(surface, all_triangles(surface))).empty();
+  };
+}
+
+/// The body has begun to move: from now on the blade is located in the elements as they stand.
+void PaperCutter::enter_material(const TetMesh& mesh) {
+  stroke_.is_in_material = true;
+  complex_.clear();
+  stroke_.material.take_over(mesh, surface_, stroke_.last_row, stroke_.motion.front(), stroke_.spacing, complex_);
+  stroke_.motion.refine(stroke_.material.shares());
+}
+
+/// From where the blade was to where it is, in parts of at most an element; away from the body it is only put in place.
+Status PaperCutter::step_in_material(const CutContext& context, const std::vector<Vec3>& before) {
+  const std::vector<Vec3> to = stroke_.last_row;
+  const Box body = current_bounds(context.mesh), near = enlarged(body, kNearBody);
+  const double travel = std::max(stroke_.spacing, (body.hi - body.lo).norm() / kMostParts);
+  std::vector<Vec3> row = before;
+  for (const StepPart& part : divide_step(before, to, travel, near)) {
+    const std::vector<Vec3> from = std::exchange(row, to);
+    for (std::size_t c = 0; c < row.size() && part.end < 1; ++c) row[c] = before[c] + part.end * (to[c] - before[c]);
+    const bool is_free = complex_.master_count() == 0;
+    if (is_free && (!part.is_near || stroke_.material.is_graded())) {
+      put_in_place(context.mesh, part.is_near ? from : row);
+    }
+    if (is_free && !part.is_near) continue;
+    if (Status status = cut_to(context, row); !status) return status;
+  }
+  return {};
+}
+
+/// Starts anew with a blade that has not met the body yet.
+void PaperCutter::put_in_place(const TetMesh& mesh, const std::vector<Vec3>& row) {
+  complex_.clear();
+  stroke_.material.begin(mesh, surface_, row, stroke_.spacing, complex_);
+  stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
+}
+
+Status PaperCutter::cut_to(const CutContext& context, const std::vector<Vec3>& row) {
+  BladeMotion::Proposal proposal;
+  {
+    const StageZone zone(context.times, Stage::kCollision);
+    stroke_.material.locate(context.mesh, surface_, complex_, row, stroke_.direction, stroke_.is_last);
+    proposal = stroke_.motion.propose(stroke_.material.wanted());
+    while (!proposal.surface.triangles.empty() && hold_where_it_cuts_again(context.mesh, proposal.surface)) {
+      proposal = stroke_.motion.propose(stroke_.material.wanted());
+    }
+  }
+  if (stroke_.material.is_in_air(context.mesh, surface_)) {
+    leave_body(context, row);
+    return {};
+  }
+  if (proposal.surface.triangles.empty()) return {};
+  BladeMotion::Move move;
+  move.strip = stroke_.motion.accept(proposal, {});
+  stroke_.material.advance(context.mesh, surface_, complex_);
+  Status status = follow(context, std::move(move));
+  if (!status) return status;
+  const StageZone zone(context.times, Stage::kCollision);
+  complex_.clear();
+  surface_.follow(context.mesh, context.journal);
+  stroke_.material.find_masters(context.mesh, surface_, complex_);
+  return status;
+}
+
+/// Holds the points of the blade beside which a strip would cut into the lips of the present wound, unless they are far
+/// ahead: between lips that move the blade cuts nothing. Returns whether there were any.
+bool PaperCutter::hold_where_it_cuts_again(const TetMesh& mesh, const SweptSurface& surface) {
+  const std::vector<VertexId>& apart = front_.apart();
+  const auto is_in = [](const std::vector<VertexId>& set, VertexId v) {
+    return std::binary_search(set.begin(), set.end(), v);
+  };
+  if (apart.empty()) return false;
+  const Sheet sheet(surface, all_triangles(surface));
+  const std::vector<VertexId> points = front_.vertices(mesh);
+  SideSigns sides;
+  sides.begin(mesh, sheet);
+  std::vector<std::uint32_t> columns;
+  for (const TetId tet : find_near_tets(mesh, sheet)) {
+    const TetVertices& v = mesh.vertices(tet);
+    for (const auto& [i, j] : kEdgeCorners) {
+      const VertexId a = std::min(v[i], v[j]), b = std::max(v[i], v[j]);
+      if (is_in(apart, a) == is_in(apart, b) || is_in(points, a) || is_in(points, b)) continue;
+      const SheetCrossings crossings = find_crossings(mesh, sheet, sides, a, b);
+      const double along = is_in(apart, a) ? crossings.t : 1.0 - crossings.t;
+      if (crossings.count > 0 && along > kBesideLip) columns.push_back(surface.triangles[crossings.triangle].column);
+    }
+  }
+  bool has_held = false;
+  for (const std::uint32_t column : columns) {
+    for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
+      if (!stroke_.material.is_accepted(point)) continue;
+      if (stroke_.material.lead(point) > kGiveWay * stroke_.spacing) continue;
+      stroke_.material.hold(point);
+      has_held = true;
+    }
+  }
+  return has_held;
+}
+
+/// A blade in the air cuts nothing: its sheet ends where it has left the body, and the next one begins where it comes
+/// to the body again.
+void PaperCutter::leave_body(const CutContext& context, const std::vector<Vec3>& row) {
+  if (!stroke_.motion.is_at_start()) finish_sheet(context);
+  const MaterialBlade before = stroke_.material;
+  complex_.clear();
+  stroke_.material.begin(context.mesh, surface_, row, stroke_.spacing, complex_);
+  if (!stroke_.material.is_front_clear(context.mesh, surface_)) {
+    stroke_.material = before;  // next to the body places at rest are uncertain: the next strip starts further off
+  }
+  stroke_.motion.begin(stroke_.material.anchors(), stroke_.spacing);
+}
+
+void PaperCutter::finish_sheet(const CutContext& context) {
+  context.statistics.latent_faces += sheet_cut_.latent_faces();
+  ++context.statistics.sheets;
+  front_.begin_sheet();
+  stroke_.sheet.clear();
+}
+
+/// Cuts along what the blade's motion asks for.
+Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
+  if (move.strip == nullptr) return {};
+  if (move.starts_anew) {
+    finish_sheet(context);
+    move.strip = stroke_.motion.lay_anew({});
+  }
+  Status status = sheet_cut_.cut(context, move.strip->sheet, stroke_.tag, front_);
+  stroke_.has_cut = stroke_.has_cut || context.statistics.cut_tets > 0;
+  stroke_.sheet.add(std::move(move.strip));
+  return status;
+}
+
+Result<CutStatistics> cut_as_paper(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
+                                   unsigned threads, StageTimes& times) {
+  return PaperCutter(threads).cut(mesh, journal, stroke, tag, times);
 }
 
 }  // namespace v0

@@ -2,25 +2,102 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
 
+#include "cut/blade_motion.h"
+#include "cut/closed_complex.h"
+#include "cut/material_blade.h"
+#include "cut/surface_index.h"
 #include "incise/core/profile.h"
 #include "incise/core/result.h"
 #include "incise/cut/options.h"
 #include "incise/cut/stroke.h"
 #include "incise/mesh/journal.h"
+#include "paper/sheet_cut.h"
 
 namespace incise {
 inline namespace v0 {
 
-/// Cuts a mesh along a whole stroke as the paper does, after the fact: its sections 2.2 to 2.4.
+/// Cuts a mesh along strokes as the paper does: its sections 2.2 to 2.4, in every frame.
 ///
-/// Every edge that the sweep crosses is bisected, faces of three collision points are opened where Algorithms 1 and 2
-/// find their vertices dividable; where the sweep ends inside an element nothing comes apart (§4.5). A sweep that meets
-/// itself is cut in parts, in the order of time, with up to two journal steps for each: the cut, and the repair of
-/// edges that two fans of tets share. Appends nothing where the blade misses. Walls get `tag`, which must be in [1,
-/// 2^31). `threads` in [1, 256] search the mesh; the result does not depend on it. Errors: kBadArgument for a malformed
-/// stroke, kOutOfMemory where ids or memory would run out; the mesh is then as before. Cost: one pass over the mesh for
-/// each part, then O(cut tets · rounds).
+/// What the blade swept since the last frame bisects the edges that it crosses; faces of three collision points are
+/// opened where Algorithms 1 and 2 find their vertices dividable, with the points that frames and strokes before have
+/// left joined (`IncisionFront`). Where the blade is inside an element nothing comes apart there (§4.5). In a body that
+/// moves the blade is located in the elements as they stand (`MaterialBlade`), so that crossings are those of the body
+/// as it stands; split points are placed on the same edges at rest. A sweep that meets itself is cut in parts, in the
+/// order of time. Keeps scratch memory. One mesh at a time; not thread-safe. Source: docs/decisions/0050.
+class PaperCutter {
+ public:
+  /// `threads` in [1, 256] search the mesh; the result does not depend on it.
+  explicit PaperCutter(unsigned threads) : sheet_cut_(threads), complex_(templates_) {}
+
+  /// Cuts along a whole stroke, at rest, as one frame: up to two journal steps for each part of the sweep. Walls get
+  /// `tag`, in [1, 2^31). Appends nothing where the blade misses. Errors: kBadArgument for a malformed stroke,
+  /// kOutOfMemory where ids or memory would run out; the mesh is then as before. Cost: one pass over the mesh for each
+  /// part, then O(cut tets · rounds).
+  Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
+                            StageTimes& times);
+
+  /// Puts the blade in place for a stroke that is cut frame by frame; nothing is cut yet. `row`: its edge as the body
+  /// stands, at least two finite points; `has_moved`: whether the body stands otherwise than at rest. A blade that
+  /// stands where the last stroke ended, its points within 0.05 spacings of a typical edge, goes on with that one.
+  /// Cost: one pass over the mesh at first, to find its surface.
+  void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved, std::uint32_t tag);
+  /// Cuts on to where the blade is now; `row` has as many points as the first. `direction`: where the edge cuts, unit;
+  /// zero: where it has cut so far. Appends to the journal what changed. Errors: kOutOfMemory; the mesh is then as
+  /// before the step. Cost: as `cut`, for what the frame adds.
+  Result<CutStatistics> step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row, const Vec3& direction,
+                             bool has_moved, StageTimes& times);
+  /// Ends the stroke where the blade was last. Errors: as `step`.
+  Result<CutStatistics> end(TetMesh& mesh, Journal& journal, StageTimes& times);
+
+  /// Where incisions may go on.
+  [[nodiscard]] const IncisionFront& front() const { return front_; }
+  /// Takes a front, as it was when the mesh was as it is now; forgets the stroke under way, and that the last one may
+  /// go on.
+  void restore(IncisionFront front);
+
+ private:
+  /// What a stroke that is cut frame by frame knows of its blade.
+  struct OpenStroke {
+    BladeMotion motion;
+    MaterialBlade material;
+    OwnSheet sheet;
+    std::vector<Vec3> last_row;
+    double spacing = 1.0;
+    Vec3 direction = Vec3::Zero();  // of the last frame in a body that moves
+    bool is_in_material = false, is_last = false;
+    bool has_cut = false;
+    bool may_go_on = false;  // it has ended, and nothing else has happened since
+    std::uint32_t tag = 1;
+  };
+
+  template <class Work>
+  Result<CutStatistics> guarded(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work);
+  Status cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
+  [[nodiscard]] bool stands_at_end(const TetMesh& mesh, std::span<const Vec3> row, bool has_moved);
+  void enter_material(const TetMesh& mesh);
+  Status step_in_material(const CutContext& context, const std::vector<Vec3>& before);
+  void put_in_place(const TetMesh& mesh, const std::vector<Vec3>& row);
+  Status cut_to(const CutContext& context, const std::vector<Vec3>& row);
+  bool hold_where_it_cuts_again(const TetMesh& mesh, const SweptSurface& surface);
+  void leave_body(const CutContext& context, const std::vector<Vec3>& row);
+  Status follow(const CutContext& context, BladeMotion::Move move);
+  void finish_sheet(const CutContext& context);
+  void find_surface(const CutContext& context);
+  [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const;
+
+  SheetCut sheet_cut_;
+  IncisionFront front_;
+  OpenStroke stroke_;
+  SplitTemplates templates_;
+  ClosedComplex complex_;  // of whole tets: those that hold the blade's front
+  SurfaceIndex surface_;
+};
+
+/// Cuts a mesh along one whole stroke, at rest, with no incision to go on from: `PaperCutter::cut`.
 Result<CutStatistics> cut_as_paper(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                                    unsigned threads, StageTimes& times);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paper/paper_maintenance.h"
 
+#include <algorithm>
+
 #include "paper/face_swap.h"
 #include "paper/paper_boundary_laplacian.h"
 #include "paper/paper_merge.h"
@@ -23,7 +25,7 @@ MaintainStatistics as_step(TetMesh& mesh, Journal& journal, Stage&& stage) {
 
 /// The paper's pipeline behind the incision (Figure 1), around the vertices that count as divided.
 MaintainStatistics maintain(TetMesh& mesh, Journal& journal, const std::vector<VertexId>& divided,
-                            const MaintainOptions& options, StageTimes& times) {
+                            const paper::Held& held, const MaintainOptions& options, StageTimes& times) {
   using namespace paper;
   const auto tets_before = static_cast<std::int64_t>(mesh.tet_count());
   MaintainStatistics done;
@@ -33,17 +35,17 @@ MaintainStatistics maintain(TetMesh& mesh, Journal& journal, const std::vector<V
   if (options.merge) {
     const StageZone zone(times, Stage::kMerge);
     const std::vector<TetId> tets = find_tets_at(mesh, divided);
-    done += as_step(mesh, journal, [&](Transaction& t) { return merge_edges(t, tets); });
+    done += as_step(mesh, journal, [&](Transaction& t) { return merge_edges(t, tets, {}, held); });
   }
   if (options.improve) {
     const StageZone zone(times, Stage::kImprove);
     const std::vector<VertexId> near = find_corners_of(mesh, find_tets_at(mesh, divided));
     if (options.smooth_boundary) {
-      done += as_step(mesh, journal, [&](Transaction& t) { return smooth_boundary(t, divided); });
+      done += as_step(mesh, journal, [&](Transaction& t) { return smooth_boundary(t, divided, held); });
     }
-    done += as_step(mesh, journal, [&](Transaction& t) { return smooth_inside(t, near); });
+    done += as_step(mesh, journal, [&](Transaction& t) { return smooth_inside(t, near, held); });
     const std::vector<TetId> tets = find_tets_at(mesh, divided);
-    done += as_step(mesh, journal, [&](Transaction& t) { return swap_faces(t, tets); });
+    done += as_step(mesh, journal, [&](Transaction& t) { return swap_faces(t, tets, held); });
   }
   done.created_tets = static_cast<std::int64_t>(mesh.tet_count()) - tets_before;
   return done;
@@ -53,12 +55,40 @@ MaintainStatistics maintain(TetMesh& mesh, Journal& journal, const std::vector<V
 
 MaintainStatistics maintain_as_paper(TetMesh& mesh, Journal& journal, std::size_t first_step,
                                      const MaintainOptions& options, StageTimes& times) {
-  return maintain(mesh, journal, paper::find_divided_vertices(mesh, journal, first_step), options, times);
+  return maintain(mesh, journal, paper::find_divided_vertices(mesh, journal, first_step), {}, options, times);
 }
 
 MaintainStatistics maintain_all_as_paper(TetMesh& mesh, Journal& journal, const MaintainOptions& options,
                                          StageTimes& times) {
-  return maintain(mesh, journal, paper::find_all_vertices(mesh), options, times);
+  return maintain(mesh, journal, paper::find_all_vertices(mesh), {}, options, times);
+}
+
+void PaperMaintainer::take_up(std::size_t first_step) {
+  first_step_ = std::min(first_step_, first_step);
+}
+
+MaintainStatistics PaperMaintainer::run(TetMesh& mesh, Journal& journal, const std::vector<VertexId>& front,
+                                        const MaintainOptions& options, StageTimes& times) {
+  std::vector<VertexId> divided = paper::find_live(mesh, waiting_);
+  if (has_work()) {
+    const std::vector<VertexId> more = paper::find_divided_vertices(mesh, journal, first_step_);
+    divided.insert(divided.end(), more.begin(), more.end());
+  }
+  std::sort(divided.begin(), divided.end());
+  divided.erase(std::unique(divided.begin(), divided.end()), divided.end());
+  const paper::Held held(mesh, front);
+  first_step_ = kNothing;
+  const MaintainStatistics done = maintain(mesh, journal, divided, held, options, times);
+  waiting_.clear();
+  for (const VertexId v : divided) {
+    if (mesh.is_live(v) && held.holds(v)) waiting_.emplace_back(v, mesh.generation(v));
+  }
+  return done;
+}
+
+void PaperMaintainer::forget() {
+  first_step_ = kNothing;
+  waiting_.clear();
 }
 
 }  // namespace v0

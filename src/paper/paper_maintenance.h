@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "incise/core/profile.h"
 #include "incise/improve/options.h"
 #include "incise/mesh/journal.h"
+#include "incise/mesh/tet_mesh.h"
 
 namespace incise {
 inline namespace v0 {
@@ -22,6 +28,31 @@ MaintainStatistics maintain_as_paper(TetMesh& mesh, Journal& journal, std::size_
 /// The same for the whole mesh, as if every vertex had been divided. Cost: O(tets).
 MaintainStatistics maintain_all_as_paper(TetMesh& mesh, Journal& journal, const MaintainOptions& options,
                                          StageTimes& times);
+
+/// Maintains a mesh stroke by stroke. The paper maintains "after a complete incision": tets around the front of one
+/// that may go on are left for later, and what was divided there waits with them.
+class PaperMaintainer {
+ public:
+  /// The steps of the journal from `first_step` on wait to be maintained.
+  void take_up(std::size_t first_step);
+  /// Whether steps wait.
+  [[nodiscard]] bool has_work() const { return first_step_ != kNothing; }
+  /// Whether vertices wait that an incision's front has held.
+  [[nodiscard]] bool has_held() const { return !waiting_.empty(); }
+  /// The first step that waits; the greatest number where none does: the journal must keep it.
+  [[nodiscard]] std::size_t first_step() const { return first_step_; }
+  /// As `maintain_as_paper`, for the steps that wait and for what fronts held earlier; `front`: vertices where an
+  /// incision may go on, ascending: tets that have one stay as they are.
+  MaintainStatistics run(TetMesh& mesh, Journal& journal, const std::vector<VertexId>& front,
+                         const MaintainOptions& options, StageTimes& times);
+  /// Nothing waits any more.
+  void forget();
+
+ private:
+  static constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
+  std::size_t first_step_ = kNothing;
+  std::vector<std::pair<VertexId, std::uint32_t>> waiting_;  // with their generations
+};
 
 }  // namespace v0
 }  // namespace incise

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cut/spacing.h"
 #include "incise/mesh/collapse.h"
 #include "paper/paper_classes.h"
 #include "paper/paper_stage.h"
@@ -12,6 +13,9 @@ inline namespace v0 {
 namespace paper {
 
 namespace {
+
+/// Six times the volume of a regular tet with edges of length 1: √½.
+constexpr double kRegularVolume6 = 0.70710678118654752440;
 
 struct Edge {
   unsigned number;
@@ -79,6 +83,17 @@ ThinTet find_thin_shape(const TetMesh& mesh, TetId tet, double length) {
   return thin;
 }
 
+ThinTet find_short_edges(const TetMesh& mesh, TetId tet, double length, double typical) {
+  ThinTet small;
+  for (const Edge& e : sorted_edges(mesh, tet)) {
+    if (!(length * length * e.length2 < typical * typical)) break;
+    const auto [a, b] = kEdgeCorners[e.number];
+    small.shape = ThinShape::kSmall;
+    small.edges[small.count++] = {mesh.vertices(tet)[a], mesh.vertices(tet)[b]};
+  }
+  return small;
+}
+
 bool is_safe_to_merge(const TetMesh& mesh, TetId tet, VertexId b, VertexId c) {
   const TetVertices& v = mesh.vertices(tet);
   const unsigned corner_b = mesh.corner_of(tet, b), corner_c = mesh.corner_of(tet, c);
@@ -96,27 +111,40 @@ namespace {
 
 class EdgeMerger : private PaperStage {
  public:
-  EdgeMerger(Transaction& transaction, const MergeThresholds& thresholds)
-      : PaperStage(transaction), thresholds_(thresholds) {}
+  EdgeMerger(Transaction& transaction, const MergeThresholds& thresholds, const Held& held, MergeCensus* census)
+      : PaperStage(transaction, held),
+        thresholds_(thresholds),
+        census_(census),
+        typical_(typical_spacing(transaction.mesh())),
+        least_volume6_(thresholds.size * kRegularVolume6 * typical_ * typical_ * typical_) {}
 
   MaintainStatistics run(const std::vector<TetId>& tets) {
     bool has_merged = true;
     while (has_merged) {
       has_merged = false;
       for (const TetId tet : tets) {
-        has_merged |= mesh_.is_live(tet) && eliminate(tet);
+        has_merged |= mesh_.is_live(tet) && !held_.holds(mesh_, tet) && eliminate(tet);
       }
     }
     return done();
   }
 
  private:
-  /// Merges what Figure 6 marks in a negligible tet. Returns whether anything was merged.
+  /// Merges what Figure 6 marks in a negligible tet, or what is short in one that is too small. Returns whether
+  /// anything was merged.
   bool eliminate(TetId tet) {
-    ThinTet thin = find_thin_shape(mesh_, tet, thresholds_.length);
-    if (thin.shape == ThinShape::kNone || !(meter_.of(tet) > thresholds_.shape)) {
-      return false;
+    const ThinTet thin = find_thin_shape(mesh_, tet, thresholds_.length);
+    if (thin.shape != ThinShape::kNone && meter_.of(tet) > thresholds_.shape) {
+      return merge_all(thin);
     }
+    return mesh_.rest_volume6(tet) < least_volume6_ &&
+           merge_one(find_short_edges(mesh_, tet, thresholds_.length, typical_));
+  }
+  bool merge_one(const ThinTet& small) {
+    return std::any_of(small.edges.begin(), small.edges.begin() + small.count,
+                       [&](const auto& edge) { return merge(edge[0], edge[1]); });
+  }
+  bool merge_all(ThinTet thin) {
     bool has_merged = false;
     for (unsigned i = 0; i < thin.count; ++i) {
       const auto [a, b] = thin.edges[i];
@@ -132,6 +160,9 @@ class EdgeMerger : private PaperStage {
   }
 
   bool merge(VertexId a, VertexId b) {
+    if (held_.holds(a) || held_.holds(b)) {
+      return false;
+    }
     const VertexClass class_a = classes_.classify(mesh_, a), class_b = classes_.classify(mesh_, b);
     const bool b_goes = class_a != class_b ? class_b < class_a : a < b;
     const VertexId from = b_goes ? b : a, into = b_goes ? a : b;
@@ -139,7 +170,7 @@ class EdgeMerger : private PaperStage {
       return false;
     }
     planner_.plan(mesh_, from, into, plan_);
-    if (!plan_ || !is_safe_as_printed()) {
+    if (!is_safe_as_printed() || !plan_) {
       return false;
     }
     const Vec3 at_from = mesh_.rest(from), at_into = mesh_.rest(into);
@@ -164,9 +195,14 @@ class EdgeMerger : private PaperStage {
         return false;
     }
   }
-  [[nodiscard]] bool is_safe_as_printed() const {
-    return std::all_of(plan_.ring.begin(), plan_.ring.end(),
-                       [&](TetId tet) { return is_safe_to_merge(mesh_, tet, plan_.from, plan_.into); });
+  bool is_safe_as_printed() {
+    const bool is_safe = std::all_of(plan_.ring.begin(), plan_.ring.end(),
+                                     [&](TetId tet) { return is_safe_to_merge(mesh_, tet, plan_.from, plan_.into); });
+    if (census_ != nullptr) {
+      ++census_->asked;
+      census_->refused += is_safe ? 0U : 1U;
+    }
+    return is_safe;
   }
   /// Calls `visit(tet, moved vertex)` for the tets that the merge leaves, changed.
   template <class Visit>
@@ -225,7 +261,9 @@ class EdgeMerger : private PaperStage {
   }
 
   MergeThresholds thresholds_;
-  ClassFinder classes_;
+  MergeCensus* census_;
+  double typical_, least_volume6_;
+  ClassFinder classes_{&held_};
   CollapsePlanner planner_;
   CollapsePlan plan_;
 };
@@ -233,8 +271,8 @@ class EdgeMerger : private PaperStage {
 }  // namespace
 
 MaintainStatistics merge_edges(Transaction& transaction, const std::vector<TetId>& tets,
-                               const MergeThresholds& thresholds) {
-  return EdgeMerger(transaction, thresholds).run(tets);
+                               const MergeThresholds& thresholds, const Held& held, MergeCensus* census) {
+  return EdgeMerger(transaction, thresholds, held, census).run(tets);
 }
 
 }  // namespace paper

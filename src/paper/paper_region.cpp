@@ -32,6 +32,14 @@ std::vector<VertexId> find_divided_vertices(const TetMesh& mesh, const Journal& 
   return vertices;
 }
 
+std::vector<VertexId> find_live(const TetMesh& mesh, const std::vector<std::pair<VertexId, std::uint32_t>>& vertices) {
+  std::vector<VertexId> live;
+  for (const auto& [vertex, generation] : vertices) {
+    if (mesh.is_live(vertex) && mesh.generation(vertex) == generation) live.push_back(vertex);
+  }
+  return live;
+}
+
 std::vector<VertexId> find_all_vertices(const TetMesh& mesh) {
   std::vector<VertexId> vertices;
   mesh.for_each_vertex([&](VertexId v) { vertices.push_back(v); });

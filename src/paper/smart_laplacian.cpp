@@ -14,7 +14,7 @@ namespace {
 
 class InsideSmoother : private PaperStage {
  public:
-  explicit InsideSmoother(Transaction& transaction) : PaperStage(transaction) {}
+  InsideSmoother(Transaction& transaction, const Held& held) : PaperStage(transaction, held) {}
 
   /// Algorithm 3.
   MaintainStatistics run(const std::vector<VertexId>& vertices) {
@@ -58,14 +58,14 @@ class InsideSmoother : private PaperStage {
     return sum / static_cast<double>(star_.size());
   }
 
-  ClassFinder classes_;
+  ClassFinder classes_{&held_};
   std::vector<TetId> star_;
 };
 
 }  // namespace
 
-MaintainStatistics smooth_inside(Transaction& transaction, const std::vector<VertexId>& vertices) {
-  return InsideSmoother(transaction).run(vertices);
+MaintainStatistics smooth_inside(Transaction& transaction, const std::vector<VertexId>& vertices, const Held& held) {
+  return InsideSmoother(transaction, held).run(vertices);
 }
 
 }  // namespace paper

@@ -5,6 +5,7 @@
 
 #include "incise/improve/options.h"
 #include "incise/mesh/transaction.h"
+#include "paper/held.h"
 
 namespace incise {
 inline namespace v0 {
@@ -15,7 +16,8 @@ namespace paper {
 ///
 /// Vertices on a boundary or a border between regions stay. One pass, in the order given.
 /// Cost: O(their stars). **Source:** Paper §3.2, equation 1 and Algorithm 3.
-MaintainStatistics smooth_inside(Transaction& transaction, const std::vector<VertexId>& vertices);
+MaintainStatistics smooth_inside(Transaction& transaction, const std::vector<VertexId>& vertices,
+                                 const Held& held = {});
 
 }  // namespace paper
 }  // namespace v0

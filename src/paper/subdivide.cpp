@@ -5,6 +5,7 @@
 
 #include "cut/bisection_order.h"
 #include "incise/geom/predicates.h"
+#include "incise/mesh/star.h"
 
 namespace incise {
 inline namespace v0 {
@@ -262,27 +263,58 @@ Subdivision subdivide(Transaction& transaction, SplitTemplates& templates, Neigh
   return Subdivider(transaction, templates, neighbourhood).run();
 }
 
+namespace {
+
+bool is_incision(const TetMesh& mesh, const Neighbourhood& near, Side side) {
+  const auto face = mesh.vertices(side);
+  return !mesh.link(side).is_boundary() &&
+         std::all_of(face.begin(), face.end(), [&](VertexId v) { return near.is_on[v.value] != 0; });
+}
+
+/// The faces around some vertices, those in `found` left out.
+std::vector<IncisionFace> find_front_faces(const TetMesh& mesh, const Neighbourhood& near,
+                                           std::span<const VertexId> front, const std::vector<IncisionFace>& found) {
+  const auto lower = [](const IncisionFace& face) { return std::min(face.a, face.b); };
+  std::vector<Side> known, sides;
+  for (const IncisionFace& face : found) known.push_back(lower(face));
+  std::sort(known.begin(), known.end());
+  StarWalker walker;
+  for (const VertexId v : front) {
+    for (const TetId tet : walker.star(mesh, v)) {
+      for (unsigned s = 0; s < 4; ++s) {
+        const Side side(tet, s);
+        if (is_incision(mesh, near, side)) sides.push_back(std::min(side, mesh.link(side).side()));
+      }
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  std::vector<IncisionFace> faces;
+  for (const Side side : sides) {
+    if (!std::binary_search(known.begin(), known.end(), side)) faces.push_back({side, mesh.link(side).side()});
+  }
+  return faces;
+}
+
+}  // namespace
+
 std::vector<IncisionFace> find_paper_incision(const TetMesh& mesh, const Neighbourhood& neighbourhood,
-                                              const Subdivision& subdivision) {
+                                              const Subdivision& subdivision, std::span<const VertexId> front) {
   std::vector<IncisionFace> found;
-  const auto is_on = [&](VertexId v) { return neighbourhood.is_on[v.value] != 0; };
   const auto visit = [&](TetId tet, bool sees_far) {
     for (unsigned s = 0; s < 4; ++s) {
       const Side side(tet, s);
-      const Link link = mesh.link(side);
-      const auto face = mesh.vertices(side);
-      if (link.is_boundary() || !is_on(face[0]) || !is_on(face[1]) || !is_on(face[2])) {
-        continue;
-      }
-      if (side < link.side() || (sees_far && neighbourhood.find(link.side().tet()) == nullptr)) {
-        found.push_back({side, link.side()});
-      }
+      if (!is_incision(mesh, neighbourhood, side)) continue;
+      const Side other = mesh.link(side).side();
+      if (side < other || (sees_far && neighbourhood.find(other.tet()) == nullptr)) found.push_back({side, other});
     }
   };
   for (const TetId child : subdivision.children) visit(child, false);
   for (const NearTet& tet : neighbourhood.tets) {
     if (mesh.is_live(tet.id)) visit(tet.id, true);
   }
+  const std::vector<IncisionFace> more = find_front_faces(mesh, neighbourhood, front, found);
+  found.insert(found.end(), more.begin(), more.end());
   return found;
 }
 

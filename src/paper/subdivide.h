@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "cut/incision_face.h"
@@ -32,9 +33,10 @@ struct Subdivision {
 /// neighbours agree on their common faces, and links the children. Paper §2.2, Figure 2. Cost: O(near tets).
 Subdivision subdivide(Transaction& transaction, SplitTemplates& templates, Neighbourhood& neighbourhood);
 
-/// The paper's incision faces: inner faces all of whose vertices are collision points of this stroke (§2.2).
+/// The paper's incision faces: inner faces all of whose vertices are collision points of this incision (§2.2), in the
+/// near tets and around `front`, the vertices that frames before have left joined. Cost: O(near tets + stars of front).
 std::vector<IncisionFace> find_paper_incision(const TetMesh& mesh, const Neighbourhood& neighbourhood,
-                                              const Subdivision& subdivision);
+                                              const Subdivision& subdivision, std::span<const VertexId> front = {});
 
 }  // namespace v0
 }  // namespace incise

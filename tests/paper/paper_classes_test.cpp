@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "paper/dividable.h"
 #include "paper/paper_support.h"
 
 namespace incise::test {
@@ -95,6 +96,32 @@ TEST(PaperClasses, where_walls_of_two_strokes_meet_is_a_contour_or_a_corner) {
     EXPECT_EQ(classes.classify(mesh, v), p.z() == 0 || p.z() == 1 ? VertexClass::kCorner : VertexClass::kContour);
   });
   EXPECT_GE(seams, 4U * 5U);
+}
+
+TEST(PaperClasses, where_the_front_of_a_cut_turns_sharply_is_a_corner) {
+  // A slit in the plane x = ½ from the skin z = 1 down to z = ½, from y = ¼ to y = ¾: its front goes down, along and
+  // up.
+  TetMesh mesh = build(kuhn_cube(8));
+  std::vector<IncisionFace> faces;
+  mesh.for_each_tet([&](TetId tet) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Link link = mesh.links(tet)[s];
+      if (link.is_boundary() || link.side() < Side(tet, s)) continue;
+      const auto v = mesh.vertices(Side(tet, s));
+      const bool is_in = std::all_of(v.begin(), v.end(), [&](VertexId w) {
+        const Vec3& p = mesh.rest(w);
+        return p.x() == 0.5 && p.y() >= 0.25 && p.y() <= 0.75 && p.z() >= 0.5;
+      });
+      if (is_in) faces.push_back({Side(tet, s), link.side()});
+    }
+  });
+  Transaction transaction(mesh);
+  StarWalker walker;
+  separate_as_paper(transaction, faces, 1, walker);
+  transaction.commit();
+  EXPECT_EQ(class_at(mesh, Vec3(0.5, 0.5, 0.5)), VertexClass::kContour);
+  EXPECT_EQ(class_at(mesh, Vec3(0.5, 0.25, 0.75)), VertexClass::kContour);
+  EXPECT_EQ(class_at(mesh, Vec3(0.5, 0.25, 0.5)), VertexClass::kCorner);
 }
 
 TEST(PaperClasses, a_border_between_regions_stays) {

@@ -3,15 +3,18 @@
 #include "paper/paper_maintenance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
 
+#include "incise/geom/quality.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/defects.h"
 #include "incise/mesh/quality_stats.h"
+#include "paper/paper_classes.h"
 #include "paper/paper_region.h"
 #include "paper/paper_support.h"
 #include "support/random_strokes.h"
@@ -136,6 +139,79 @@ TEST(PaperMaintenance, writes_a_step_for_each_stage_that_changed_something) {
   const std::size_t steps = journal.size();
   EXPECT_TRUE(engine.cut(plane(engine, Vec3(1, 0, 0), 7.0)).ok());  // misses
   EXPECT_EQ(engine.journal().size(), steps);
+}
+
+/// What a step of maintenance did: M merged, B moved vertices of walls, S moved others, F swapped.
+char kind_of(const TetMesh& mesh, const Step& step) {
+  if (!step.died.empty()) return 'M';
+  if (step.moved.empty()) return 'F';
+  const bool is_wall = std::all_of(step.moved.begin(), step.moved.end(), [&](const MovedVertex& moved) {
+    return (mesh.shape_of(moved.id) & shape::kWall) != 0;
+  });
+  return is_wall ? 'B' : 'S';
+}
+
+TEST(PaperMaintenance, runs_its_stages_in_the_papers_order) {
+  Engine engine = paper_engine(jittered_cube(5, 3));
+  cut_and_maintain(engine, plane(engine, Vec3(0.3, 0.5, 0.9), 0.8));
+  std::string stages;
+  for (std::size_t i = 0; i < engine.journal().size(); ++i) {
+    const Step& step = engine.journal().step(i);
+    if (!step.edits.empty()) stages += kind_of(engine.mesh(), step);
+  }
+  EXPECT_EQ(stages, "MBSF");
+}
+
+TEST(PaperMaintenance, moves_contours_walls_and_the_inside_beside_them) {
+  Engine bare = paper_engine(jittered_cube(5, 3), kNothing), engine = paper_engine(jittered_cube(5, 3), kImproveOnly);
+  const Stroke stroke = plane(engine, Vec3(0.3, 0.5, 0.9), 0.8);
+  cut_and_maintain(bare, stroke);
+  cut_and_maintain(engine, stroke);
+  const std::vector<VertexId> divided = paper::find_divided_vertices(bare.mesh(), bare.journal(), 0);
+  paper::ClassFinder classes;
+  std::array<unsigned, 4> moved{};
+  unsigned beside = 0;
+  bare.mesh().for_each_vertex([&](VertexId v) {
+    if (bare.mesh().rest(v) == engine.mesh().rest(v)) return;
+    ++moved[static_cast<std::size_t>(classes.classify(bare.mesh(), v))];
+    beside += std::binary_search(divided.begin(), divided.end(), v) ? 0U : 1U;
+  });
+  EXPECT_GT(moved[static_cast<std::size_t>(paper::VertexClass::kContour)], 10U);
+  EXPECT_GT(moved[static_cast<std::size_t>(paper::VertexClass::kSurface)], 50U);
+  EXPECT_GT(moved[static_cast<std::size_t>(paper::VertexClass::kInside)], 20U);
+  EXPECT_EQ(moved[static_cast<std::size_t>(paper::VertexClass::kCorner)], 0U);
+  EXPECT_EQ(beside, moved[static_cast<std::size_t>(paper::VertexClass::kInside)]);
+}
+
+TEST(PaperMaintenance, waits_at_the_front_until_the_incision_goes_on_or_is_complete) {
+  const auto half = [](double from, double to) {
+    return quad_stroke(Vec3(0.52, -0.2, from), Vec3(0.52, 1.2, from), Vec3(0.52, -0.2, to), Vec3(0.52, 1.2, to));
+  };
+  Engine engine = paper_engine(jittered_cube(5, 3));
+  cut_and_maintain(engine, half(-0.2, 0.5));
+  EXPECT_FALSE(engine.has_maintenance());
+  const auto front = [&] {
+    double worst = 0;
+    engine.mesh().for_each_tet([&](TetId tet) {
+      for (const VertexId v : engine.mesh().vertices(tet)) {
+        if (std::abs(engine.mesh().rest(v).z() - 0.5) > 0.2) return;
+      }
+      const TetVertices& v = engine.mesh().vertices(tet);
+      worst = std::max(worst, longest_edge_over_inradius(engine.mesh().rest(v[0]), engine.mesh().rest(v[1]),
+                                                         engine.mesh().rest(v[2]), engine.mesh().rest(v[3])));
+    });
+    return worst;
+  };
+  const double held = front();
+  Engine other = paper_engine(jittered_cube(5, 3));
+  cut_and_maintain(other, half(-0.2, 0.5));
+  cut_and_maintain(other, half(0.5, 1.2));  // goes on
+  EXPECT_EQ(piece_volumes(other.mesh()).size(), 2U);
+  EXPECT_GT(engine.maintain()->maintain.work_units, 0U);  // complete
+  EXPECT_LT(front(), held);
+  EXPECT_EQ(engine.maintain()->maintain.work_units, 0U);
+  EXPECT_EQ(piece_volumes(engine.mesh()).size(), 1U);
+  expect_valid(engine.mesh(), 1.0, 1e-2);
 }
 
 TEST(PaperMaintenance, is_taken_back_by_undo_and_brought_back_by_redo) {

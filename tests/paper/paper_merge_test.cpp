@@ -3,7 +3,9 @@
 #include "paper/paper_merge.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "cut/spacing.h"
 #include "incise/mesh/collapse.h"
 #include "incise/mesh/quality_stats.h"
 #include "paper/paper_quality.h"
@@ -13,15 +15,17 @@
 namespace incise::test {
 namespace {
 
+using paper::find_short_edges;
 using paper::find_thin_shape;
 using paper::is_safe_at_face;
 using paper::is_safe_to_merge;
+using paper::MergeThresholds;
 using paper::ThinShape;
 using paper::ThinTet;
 
-MaintainStatistics merge(TetMesh& mesh, const std::vector<TetId>& tets) {
+MaintainStatistics merge(TetMesh& mesh, const std::vector<TetId>& tets, const MergeThresholds& thresholds = {}) {
   Transaction transaction(mesh, true);
-  const MaintainStatistics done = paper::merge_edges(transaction, tets);
+  const MaintainStatistics done = paper::merge_edges(transaction, tets, thresholds);
   transaction.commit();
   return done;
 }
@@ -186,6 +190,39 @@ TEST(SafeMerge, is_necessary_for_the_link_condition_but_not_sufficient) {
   EXPECT_GT(sum.both, 4 * sum.paper_only);
 }
 
+/// Whether an edge or face of a tet lies on the boundary, told from its links alone.
+bool is_on_surface(const TetMesh& mesh, VertexId a, VertexId b) {
+  bool is_on = false;
+  mesh.for_each_tet([&](TetId tet) {
+    const unsigned i = mesh.corner_of(tet, a), j = mesh.corner_of(tet, b);
+    if (i == 4 || j == 4) return;
+    for (unsigned s = 0; s < 4; ++s) is_on = is_on || (s != i && s != j && mesh.links(tet)[s].is_boundary());
+  });
+  return is_on;
+}
+
+TEST(SafeMerge, asks_of_bcd_what_it_asks_of_abc) {
+  const CutBody body = cut_as_paper(kuhn_cube(3), {{Vec3(1, 0.1, 0.05), 0.55}, {Vec3(1, 0.1, 0.05), 0.65}});
+  const TetMesh& mesh = body.mesh;
+  unsigned abc_alone = 0, bcd_alone = 0;
+  mesh.for_each_tet([&](TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
+    for (const auto& [b, c] : kEdgeCorners) {
+      const unsigned other = opposite_edge(kEdgeOfCorners[b][c]);
+      const unsigned a = kEdgeCorners[other][0], d = kEdgeCorners[other][1];
+      const auto surf = [&](unsigned x, unsigned y) { return is_on_surface(mesh, v[x], v[y]); };
+      const auto face = [&](unsigned opposite) { return mesh.links(tet)[opposite].is_boundary(); };
+      const bool abc = is_safe_at_face(surf(b, a), surf(c, a), face(d), face(c), face(b));
+      const bool bcd = is_safe_at_face(surf(b, d), surf(c, d), face(a), face(c), face(b));
+      EXPECT_EQ(is_safe_to_merge(mesh, tet, v[b], v[c]), abc && bcd);
+      abc_alone += abc && !bcd ? 1U : 0U;
+      bcd_alone += bcd && !abc ? 1U : 0U;
+    }
+  });
+  EXPECT_GT(abc_alone, 0U);
+  EXPECT_GT(bcd_alone, 0U);
+}
+
 // --- merging
 // ----------------------------------------------------------------------------------------------------------------
 
@@ -247,9 +284,68 @@ TEST(Merge, makes_no_bad_shaped_tet_and_stops_where_nothing_can_go) {
   const QualityStats after = measure_quality(body.mesh);
   EXPECT_LE(after.lr_over_200_pct, before.lr_over_200_pct * 1.5);  // of fewer tets
   EXPECT_LE(after.lr_max, std::max(200.0, before.lr_max));
+  merge(body);  // what is typical in a mesh with fewer small tets is a little larger
   const std::uint64_t hash = body.mesh.hash();
   EXPECT_EQ(merge(body).collapsed_edges, 0U);
   EXPECT_EQ(body.mesh.hash(), hash);
+}
+
+/// The tets without a thin shape whose volume is below a share of the typical one's, and which have a short edge.
+std::size_t count_small(const TetMesh& mesh, double typical) {
+  std::size_t count = 0;
+  const double least6 = MergeThresholds().size * typical * typical * typical / std::sqrt(2.0);
+  paper::QualityMeter meter(mesh);
+  mesh.for_each_tet([&](TetId tet) {
+    const MergeThresholds thresholds;
+    const bool is_thin =
+        meter.of(tet) > thresholds.shape && find_thin_shape(mesh, tet, thresholds.length).shape != ThinShape::kNone;
+    const bool is_small = mesh.rest_volume6(tet) < least6 &&
+                          find_short_edges(mesh, tet, thresholds.length, typical).shape == ThinShape::kSmall;
+    count += !is_thin && is_small ? 1U : 0U;
+  });
+  return count;
+}
+
+TEST(Merge, eliminates_tets_that_are_too_small_in_all_the_mesh) {
+  // Planes just beside rows of vertices cut corners off tets that are as well shaped as the tets, and tiny.
+  CutBody body = cut_as_paper(kuhn_cube(5), {{Vec3(1, 0.02, 0.03), 0.632}, {Vec3(0.02, 1, 0.05), 0.441}});
+  const double typical = typical_spacing(body.mesh);
+  const std::vector<double> volumes = piece_volumes(body.mesh);
+  const std::size_t before = count_small(body.mesh, typical);
+  MergeThresholds shape_alone;
+  shape_alone.size = 0;
+  CutBody other = body;
+  merge(other.mesh, paper::find_tets_at(other.mesh, paper::find_divided_vertices(other.mesh, other.journal, 0)),
+        shape_alone);
+  const std::size_t left = count_small(other.mesh, typical);
+  merge(body);
+  EXPECT_GT(before, 20U);
+  EXPECT_GT(left, 20U);
+  EXPECT_LT(count_small(body.mesh, typical), left / 4);
+  expect_valid(body.mesh, 1.0);
+  expect_pieces(body.mesh, volumes, 1e-12);
+}
+
+TEST(ThinShape, of_a_small_tet_are_the_edges_short_against_the_mesh) {
+  const TetMesh mesh = one_tet(Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0, 0.12, 0), Vec3(0, 0, 0.4));
+  const ThinTet small = find_short_edges(mesh, TetId(0), 3, 1.0);
+  EXPECT_EQ(small.shape, ThinShape::kSmall);
+  EXPECT_EQ(edges_of(small), (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}}));
+  EXPECT_EQ(find_short_edges(mesh, TetId(0), 3, 0.2).shape, ThinShape::kNone);
+}
+
+TEST(Merge, asks_the_papers_conditions_and_is_refused_by_them) {
+  // A slab so thin that tets reach from wall to wall: to merge across it would leave it hanging on nothing.
+  CutBody body = cut_as_paper(kuhn_cube(5), {{Vec3(1, 0.1, 0.05), 0.6}, {Vec3(1, 0.1, 0.05), 0.62}});
+  Transaction transaction(body.mesh, true);
+  paper::MergeCensus census;
+  paper::merge_edges(transaction,
+                     paper::find_tets_at(body.mesh, paper::find_divided_vertices(body.mesh, body.journal, 0)), {}, {},
+                     &census);
+  transaction.commit();
+  EXPECT_GT(census.asked, 100U);
+  EXPECT_GT(census.refused, 0U);
+  EXPECT_LT(census.refused, census.asked);
 }
 
 TEST(Merge, beside_a_curved_wall_changes_the_volume_by_little) {

@@ -153,6 +153,23 @@ TEST(PaperSeparation, figure_4_an_inner_vertex_follows_its_neighbour_on_the_surf
   expect_valid(mesh, 1.0);
 }
 
+TEST(PaperSeparation, algorithm_1_finds_the_vertices_within_the_faces_and_none_on_their_rim) {
+  TetMesh mesh = build(kuhn_cube(4));
+  const Faces faces = faces_where(mesh, [](const Vec3& p) {
+    return is_at(p.x(), 0.5) && is_between(p.y(), 0.25, 0.75) && is_between(p.z(), 0.5, 1.0);
+  });
+  Transaction transaction(mesh);
+  StarWalker walker;
+  std::vector<double> heights;
+  for (const VertexId v : find_dividable_vertices(transaction, faces, walker)) {
+    EXPECT_TRUE(is_at(mesh.rest(v).y(), 0.5));
+    heights.push_back(mesh.rest(v).z());
+  }
+  std::sort(heights.begin(), heights.end());
+  EXPECT_EQ(heights, (std::vector<double>{0.75, 1.0}));  // of nine vertices
+  EXPECT_TRUE(transaction.new_vertices().empty());
+}
+
 // --- T22: sheets inside the body
 // -----------------------------------------------------------------------------------------------
 

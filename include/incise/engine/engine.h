@@ -62,7 +62,9 @@ struct MaintainReport {
 ///
 /// A stroke is cut as a whole (`cut`) or step by step as the blade moves (`begin_stroke`, `step`, `end_stroke`), in a
 /// body at rest or one that moves (`set_positions`). After each step the mesh is valid and cut up to the blade, inside
-/// elements. The profile `paper` knows whole strokes alone: its steps cut nothing, `end_stroke` does.
+/// elements. The profile `paper` cuts whole elements in each step, and lags by the ones that the blade is still in; it
+/// merges and maintains when a stroke ends, but for the tets at the front of an incision that the next stroke may go on
+/// from (docs/decisions/0050).
 /// Maintenance follows the blade at a small distance, a band around the front of the cut, and ends with the stroke.
 /// Each call spends at most `MaintainOptions::work_units`; what is left undone waits for the next call or `maintain`.
 /// One writer; const reads from any thread between calls. A call either takes effect as a whole or not at all; where it
@@ -123,11 +125,12 @@ class Engine {
   Status set_positions(std::span<const Vec3> positions);
 
   /// Goes on with the maintenance that a budget left undone, for `work_units` more or until `should_stop` says so; it
-  /// counts as part of the last stroke. The same units on the same mesh give the same result, whatever stopped it.
-  /// Errors: kBadArgument while a stroke is under way, which is maintained as it goes; kInternal, where the mesh is
-  /// unchanged and nothing waits any more. Cost: about 0.1 µs per unit.
+  /// counts as part of the last stroke. The same units on the same mesh give the same result, whatever stopped it. In
+  /// the profile `paper` a call when nothing waits says that the incision is complete: its front is maintained, too,
+  /// and no stroke goes on from it. Errors: kBadArgument while a stroke is under way, which is maintained as it goes;
+  /// kInternal, where the mesh is unchanged and nothing waits any more. Cost: about 0.1 µs per unit.
   Result<MaintainReport> maintain(std::uint64_t work_units = kUnlimitedWork, const ShouldStop& should_stop = {});
-  /// Whether maintenance waits.
+  /// Whether maintenance waits; what the front of the paper's incision holds is not counted.
   [[nodiscard]] bool has_maintenance() const;
 
   /// Maintains the whole mesh, cut or not: an operation of its own for undo. Errors: kBadArgument while a stroke is

@@ -40,6 +40,10 @@ class StepCount {
   std::size_t done_ = 0, total_ = 0;
 };
 
+bool is_paper(const CutJob& job) {
+  return job.engine.cut.profile == Profile::kPaper;
+}
+
 /// Moves the blade from time to time; the last step's sample has the stroke's beginning and end as well.
 Result<StrokeReport> cut_by_steps(RecordedEngine& engine, const Stroke& stroke, detail::StepSamples& samples,
                                   StepCount& count) {
@@ -66,30 +70,31 @@ Result<StrokeReport> cut_whole(RecordedEngine& engine, const Stroke& stroke, det
   return report;
 }
 
-/// Whether the blade goes step by step: the paper cuts when a stroke is complete.
-bool goes_by_steps(const CutJob& job) {
-  return job.by_steps && job.engine.cut.profile != Profile::kPaper;
-}
-
 StepCount::StepCount(const CutJob& job) : job_(job) {
-  for (const Stroke& stroke : job.strokes) total_ += goes_by_steps(job) ? stroke.edges.size() - 1 : 1;
+  for (const Stroke& stroke : job.strokes) total_ += job.by_steps ? stroke.edges.size() - 1 : 1;
   if (job.progress) job.progress(0, total_);
 }
 
 /// Cuts along one stroke and maintains what its steps have not; the last cut is measured in between, off the clock.
+/// In the paper's profile an incision may go on until the last stroke, which completes it: a second call of
+/// maintenance.
 Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, StepCount& count, detail::Upkeep& upkeep,
                JobReport& report) {
   detail::StepSamples samples;
-  const auto cut = goes_by_steps(job) ? cut_by_steps : cut_whole;
+  const auto cut = job.by_steps ? cut_by_steps : cut_whole;
   const Result<StrokeReport> stroke = cut(engine, job.strokes[index], samples, count);
   if (!stroke.ok()) return in_stroke(stroke.error(), job, index);
   if (stroke->cut.cut_tets == 0 && stroke->cut.incision_faces == 0) report.missed.push_back(index);
   report.cut += stroke->cut;
   if (index + 1 == job.strokes.size()) detail::measure_cut(engine.mesh(), report);
   MaintainReport maintained{stroke->maintain, {}};
-  const Result<double> upkeep_ms = upkeep.run(engine, maintained);
-  if (!upkeep_ms.ok()) return upkeep_ms.error();
-  samples.extend(*upkeep_ms, maintained.times);
+  const bool completes = is_paper(job) && index + 1 == job.strokes.size();
+  for (unsigned run = 0; run < (completes ? 2 : 1); ++run) {
+    const Result<double> upkeep_ms = upkeep.run(engine, maintained);
+    if (!upkeep_ms.ok()) return upkeep_ms.error();
+    samples.extend(*upkeep_ms, maintained.times);
+    maintained.times = {};
+  }
   detail::add_operation(maintained.maintain, samples, report);
   return {};
 }
@@ -103,9 +108,10 @@ Status cut_all(RecordedEngine& engine, const CutJob& job, JobReport& report) {
   return {};
 }
 
-/// Strokes cut step by step are maintained in the blade's wake, but for those against a clock.
+/// Strokes cut step by step are maintained in the blade's wake, but for those against a clock and the paper's, which
+/// maintains once a stroke has ended.
 EngineOptions engine_options(const CutJob& job) {
-  return goes_by_steps(job) && job.budget_us == 0 ? job.engine : detail::without_upkeep(job.engine);
+  return job.by_steps && job.budget_us == 0 && !is_paper(job) ? job.engine : detail::without_upkeep(job.engine);
 }
 
 /// Says of all blades whether they sweep something and keep within reach, before anything is cut.

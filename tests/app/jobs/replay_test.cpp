@@ -292,8 +292,8 @@ TEST_F(Replay, leaves_the_figures_of_a_cut_job_alone) {
   EXPECT_NEAR(sum, report.total_ms, 1e-9);
   EXPECT_NEAR(stages, report.times.total(), 1e-9);
   EXPECT_LE(stages, sum);
-  job.engine.cut.profile = Profile::kPaper;  // cuts whole strokes
-  EXPECT_EQ(app::run_cut(io::load_mesh(mesh).value(), job, false)->report.step_ms.size(), 2U);
+  job.engine.cut.profile = Profile::kPaper;
+  EXPECT_EQ(app::run_cut(io::load_mesh(mesh).value(), job, false)->report.step_ms.size(), 9U);
 }
 
 // The recordings in tests/recordings replay on every build. After a change that means to change results, and after

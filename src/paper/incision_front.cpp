@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "paper/incision_front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "cut/constants.h"
+#include "incise/mesh/edge_length.h"
+#include "paper/constants.h"
+
+namespace incise {
+inline namespace v0 {
+
+namespace {
+
+using Points = std::vector<CollisionPoint>;
+
+bool is_before(const CollisionPoint& a, const CollisionPoint& b) {
+  return a.vertex < b.vertex;
+}
+
+bool lives(const TetMesh& mesh, const CollisionPoint& point) {
+  return mesh.is_live(point.vertex) && mesh.generation(point.vertex) == point.generation;
+}
+
+/// Sorted, each vertex once: the first one given.
+void make_set(Points& points) {
+  std::stable_sort(points.begin(), points.end(), is_before);
+  points.erase(std::unique(points.begin(), points.end(),
+                           [](const CollisionPoint& a, const CollisionPoint& b) { return a.vertex == b.vertex; }),
+               points.end());
+}
+
+double longest_edge_at(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star) {
+  double longest2 = 0;
+  for (const TetId tet : star) {
+    for (const VertexId other : mesh.vertices(tet)) {
+      longest2 = std::max(longest2, (mesh.rest(other) - mesh.rest(vertex)).squaredNorm());
+    }
+  }
+  return std::sqrt(longest2);
+}
+
+/// Whether an earlier sheet's point lies on a sheet, as if the two were one.
+bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, StarWalker& walker) {
+  const Vec3& place = mesh.rest(point.vertex);
+  const std::vector<TetId>& star = walker.star(mesh, point.vertex);
+  const double length = mean_edge_length_at(mesh, point.vertex, star);
+  const auto hit = sheet.tree().closest(place, kFrontReach * longest_edge_at(mesh, point.vertex, star));
+  if (!hit.is_valid()) return false;
+  const Vec3 normal = sheet.normal(hit.triangle).normalized();
+  return std::abs(normal.dot(point.normal)) > kFrontCosine &&
+         std::abs(normal.dot(place - hit.point)) < kFrontOffset * length;
+}
+
+/// Whether tissue around a vertex lies on both sides of the sheet: on the wall of a cut it does not, and nothing is
+/// left to be taken apart there.
+bool has_both_sides(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
+  const std::vector<TetId>& star = walker.star(mesh, vertex);
+  const double least = kCoincident * mean_edge_length_at(mesh, vertex, star);
+  bool is_above = false, is_below = false;
+  for (const TetId tet : star) {
+    for (const VertexId other : mesh.vertices(tet)) {
+      const double height = normal.dot(mesh.rest(other) - mesh.rest(vertex));
+      is_above = is_above || height > least;
+      is_below = is_below || height < -least;
+    }
+  }
+  return is_above && is_below;
+}
+
+}  // namespace
+
+void IncisionFront::begin_sheet() {
+  older_.insert(older_.end(), own_.begin(), own_.end());
+  own_.clear();
+  apart_.clear();
+  make_set(older_);
+}
+
+void IncisionFront::mark(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker) {
+  const auto met = std::stable_partition(older_.begin(), older_.end(), [&](const CollisionPoint& point) {
+    return !lives(mesh, point) || !lies_on(mesh, sheet, point, walker);
+  });
+  goes_on_ = goes_on_ || met != older_.end();
+  own_.insert(own_.end(), met, older_.end());
+  older_.erase(met, older_.end());
+  make_set(own_);
+  for (const CollisionPoint& point : own_) {
+    if (lives(mesh, point)) near.mark_on(point.vertex);
+  }
+}
+
+void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, StarWalker& walker) {
+  const auto add = [&](VertexId vertex, std::uint32_t triangle) {
+    own_.push_back({vertex, mesh.generation(vertex), sheet.normal(triangle).normalized()});
+  };
+  for (const CutEdge& edge : near.edges.edges()) {
+    if (edge.split.is_valid()) add(edge.split, edge.crossings.triangle);
+  }
+  make_set(own_);
+  const std::size_t known = own_.size();
+  for (const VertexId v : near.on) {
+    if (std::binary_search(own_.begin(), own_.begin() + static_cast<std::ptrdiff_t>(known), CollisionPoint{v},
+                           is_before)) {
+      continue;
+    }
+    const auto hit = sheet.tree().closest(mesh.rest(v), near.coincidence);
+    if (hit.is_valid() && has_both_sides(mesh, v, sheet.normal(hit.triangle).normalized(), walker)) {
+      add(v, hit.triangle);
+    }
+  }
+  make_set(own_);
+}
+
+void IncisionFront::follow(const TetMesh& mesh, const Step& step) {
+  for (const CopiedVertex& copied : step.copied) apart_.insert(apart_.end(), {copied.source, copied.id});
+  std::sort(apart_.begin(), apart_.end());
+  apart_.erase(std::unique(apart_.begin(), apart_.end()), apart_.end());
+  std::vector<VertexId> apart;
+  for (const CopiedVertex& copied : step.copied) apart.push_back(copied.source);
+  std::sort(apart.begin(), apart.end());
+  for (Points* points : {&own_, &older_}) {
+    std::erase_if(*points, [&](const CollisionPoint& point) {
+      return !lives(mesh, point) || std::binary_search(apart.begin(), apart.end(), point.vertex);
+    });
+  }
+}
+
+void IncisionFront::end_stroke(bool has_cut) {
+  if (has_cut && !goes_on_) older_.clear();
+  goes_on_ = false;
+}
+
+void IncisionFront::renew(const TetMesh& mesh) {
+  for (Points* points : {&own_, &older_}) {
+    std::erase_if(*points, [&](const CollisionPoint& point) { return !mesh.is_live(point.vertex); });
+    for (CollisionPoint& point : *points) point.generation = mesh.generation(point.vertex);
+  }
+}
+
+void IncisionFront::clear() {
+  own_.clear();
+  older_.clear();
+  apart_.clear();
+  goes_on_ = false;
+}
+
+std::vector<VertexId> IncisionFront::vertices(const TetMesh& mesh) const {
+  std::vector<VertexId> vertices;
+  for (const Points* points : {&own_, &older_}) {
+    for (const CollisionPoint& point : *points) {
+      if (lives(mesh, point)) vertices.push_back(point.vertex);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cut/sweep.h"
+#include "incise/mesh/journal.h"
+#include "incise/mesh/star.h"
+#include "paper/neighbourhood.h"
+
+namespace incise {
+inline namespace v0 {
+
+/// A collision point that no division has taken apart yet: the incision may go on from it.
+struct CollisionPoint {
+  VertexId vertex = {};
+  std::uint32_t generation = 0;  ///< of the vertex's slot
+  Vec3 normal = Vec3::Zero();    ///< unit, of the sheet there; zero where it had none
+};
+
+/// The collision points at the front of incisions, kept from frame to frame and from stroke to stroke.
+///
+/// A frame crosses some edges of a tet, the next one others: a face between collision points of both is an incision
+/// face, too. So every frame is cut with the points that those before have left joined. Points of the sheet under way
+/// count as they are. Those of an earlier sheet count where they lie on the present one: in its plane, and within an
+/// edge of it; an incision whose front a stroke meets like that goes on. Source: paper §2.2 and §2.3, which speak of
+/// one incision, and §4.2, in which it takes many frames; docs/decisions/0050.
+class IncisionFront {
+ public:
+  /// Those of the sheet so far become those of an earlier one. Cost: O(points).
+  void begin_sheet();
+  /// Marks the points that take part in the cut along a sheet, near or not, and makes them the sheet's own.
+  /// Cost: O(points of the sheet), and a search of the sheet for each earlier point.
+  void mark(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker);
+  /// Takes the collision points of a sheet besides: the vertices that split edges, and those of the mesh that lie on it
+  /// with tissue on both sides. `near` as `subdivide` left it. Cost: O(near edges + marked vertices · their stars).
+  void take(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, StarWalker& walker);
+  /// Drops the points that a step has taken apart, and those that it removed. Cost: O(points · log copies).
+  void follow(const TetMesh& mesh, const Step& step);
+  /// At the end of a stroke: incisions that it did not go on with are complete, if it cut anything.
+  void end_stroke(bool has_cut);
+  /// Has the points that live go by their slots' present generations, after undo or redo. Cost: O(points).
+  void renew(const TetMesh& mesh);
+  /// All incisions are complete.
+  void clear();
+
+  /// The vertices that the sheet under way has taken apart wholly, with their copies, ascending: those of its lips.
+  [[nodiscard]] const std::vector<VertexId>& apart() const { return apart_; }
+  /// Of the sheet under way, ascending.
+  [[nodiscard]] const std::vector<CollisionPoint>& own() const { return own_; }
+  /// Whether there are any points.
+  [[nodiscard]] bool is_empty() const { return own_.empty() && older_.empty(); }
+  /// The vertices of all of them that live, ascending.
+  [[nodiscard]] std::vector<VertexId> vertices(const TetMesh& mesh) const;
+
+ private:
+  std::vector<CollisionPoint> own_, older_;  // ascending
+  std::vector<VertexId> apart_;              // likewise
+  bool goes_on_ = false;                     // the stroke under way has met an older point
+};
+
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The profile paper in 20 scenes of bodies that move under a solver: the pieces of the profile incise, and nothing
+// else.
+#include <gtest/gtest.h>
+
+#include "deforming/leak_run.h"
+
+namespace incise::test {
+namespace {
+
+LeakResult run(LeakSettings settings, Profile profile) {
+  settings.cut.profile = profile;
+  return run_leak(settings);
+}
+
+TEST(PaperLeaks, none_in_twenty_scenes_of_moving_bodies) {
+  for (const BodyKind body : {BodyKind::kBeam, BodyKind::kCube, BodyKind::kBall, BodyKind::kShuffled}) {
+    for (const Motion motion :
+         {Motion::kStraight, Motion::kPause, Motion::kTremor, Motion::kCurve, Motion::kWithdrawal}) {
+      LeakSettings settings;
+      settings.body = body;
+      settings.motion = motion;
+      settings.steps = 60;
+      settings.seed = 11;
+      settings.check_every = 4;
+      SCOPED_TRACE(testing::Message() << name_of(body) << ", motion " << static_cast<unsigned>(motion));
+      const LeakResult paper = run(settings, Profile::kPaper), incise = run(settings, Profile::kIncise);
+      EXPECT_EQ(paper.failure, "");
+      EXPECT_EQ(paper.invalid, 0U);
+      EXPECT_EQ(paper.crumbs, 0U);
+      EXPECT_EQ(paper.pieces, paper.expected);
+      EXPECT_EQ(paper.pieces, incise.pieces);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace incise::test

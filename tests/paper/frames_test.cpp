@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// The paper's cut frame by frame, in the body as it stands: the same pieces however often the blade is looked at.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "support/bodies.h"
+#include "support/engines.h"
+#include "support/strokes.h"
+
+namespace incise::test {
+namespace {
+
+/// Where a point of the body stands at a share of the stroke's time, and where a blade must be to meet it there.
+using Place = std::function<Vec3(const Vec3& rest, double time)>;
+
+Vec3 at_rest(const Vec3& rest, double) {
+  return rest;
+}
+/// The whole body is carried along and turned; a blade at the same place of the world cuts another place of the body.
+Vec3 carried(const Vec3& rest, double time) {
+  const double c = (1.0 - 0.04 * time * time) / (1.0 + 0.04 * time * time), s = 0.4 * time / (1.0 + 0.04 * time * time);
+  return {c * rest.x() - s * rest.y() + 0.3 + 0.2 * time, s * rest.x() + c * rest.y() - 0.1 * time, rest.z() + 0.5};
+}
+/// Stretched and sheared, more and more: each tet stands otherwise than at rest.
+Vec3 sheared(const Vec3& rest, double time) {
+  return {rest.x() * (1.1 + 0.2 * time) + 0.3 * rest.z(), rest.y() + 0.2 * time * rest.x(),
+          rest.z() * (1 - 0.1 * time)};
+}
+
+void move(Engine& engine, const Place& place, double time) {
+  const TetMesh& mesh = engine.mesh();
+  std::vector<Vec3> positions(mesh.vertex_slots(), Vec3::Zero());
+  mesh.for_each_vertex([&](VertexId v) { positions[v.value] = place(mesh.rest(v), time); });
+  ASSERT_TRUE(engine.set_positions(positions).ok());
+}
+
+/// A blade's edge at a share of its way, in the body at rest.
+using Blade = std::function<std::vector<Vec3>(double time)>;
+
+/// In the plane x = d, along y from below to above.
+Blade straight(double d) {
+  return [d](double t) { return std::vector<Vec3>{Vec3(d, -0.2, -0.2 + 1.4 * t), Vec3(d, 1.2, -0.2 + 1.4 * t)}; };
+}
+Blade oblique() {
+  return [](double t) {
+    const Vec3 along(0.2, 1.0, 0.1), way(-0.15, 0.02, 1.0);
+    const Vec3 start = Vec3(0.57, 0.5, 0.5) - 0.85 * way + 1.7 * t * way;
+    return std::vector<Vec3>{Vec3(start - 0.9 * along), Vec3(start + 0.9 * along)};
+  };
+}
+/// Bends by a fifth of the body on its way.
+Blade curved() {
+  return [](double t) {
+    const double z = -0.2 + 1.4 * t, x = 0.4 + 0.8 * (t - t * t);
+    return std::vector<Vec3>{Vec3(x, -0.2, z), Vec3(x, 1.2, z)};
+  };
+}
+
+/// Cuts in `frames` frames of as many strokes as `strokes`, through the body as it stands.
+Engine cut_in_frames(TetSoup soup, const Blade& blade, const Place& place, unsigned frames, unsigned strokes,
+                     bool maintains) {
+  EngineOptions options;
+  options.cut.profile = Profile::kPaper;
+  options.maintain.merge = options.maintain.improve = maintains;
+  Engine engine = Engine::create(build(std::move(soup)), options).value();
+  const double volume = volume_of(engine.mesh());
+  const auto pose = [&](double time) {
+    BladePose stands;
+    for (const Vec3& point : blade(time)) stands.edge.push_back(place(point, time));
+    return stands;
+  };
+  const unsigned parts = frames * strokes;
+  for (unsigned i = 0; i < parts; ++i) {
+    const double before = static_cast<double>(i) / parts, now = static_cast<double>(i + 1) / parts;
+    move(engine, place, before);
+    if (i % frames == 0) {
+      EXPECT_TRUE(engine.begin_stroke(pose(before)).ok());
+    }
+    move(engine, place, now);
+    EXPECT_TRUE(engine.step(pose(now)).ok());
+    expect_valid(engine.mesh(), volume, maintains ? 1e-2 : 1e-12);
+    if (i % frames == frames - 1) {
+      EXPECT_TRUE(engine.end_stroke().ok());
+    }
+  }
+  expect_valid(engine.mesh(), volume, maintains ? 1e-2 : 1e-12);
+  return engine;
+}
+
+constexpr std::pair<unsigned, unsigned> kFramesAndStrokes[] = {{1, 1},  {2, 1}, {4, 1},  {7, 1}, {14, 1}, {28, 1},
+                                                               {70, 1}, {1, 2}, {1, 4},  {1, 7}, {1, 14}, {1, 28},
+                                                               {5, 14}, {2, 2}, {10, 7}, {3, 28}};
+
+TEST(PaperFrames, cut_the_papers_cube_to_1300_tets_in_any_number_of_frames_and_strokes) {
+  for (const bool maintains : {false, true}) {
+    for (const auto& [frames, strokes] : kFramesAndStrokes) {
+      SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes, maintains " << maintains);
+      const Engine engine = cut_in_frames(kuhn_cube(5), straight(0.5), at_rest, frames, strokes, maintains);
+      EXPECT_EQ(engine.mesh().tet_count(), 1300U);
+      expect_pieces(engine.mesh(), {0.5, 0.5}, 1e-12);
+    }
+  }
+}
+
+TEST(PaperFrames, cut_a_body_that_has_moved_where_it_stands) {
+  // The blade stands at x = 0.8 of the world, which is the middle of a body that was moved by 0.3.
+  const Place moved = [](const Vec3& rest, double) { return Vec3(rest + Vec3(0.3, 0, 0)); };
+  for (const unsigned frames : {1U, 4U, 28U}) {
+    SCOPED_TRACE(frames);
+    const Engine engine = cut_in_frames(kuhn_cube(5), straight(0.5), moved, frames, 1, true);
+    expect_pieces(engine.mesh(), {0.5, 0.5}, 1e-6);
+    EXPECT_EQ(engine.mesh().tet_count(), 1300U);
+  }
+}
+
+TEST(PaperFrames, give_the_same_pieces_at_rest) {
+  std::vector<double> pieces;
+  for (const auto& [frames, strokes] : kFramesAndStrokes) {
+    SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes");
+    const Engine engine = cut_in_frames(jittered_cube(5, 3), oblique(), at_rest, frames, strokes, false);
+    if (pieces.empty()) pieces = piece_volumes(engine.mesh());
+    ASSERT_EQ(pieces.size(), 2U);
+    expect_pieces(engine.mesh(), pieces, 1e-9);
+  }
+}
+
+TEST(PaperFrames, give_the_same_pieces_along_a_curve) {
+  std::vector<double> pieces;
+  for (const auto& [frames, strokes] : kFramesAndStrokes) {
+    if (frames * strokes < 28) continue;  // another surface
+    SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes");
+    const Engine engine = cut_in_frames(jittered_cube(5, 3), curved(), at_rest, frames, strokes, false);
+    if (pieces.empty()) pieces = piece_volumes(engine.mesh());
+    ASSERT_EQ(pieces.size(), 2U);
+    expect_pieces(engine.mesh(), pieces, 2e-3);
+  }
+}
+
+TEST(PaperFrames, give_the_same_pieces_in_a_body_that_stands_otherwise) {
+  for (const Blade& blade : {straight(0.5), oblique()}) {
+    const Engine rest = cut_in_frames(jittered_cube(5, 3), blade, at_rest, 28, 1, false);
+    const Place stands = [](const Vec3& p, double) { return sheared(carried(p, 0.7), 0.6); };
+    for (const auto& [frames, strokes] : kFramesAndStrokes) {
+      SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes");
+      const Engine engine = cut_in_frames(jittered_cube(5, 3), blade, stands, frames, strokes, false);
+      expect_pieces(engine.mesh(), piece_volumes(rest.mesh()), 2e-3);
+    }
+  }
+}
+
+TEST(PaperFrames, give_the_same_pieces_in_a_body_that_moves) {
+  for (const Place& place : {Place(carried), Place(sheared)}) {
+    for (const bool maintains : {false, true}) {
+      const Engine rest = cut_in_frames(jittered_cube(5, 3), oblique(), at_rest, 28, 1, maintains);
+      for (const auto& [frames, strokes] : kFramesAndStrokes) {
+        SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes, maintains " << maintains);
+        const Engine engine = cut_in_frames(jittered_cube(5, 3), oblique(), place, frames, strokes, maintains);
+        ASSERT_EQ(piece_volumes(engine.mesh()).size(), 2U);
+        // In a few frames the body moves far in each, under a blade that stands still meanwhile: another surface.
+        if (frames * strokes >= 28) expect_pieces(engine.mesh(), piece_volumes(rest.mesh()), 0.02);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace incise::test
