@@ -94,6 +94,7 @@ struct Simulation::State {
   StepReport told;  // of the stroke under way: what the frames have reported
   std::vector<Vec3> blade_before;
   detail::BladeCoupling coupling;
+  ToolContacts tool_contacts;
   std::map<std::uint32_t, Grip> grips;
   HapticSnapshot snapshot;
 
@@ -165,9 +166,10 @@ Status Simulation::State::press(const FrameInput& input, FrameReport& report) {
   if (input.blade && coupling.resists()) coupling.press(*input.blade, engine.mesh(), pulls);
   std::vector<Tool> tools = input.tools;
   add_flat(input, tools);
-  const std::size_t others = pulls.size();
-  find_contacts(engine.mesh(), solver->positions(), tools, contact_stiffness, 0.1 * spacing, pulls);
-  report.contacts = pulls.size() - others;
+  ToolContactOptions contact{contact_stiffness, 0.1 * spacing, Vec3::Zero()};
+  const double dt = options.frame_seconds;
+  if (body != nullptr) contact.speed_up = dt * dt / options.body.length_unit * options.body.gravity;
+  report.contacts = tool_contacts.find(engine.mesh(), solver->positions(), tools, contact, pulls);
   return solver->set_pulls(std::move(pulls));
 }
 
@@ -414,6 +416,7 @@ std::uint64_t Simulation::hash() const {
   StateHash hash;
   hash.add(state_->engine.mesh().hash());
   hash.add(state_->solver->hash());
+  state_->tool_contacts.add_to(hash);
   return hash.value();
 }
 

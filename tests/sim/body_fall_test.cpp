@@ -144,6 +144,102 @@ TEST(BodyFall, AngularMomentumOfASpinningBodyIsKept) {
   EXPECT_LT(jump, 0.05);
 }
 
+/// What keeps the energy of a free body in bounds takes nothing from its spin.
+TEST(BodyFall, AFreeBodySpinsOnForTenSeconds) {
+  for (const double rate : {3.0, 20.0, 30.0}) {
+    BodyOptions options;
+    options.gravity = Vec3::Zero();
+    MovingBody moving(kuhn_box(Vec3::Zero(), {0.04, 0.04, 0.04}, {4, 4, 4}), {tissue(30e3), {}}, options);
+    moving.mesh().for_each_vertex([&](VertexId v) {
+      const Vec3 r = moving.mesh().rest(v) - Vec3(0.02, 0.02, 0.02);
+      ASSERT_TRUE(moving.body().set_velocity(v, Vec3(0.02, 0, 0) + Vec3(0.1, 0.2, rate).cross(r)).ok());
+    });
+    const Lump before = whole(moving);
+    moving.advance(600);
+    const Lump after_it = whole(moving);
+    EXPECT_LT((after_it.spin - before.spin).norm(), 1e-9 * before.spin.norm()) << rate << " rad/s";
+    EXPECT_LT((after_it.momentum - before.momentum).norm(), 1e-9 * before.momentum.norm()) << rate << " rad/s";
+    EXPECT_EQ(moving.body().count_inverted(), 0U);
+  }
+}
+
+/// The length of the longest edge over what it is at rest.
+double worst_stretch(const MovingBody& moving) {
+  double worst = 0;
+  moving.mesh().for_each_tet([&](TetId t) {
+    const TetVertices& v = moving.mesh().vertices(t);
+    for (const auto& [a, b] : kEdgeCorners) {
+      const double now = (moving.state().places[v[a].value] - moving.state().places[v[b].value]).norm();
+      worst = std::max(worst, now / (moving.mesh().rest(v[a]) - moving.mesh().rest(v[b])).norm());
+    }
+  });
+  return worst;
+}
+
+/// A chip much smaller than a tet, cut off a corner, keeps its shape, falls as a point, and sleeps after a second.
+TEST(BodyFall, ACrumbMovesAsAPointAndSleeps) {
+  EngineOptions sharp;
+  sharp.cut.snap = 0;
+  sharp.maintain.merge = sharp.maintain.improve = false;
+  MovingBody moving(kuhn_cube(4), {tissue(3e3), {}}, {}, sharp);
+  moving.hold_where(0);
+  moving.advance(2);
+  moving.cut_plane(Vec3(1, 1.1, 1.2), 3.277);
+  moving.advance(2);
+  ASSERT_EQ(moving.state().pieces.size(), 2U);
+  ASSERT_EQ(moving.state().crumbs.size(), 1U);
+  const std::vector<std::uint32_t> chip = moving.state().crumbs[0].vertices;
+  const Vec3 before = moving.state().places[chip[0]];
+  const Vec3 side = moving.state().places[chip[1]] - before;
+  moving.advance(30);
+  EXPECT_LT(moving.state().places[chip[0]].z(), before.z() - 0.5);
+  EXPECT_LT((moving.state().places[chip[1]] - moving.state().places[chip[0]] - side).norm(), 1e-12);
+  moving.advance(60);
+  const Vec3 asleep = moving.state().places[chip[0]];
+  moving.advance(30);
+  EXPECT_EQ(moving.state().places[chip[0]], asleep);
+  EXPECT_EQ(moving.body().velocity(VertexId(chip[0])), Vec3::Zero());
+  ASSERT_TRUE(moving.engine().undo());
+  moving.follow();
+  moving.advance(2);
+  EXPECT_TRUE(moving.state().crumbs.empty());
+  EXPECT_EQ(moving.body().active_vertices(), moving.mesh().vertex_count() - 25);
+}
+
+/// Without snapping strokes leave slivers; none is drawn out.
+TEST(BodyFall, CrumbsOfManyStrokesAreNotDrawnOut) {
+  EngineOptions sharp;
+  sharp.cut.snap = 0;
+  MovingBody moving(jittered_cube(4, 21), {tissue(3e3), {}}, {}, sharp);
+  moving.hold_where(0);
+  Random random(21);
+  const Box box = rest_bounds(moving.mesh());
+  for (int i = 0; i < 10; ++i) {
+    moving.cut(random_stroke(random, box));
+    moving.advance(10);
+  }
+  moving.advance(120);
+  EXPECT_TRUE(moving.body().is_finite());
+  EXPECT_LT(worst_stretch(moving), 20);
+}
+
+/// What has fallen five lengths from what is held costs nothing more.
+TEST(BodyFall, WhatHasFallenFarSleeps) {
+  MovingBody moving(kuhn_cube(4), {tissue(300e3), {}});
+  moving.hold_where(0);
+  moving.cut_plane(Vec3(1, 0, 0), 0.55);
+  moving.advance(150);
+  const std::size_t loose = static_cast<std::size_t>(
+      std::count_if(moving.state().piece_of.begin(), moving.state().piece_of.end(),
+                    [&](std::uint32_t piece) { return moving.state().pieces[piece].is_free; }));
+  ASSERT_GT(loose, 0U);
+  EXPECT_LE(moving.body().active_vertices(), moving.mesh().vertex_count() - loose - 25);
+  const Lump lump =
+      lump_of(moving, [&](VertexId v) { return moving.state().pieces[moving.state().piece_of[v]].is_free; });
+  EXPECT_LT(lump.centre.z(), -4);
+  EXPECT_GT(lump.centre.z(), -9);
+}
+
 TEST(BodyFall, DampingSlowsAllPiecesAlike) {
   BodyOptions options;
   options.gravity = Vec3::Zero();

@@ -75,6 +75,23 @@ TEST(BodySleep, TheSagIsThatOfABeamThatNeverSleeps) {
   EXPECT_NEAR(sag(moving, kBeam), expected, 0.005 * expected);
 }
 
+TEST(BodySleep, WhatPullsAsBeforeLetsItSleep) {
+  MovingBody moving = held_beam(damped());
+  Pull pull;
+  pull.vertices = {vertices_at(moving.mesh(), kBeam.size.x()).front()};
+  pull.target = moving.state().places[pull.vertices[0].value] + Vec3(0, 0, 0.01);
+  pull.stiffness = 20;
+  for (unsigned i = 0; i < 3000 && (i == 0 || moving.body().active_vertices() > 0); ++i) {
+    ASSERT_TRUE(moving.body().set_pulls({pull}).ok());
+    moving.advance();
+  }
+  EXPECT_EQ(moving.body().active_vertices(), 0U);
+  EXPECT_GT(moving.body().pull_force(0).norm(), 1e-3);
+  ASSERT_TRUE(moving.body().set_pulls({}).ok());
+  moving.advance();
+  EXPECT_GT(moving.body().active_vertices(), 0U);
+}
+
 TEST(BodySleep, WhatIsAsleepWakes) {
   const std::vector<std::pair<const char*, std::function<void(MovingBody&)>>> causes = {
       {"a pull",

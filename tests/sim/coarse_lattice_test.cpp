@@ -107,10 +107,10 @@ TEST(CoarseLattice, PiecesThatCameOffMoveByThemselves) {
   Engine engine = Engine::create(make_beam(beam), engine_options).value();
   ASSERT_TRUE(engine.cut(*plane_stroke({Vec3::Zero(), beam.size}, Vec3(1, 0, 0), 0.05)).ok());
   DeformableBody body = hung_beam(engine.mesh(), {});
-  for (int i = 0; i < 60; ++i) ASSERT_TRUE(body.advance(1.0 / 60).ok());
+  for (int i = 0; i < 12; ++i) ASSERT_TRUE(body.advance(1.0 / 60).ok());
   const std::vector<Vec3> positions(body.positions().begin(), body.positions().end());
   const double fallen = tip_sag(engine.mesh(), positions, beam);
-  EXPECT_NEAR(fallen, 0.5 * 9.81, 0.05);  // 240 implicit steps in 1 s: a little further than in truth
+  EXPECT_NEAR(fallen, 0.02 * 9.81, 0.005);  // 48 implicit steps in 0.2 s: a little further than in truth
   double held = 0;
   engine.mesh().for_each_vertex([&](VertexId v) {
     if (engine.mesh().rest(v).x() < 0.049) held = std::max(held, (positions[v.value] - engine.mesh().rest(v)).norm());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything in here lives in a namespace of its own, so that it does not meet the library's kernel at link time.
-#define v0 v0_plain                  // NOLINT(readability-identifier-naming): the library's namespace
-#include "sim/body/star_kernel.cpp"  // NOLINT(bugprone-suspicious-include): the file under test, without Highway
+#define v0 v0_plain                    // NOLINT(readability-identifier-naming): the library's namespace
+#include "sim/body/contact_terms.cpp"  // NOLINT(bugprone-suspicious-include): what the kernel calls
+#include "sim/body/star_kernel.cpp"    // NOLINT(bugprone-suspicious-include): the file under test, without Highway
 #undef v0
 
 #include "plain_kernel.h"
@@ -19,7 +20,9 @@ plain::Descent descent_of(const PlainDescent& d) {
           static_cast<const plain::Star*>(d.stars),
           static_cast<const plain::Motion*>(d.motions),
           static_cast<const plain::PullTerm*>(d.terms),
-          static_cast<const plain::PullUse*>(d.uses)};
+          static_cast<const plain::PullUse*>(d.uses),
+          nullptr,
+          nullptr};
 }
 }  // namespace
 

@@ -13,6 +13,7 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/material.h"
+#include "incise/sim/self_contact.h"
 #include "incise/sim/solver.h"
 
 namespace incise {
@@ -36,6 +37,7 @@ struct BodyOptions {
   double sleep_below = 1e-5;  ///< of the local edge length per `advance`: what moves less falls asleep; 0: never
   unsigned threads = 1;       ///< in [1, 256]; two are of use, and the result does not depend on them
   double crumb = 0;           ///< length unit³: smaller tets only resist stretch; 0: 3e-6 of the mean one at load
+  SelfContactOptions self;    ///< contact of the body with itself and of its pieces with each other
   bool coarse = true;  ///< substeps of block descent begin with a step on a coarse lattice through the whole body
 };
 
@@ -56,9 +58,11 @@ struct BodyEnergy {
 /// Chen et al. 2024, in a split form whose stretch part is a constant Laplacian and whose volume part needs no
 /// deformation gradient). Mass, momentum and rest volume are kept through every step of the journal. Free pieces fall
 /// as they must: what the unfinished descent takes from the momentum of a piece is given back to it rigidly; what has
-/// fallen 200 body lengths from what is held sleeps there. What a body left alone gains in energy its motion pays for.
-/// Positions are in the mesh's length unit, all else in SI units. Not thread-safe. The same calls give the same bits on
-/// every compiler and number of threads. *Differs* from the paper, which relaxes a mass-spring mesh.
+/// fallen 5 body lengths from what is held sleeps there, and
+/// free crumbs below a hundredth of the mean tet move as points and sleep after a second. What a body left alone gains
+/// in energy its motion pays for. Positions are in the mesh's length unit, all else in SI units. Not thread-safe. The
+/// same calls give the same bits on every compiler and number of threads. *Differs* from the paper, which relaxes a
+/// mass-spring mesh.
 class DeformableBody final : public Solver {
  public:
   /// Takes the body as it stands, at rest or not, without velocity, and follows its `journal` from here on.
@@ -96,8 +100,8 @@ class DeformableBody final : public Solver {
   Status move_hold(VertexId vertex, const Vec3& target);
   /// Whether a vertex is held, rigidly or by a spring.
   [[nodiscard]] bool is_held(VertexId vertex) const;
-  /// Replaces all pulls. Vertices in them are kept awake. Errors: kBadArgument names the first malformed pull; then
-  /// nothing changes. Cost: O(pulls).
+  /// Replaces all pulls. Wakes the vertices of those that come, go or change; what pulls as before lets them sleep.
+  /// Errors: kBadArgument names the first malformed pull; then nothing changes. Cost: O(pulls).
   Status set_pulls(std::vector<Pull> pulls) override;
   /// As set last; those whose vertices died pull no more.
   [[nodiscard]] const std::vector<Pull>& pulls() const;

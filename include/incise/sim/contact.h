@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "incise/core/hash.h"
 #include "incise/geom/vec.h"
 #include "incise/mesh/tet_mesh.h"
 #include "incise/sim/body.h"
@@ -111,14 +113,48 @@ struct ToolOutline {
 /// Errors: kBadArgument names what is out of range.
 [[nodiscard]] Status check(const Tool& tool);
 
-/// Finds the vertices of the surface that a tool touches, or is about to, and what it does to each: a pull that only
-/// pushes, along the tool's normal.
+/// How tools press.
+struct ToolContactOptions {
+  double stiffness = 0;          ///< N/m per vertex, at least 0
+  double margin = 0;             ///< length unit, at least 0: as near as this a vertex is touched, however slow it is
+  Vec3 speed_up = Vec3::Zero();  ///< by which a frame's motion grows in the next one: gravity, length unit
+};
+
+/// What tools touch, from frame to frame.
 ///
-/// A vertex counts as about to be touched within `margin` of the tool. Each vertex is pushed by the tool that it is
-/// deepest in alone. `stiffness` in N/m per vertex.
-/// Appends to `pulls`. Cost: about 2 ns per vertex slot and tool, plus the touched vertices.
-void find_contacts(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools, double stiffness,
-                   double margin, std::vector<Pull>& pulls);
+/// A vertex of the surface is about to be touched where `margin`, together with the way that it went in the last frame,
+/// `speed_up` and the way of the tool, brings it into the tool: so it is stopped at the tool's surface and not found
+/// within, where a spring would throw it out with energy that nobody put in. What is found within all the same (a tool
+/// that appears in the tissue, a cut under it) starts without a force: the depth at which it is found counts as none
+/// and fades over five frames. What the tool's own motion brings into it is pushed at once: the hand does that work.
+/// The same calls give the same bits everywhere.
+class ToolContacts {
+ public:
+  /// Appends a pull that only pushes, along the tool's normal, for each vertex that is touched or about to be. Each
+  /// vertex is pushed by the tool that it is deepest in alone. Tools are the same from call to call by their place in
+  /// the list and their kind. To be called once per frame. Returns how many vertices lie within `margin`.
+  /// Cost: about 3 ns per vertex slot and tool, plus the touched vertices.
+  std::size_t find(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools,
+                   const ToolContactOptions& options, std::vector<Pull>& pulls);
+  /// Adds the depths that still fade to a hash; nothing where there are none. Cost: O(touched).
+  void add_to(StateHash& hash) const;
+
+ private:
+  /// A vertex that a tool touches, or is about to.
+  struct Held {
+    std::uint32_t vertex = 0, tool = 0;
+    unsigned age = 0;  ///< frames
+    double depth = 0;  ///< that counted as none at first, at most 0; length unit
+  };
+
+  [[nodiscard]] double depth_before(const Tool& tool, std::size_t index, const Vec3& point, const Vec3& inner) const;
+  [[nodiscard]] Held take_up(const Held& found, const Tool& tool, const Vec3& point, const Vec3& inner, double distance,
+                             std::size_t& next) const;
+
+  std::vector<Held> held_, fresh_;  // by vertex; `fresh_`: scratch
+  std::vector<Tool> tools_;         // of the last call
+  std::vector<Vec3> positions_;     // likewise
+};
 
 }  // namespace v0
 }  // namespace incise

@@ -28,6 +28,9 @@ struct Pull {
   bool pushes_only = false;                   ///< with an axis: acts only where axis · (a − target) < 0
   /// With an axis: N, at least 0; where the spring would pull harder it gives way, and pulls with this.
   double limit = std::numeric_limits<double>::infinity();
+
+  /// Whether both are the same in all numbers.
+  friend bool operator==(const Pull&, const Pull&) = default;
 };
 
 /// What following the journal changed.
@@ -40,6 +43,7 @@ struct FollowReport {
 struct AdvanceReport {
   std::size_t active_vertices = 0;  ///< that were awake
   double fastest = 0;               ///< greatest speed of a vertex, m/s
+  std::size_t self_contacts = 0;    ///< vertices that pressed on faces of the same body
 };
 
 /// What relaxes the tissue of a `Simulation`. `DeformableBody` is the solver that Incise has; derive from this one to

@@ -28,6 +28,8 @@ Status check(const BodyOptions& o) {
   if (!(o.thinnest >= 0 && o.thinnest <= 0.5)) return bad("`thinnest` must lie in [0, 0.5] of the longest edge");
   if (!(o.sleep_below >= 0 && o.sleep_below <= 0.1)) return bad("`sleep_below` must lie in [0, 0.1] of an edge");
   if (!is_not_negative(o.crumb)) return bad("a crumb must be of finite volume, at least 0");
+  if (!is_not_negative(o.self.friction)) return bad("the friction of a body on itself must be at least 0");
+  if (!is_not_negative(o.self.stiffness)) return bad("the stiffness of contact must be at least 0 Pa/m");
   if (o.threads < 1 || o.threads > 256) return bad("the number of threads must lie in [1, 256]");
   return {};
 }
@@ -96,6 +98,7 @@ Status DeformableBody::hold(VertexId vertex, double stiffness) {
   State& s = *state_;
   if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live: it cannot be held");
   if (!(stiffness >= 0)) return bad("the stiffness of a hold must be at least 0 N/m");
+  s.dissolve_crumb_at(vertex);
   if (stiffness == 0) {
     s.clear_hold(vertex);
   } else {
@@ -113,6 +116,7 @@ Status DeformableBody::move_hold(VertexId vertex, const Vec3& target) {
   if (!target.allFinite()) return bad("the target of a hold is not finite");
   hold->second.target = target;
   if (hold->second.is_rigid()) {
+    s.contact.note_jump((target - s.places[vertex.value]).norm());
     s.places[vertex.value] = target;
     s.round_place(vertex);
   }
@@ -128,7 +132,7 @@ Status DeformableBody::set_pulls(std::vector<Pull> pulls) {
   for (std::size_t i = 0; i < pulls.size(); ++i) {
     if (Status status = check(pulls[i], i, *state_); !status) return status;
   }
-  for (const Pull& old : state_->pulls) state_->wake_pulled(old);
+  state_->wake_where_pulls_differ(pulls);
   state_->pulls = std::move(pulls);
   return {};
 }
@@ -196,6 +200,7 @@ Status DeformableBody::place(VertexId vertex, const Vec3& position) {
   State& s = *state_;
   if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live");
   if (!position.allFinite()) return bad("the position of vertex " + std::to_string(vertex.value) + " is not finite");
+  s.contact.note_jump((position - s.places[vertex.value]).norm());
   s.places[vertex.value] = position;
   s.set_momentum(vertex, Vec3::Zero());
   s.round_place(vertex);
@@ -214,6 +219,7 @@ Status DeformableBody::set_velocity(VertexId vertex, const Vec3& velocity) {
   if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live");
   if (!velocity.allFinite()) return bad("the velocity of vertex " + std::to_string(vertex.value) + " is not finite");
   if (s.held[vertex] == detail::Held::kRigidly) return {};
+  s.dissolve_crumb_at(vertex);
   s.set_momentum(vertex, s.mass_of(vertex) / s.unit() * velocity);
   s.order.wake_star(vertex, s.stars);
   return {};
@@ -325,6 +331,7 @@ std::uint64_t DeformableBody::hash() const {
       hash.add(momentum.data()[i]);
     }
   }
+  state_->contact.add_to(hash);
   return hash.value();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One step in time: implicit Euler by vertex block descent.
+#include <algorithm>
 #include <cmath>
 
 #include "incise/geom/box.h"
@@ -18,6 +19,8 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   State& s = *state_;
   s.label_stale_pieces();
   if (s.drifted > 0.5 * s.extent) s.centre();
+  if (s.options.self.on) s.contact.find(s, dt);
+  s.find_groups();
   s.prepare_pulls();
   s.order.refresh();
   AdvanceReport report;
@@ -32,18 +35,25 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
     s.expect_motion(h);
     s.begin_substep(h);
     s.descend(h);
+    s.move_carried();
     s.end_substep(h, report.fastest);
     s.correct_motion(h);
   }
   if (is_watched) s.keep_energy(before, dt);
+  s.move_crumbs(dt);
   s.drifted += report.fastest * dt;
+  if (s.options.self.on) {
+    s.contact.finish(s, dt, report.fastest);
+    report.self_contacts = s.contact.count_pressing();
+  }
   report.fastest *= s.unit();
   s.fall_asleep();
   return report;
 }
 
 detail::Descent DeformableBody::State::descent() {
-  return {floats.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
+  return {floats.data(), stars.blocks(),         stars.all(),   motions.data(), terms.data(),
+          uses.data(),   contact.terms().data(), contact.uses()};
 }
 
 void DeformableBody::State::round_place(VertexId v) {
@@ -57,7 +67,7 @@ void DeformableBody::State::centre() {
   Box all, held_pieces;
   for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
     const VertexId v(slot);
-    if (!is_live(v)) continue;
+    if (!is_live(v) || in_crumb[v] != 0) continue;
     all.extend(places[slot]);
     if (!pieces.empty() && !pieces[piece_of[v]].is_free) held_pieces.extend(places[slot]);
   }
@@ -94,6 +104,33 @@ detail::PullTerm detail::term_of(const Pull& pull, const Vec3& middle, double un
 void DeformableBody::State::wake_pulled(const Pull& pull) {
   for (unsigned i = 0; i < 4; ++i) {
     if (pull.weights[i] != 0 && pull.stiffness > 0) order.wake(pull.vertices[i]);
+  }
+}
+
+/// What pulls as it did lets its vertices sleep: a table under what rests on it, a hook that is held still.
+void DeformableBody::State::wake_where_pulls_differ(const std::vector<Pull>& next) {
+  const auto by_vertex = [](const std::vector<Pull>& list) {
+    std::vector<std::uint32_t> sorted(list.size());
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) sorted[i] = i;
+    std::stable_sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return list[a].vertices[0].value < list[b].vertices[0].value;
+    });
+    return sorted;
+  };
+  const std::vector<std::uint32_t> old_order = by_vertex(pulls), new_order = by_vertex(next);
+  std::size_t i = 0, j = 0;
+  while (i < old_order.size() || j < new_order.size()) {
+    const Pull* before = i < old_order.size() ? &pulls[old_order[i]] : nullptr;
+    const Pull* after = j < new_order.size() ? &next[new_order[j]] : nullptr;
+    if (before != nullptr && after != nullptr && *before == *after) {
+      ++i, ++j;
+    } else if (after == nullptr || (before != nullptr && before->vertices[0].value <= after->vertices[0].value)) {
+      wake_pulled(*before);
+      ++i;
+    } else {
+      wake_pulled(*after);
+      ++j;
+    }
   }
 }
 
@@ -138,7 +175,6 @@ void DeformableBody::State::list_uses() {
     detail::Motion& motion = motions[v];
     uses[motion.first_pull + motion.pulls++] = {t, w};
   });
-  for (const Pull& pull : pulls) wake_pulled(pull);
 }
 
 // --- one substep
@@ -220,6 +256,7 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
     detail::Motion& motion = motions[VertexId(slot)];
     motion.weight = 0;
     motion.pulls = 0;
+    motion.contacts = 0;
   }
   std::vector<std::array<float, 3>> before;
   const auto place_of = [&](std::uint32_t slot) {

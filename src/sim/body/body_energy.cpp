@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An implicit step only ever takes energy from a body that is left alone. A descent that was not finished may add some,
 // and light vertices may carry it on until all flies apart: so what a step has added is taken from the motion.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -24,22 +25,69 @@ double energy_of(const detail::PullTerm& term, const Vec3& off) {
   return 0.5 * force * reached + force * std::max(beyond, 0.0);
 }
 
+/// The turning by a small ω dt, by Cayley's formula: as good as exact, without sines.
+Mat3 turning_by(const Vec3& angle) {
+  Mat3 half;
+  const Vec3 a = 0.5 * angle;
+  half << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return (Mat3::Identity() - half).inverse() * (Mat3::Identity() + half);
+}
+
 }  // namespace
 
-/// The mean velocity of each free piece, which is not to change; zero for the others.
-void DeformableBody::State::find_drifts(std::vector<Vec3>& found) const {
-  found.assign(pieces.size(), Vec3::Zero());
-  if (!has_free_piece) return;
-  std::vector<double> mass(pieces.size());
-  for_each_awake([&](std::uint32_t slot) {
-    const std::uint32_t piece = piece_of[VertexId(slot)];
-    if (!pieces[piece].is_free) return;
-    found[piece] += momentum_of(VertexId(slot));
-    mass[piece] += mass_of(VertexId(slot));
+/// How each free group moves as a rigid body, which is not to change; nothing for the others.
+void DeformableBody::State::find_drifts(std::vector<detail::Drift>& found) const {
+  found.assign(groups.size(), {});
+  if (!has_free_group) return;
+  const auto for_each_free = [&](const auto& visit) {
+    for_each_awake([&](std::uint32_t slot) {
+      const std::uint32_t group = group_at(VertexId(slot));
+      if (groups[group].is_free) visit(found[group], VertexId(slot));
+    });
+  };
+  for_each_free([&](detail::Drift& drift, VertexId v) {
+    drift.mass += mass_of(v);
+    drift.centre += mass_of(v) * (places[v.value] - middle);
+    drift.velocity += momentum_of(v);
   });
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (mass[i] > 0) found[i] /= mass[i];
+  for (detail::Drift& drift : found) {
+    if (!(drift.mass > 0)) continue;
+    drift.centre /= drift.mass;
+    drift.velocity /= drift.mass;
   }
+  for_each_free([&](detail::Drift& drift, VertexId v) {
+    drift.spin += (places[v.value] - middle - drift.centre).cross(momentum_of(v));
+  });
+  find_turns(found);
+}
+
+/// The rates that go with the spins as the groups stand.
+void DeformableBody::State::find_turns(std::vector<detail::Drift>& found) const {
+  std::vector<Mat3> inertia(groups.size(), Mat3::Zero());
+  for_each_awake([&](std::uint32_t slot) {
+    const std::uint32_t group = group_at(VertexId(slot));
+    if (!groups[group].is_free) return;
+    const Vec3 arm = places[slot] - middle - found[group].centre;
+    inertia[group] += mass_of(VertexId(slot)) * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  });
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (found[i].mass > 0) found[i].turn = detail::turn_for(found[i].spin, inertia[i]);
+  }
+}
+
+/// Gives free groups the rigid motion that has these momenta where they stand, and nothing else.
+void DeformableBody::State::move_rigidly(std::vector<detail::Drift> moved) {
+  for (detail::Drift& drift : moved) drift.centre.setZero();
+  for_each_awake([&](std::uint32_t slot) {
+    detail::Drift& drift = moved[group_at(VertexId(slot))];
+    if (drift.mass > 0) drift.centre += mass_of(VertexId(slot)) / drift.mass * (places[slot] - middle);
+  });
+  find_turns(moved);
+  for_each_awake([&](std::uint32_t slot) {
+    const VertexId v(slot);
+    const detail::Drift& drift = moved[group_at(v)];
+    if (groups[group_at(v)].is_free) set_momentum(v, mass_of(v) * drift.velocity_at(places[slot] - middle));
+  });
 }
 
 detail::EnergyNow DeformableBody::State::energy_now() {
@@ -47,7 +95,7 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   resting.clear();
   for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
     const VertexId v(slot);
-    if (!is_live(v)) continue;
+    if (!is_live(v) || in_crumb[v] != 0) continue;
     if (!order.is_awake(v)) resting.push_back(slot);
     now.total -= mass_of(v) / unit() * options.gravity.dot(places[slot] - middle);
   }
@@ -55,7 +103,8 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   for_each_awake([&](std::uint32_t slot) {
     const VertexId v(slot);
     const double m = mass_of(v);
-    const Vec3 momentum = momentum_of(v), relative = momentum - m * drifts[piece_of[v]];
+    const Vec3 momentum = momentum_of(v);
+    const Vec3 relative = momentum - m * drifts[group_at(v)].velocity_at(places[slot] - middle);
     now.total += 0.5 * momentum.squaredNorm() / m;
     now.motion += 0.5 * relative.squaredNorm() / m;
   });
@@ -69,6 +118,9 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   for (const detail::PullTerm& term : terms) {
     if (term.stiffness > 0) now.total += energy_of(term, detail::off_target(term, floats.data()));
   }
+  for (const detail::ContactTerm& term : contact.terms()) {
+    now.total += detail::contact_state(term, floats.data()).energy;
+  }
   return now;
 }
 
@@ -80,25 +132,40 @@ void DeformableBody::State::keep_energy(const detail::EnergyNow& before, double 
   const double kept = excess < now.motion ? std::sqrt(1 - excess / now.motion) : 0;
   for_each_awake([&](std::uint32_t slot) {
     const VertexId v(slot);
-    const Vec3 drift = mass_of(v) * drifts[piece_of[v]];
+    const Vec3 drift = mass_of(v) * drifts[group_at(v)].velocity_at(places[slot] - middle);
     set_momentum(v, drift + kept * (momentum_of(v) - drift));
   });
   const bool descends = options.relaxation != Relaxation::kPositionBased;  // which knows of no energy
   if (descends && excess > now.motion) step_back(before.total + before.noise, dt);
 }
 
-/// Takes awake vertices back towards where they were, but for the drift of free pieces, until there is no more energy
-/// than that: a descent over tets that are turned inside out may go uphill, on ways that the sweeps do not see.
+/// Takes awake vertices back towards where they were, but for what free pieces do as rigid bodies, until there is no
+/// more energy than that: a descent over tets that are turned inside out may go uphill, on ways that the sweeps do not
+/// see.
 void DeformableBody::State::step_back(double most, double dt) {
+  const std::vector<detail::Drift> moved = drifts;
+  std::vector<Mat3> turns(moved.size(), Mat3::Identity());
+  std::vector<Vec3> centres(moved.size(), Vec3::Zero());  // before
+  for (std::size_t i = 0; i < moved.size(); ++i) turns[i] = turning_by(dt * moved[i].turn);
+  for_each_awake([&](std::uint32_t slot) {
+    const std::uint32_t group = group_at(VertexId(slot));
+    if (groups[group].is_free)
+      centres[group] += mass_of(VertexId(slot)) / moved[group].mass * (places_before[slot] - middle);
+  });
   for (const double share : {0.5, 0.25, 0.125, 0.0}) {
     for_each_awake([&](std::uint32_t slot) {
       const VertexId v(slot);
-      const Vec3 drift = dt * drifts[piece_of[v]];
+      const std::uint32_t group = group_at(v);
+      Vec3 back = places_before[slot];
+      if (groups[group].is_free) {
+        const Vec3 centre = middle + centres[group];
+        back = centre + dt * moved[group].velocity + turns[group] * (back - centre);
+      }
       const double less = share > 0 ? 0.5 : 0.0;  // of what the last round left
-      const Vec3 way = places[slot] - places_before[slot] - drift;
-      places[slot] = places_before[slot] + drift + less * way;
+      places[slot] = back + less * (places[slot] - back);
       round_place(v);
     });
+    if (has_free_group) move_rigidly(moved);
     const detail::EnergyNow now = energy_now();
     if (!(now.total - now.noise > most)) return;
   }

@@ -7,6 +7,7 @@
 #include "incise/mesh/journal_visitor.h"
 #include "sim/body/body_rewind.h"
 #include "sim/body/body_state.h"
+#include "sim/body/constants.h"
 
 namespace incise {
 inline namespace v0 {
@@ -55,6 +56,7 @@ void DeformableBody::State::ensure(std::uint32_t slots, std::uint32_t tet_slots)
   floats.resize(std::size_t{4} * slots);
   motions.resize(slots);
   travelled.resize(slots);
+  in_crumb.resize(slots);
   piece_of.resize(slots);
   stars.ensure(slots, tet_slots);
   order.ensure(slots);
@@ -186,6 +188,8 @@ void DeformableBody::State::build(const TetMesh& mesh) {
   momentum_id = *attributes.add(mesh, {"momentum", Domain::kVertex, 3, Transfer::kConserve, {}, {}});
   std::copy(mass.begin(), mass.end(), masses());
   for (std::uint32_t v = 0; v < rest.size(); ++v) settle_vertex(VertexId(v));
+  if (options.self.on) contact.read_all(*this, mesh);
+  largest_crumb = detail::kCrumbPiece * volumes / 6 / static_cast<double>(std::max<std::size_t>(mesh.tet_count(), 1));
   centre();
   label_pieces();
 }
@@ -324,6 +328,7 @@ Result<FollowReport> DeformableBody::follow(const Journal& journal, const TetMes
   if (has_rewound) rewind.put_back(s);
   s.settle_changed();
   s.ensure(mesh.vertex_slots(), mesh.tet_slots());
+  if (s.options.self.on) s.follow_contact(mesh, has_rewound);
   s.finish_follow(report);
   return report;
 }
@@ -331,6 +336,7 @@ Result<FollowReport> DeformableBody::follow(const Journal& journal, const TetMes
 /// Leaves in `touched.tets` those that did change.
 void DeformableBody::State::remove_touched(const TetMesh& mesh, FollowReport& report) {
   for (const std::uint32_t t : touched.tets) is_touched_tet[t] = 0;
+  if (options.self.on) named_tets = touched.tets;
   std::erase_if(touched.tets, [&](std::uint32_t t) { return !differs(mesh, TetId(t)); });
   for (const std::uint32_t t : touched.tets) report.removed_tets += remove_tet(TetId(t)) ? 1U : 0U;
 }
@@ -354,6 +360,7 @@ void DeformableBody::State::add_touched(const TetMesh& mesh, FollowReport& repor
 void DeformableBody::State::settle_changed() {
   for (const std::uint32_t v : changed) {
     has_changed_star[v] = 0;
+    dissolve_crumb_at(VertexId(v));
     settle_vertex(VertexId(v));
   }
   changed.clear();
@@ -368,6 +375,15 @@ void DeformableBody::State::finish_follow(FollowReport& report) {
   relax(touched.fresh, 4);
   touched.tets.clear();
   touched.fresh.clear();
+}
+
+void DeformableBody::State::follow_contact(const TetMesh& mesh, bool has_rewound) {
+  if (has_rewound) {
+    contact.read_all(*this, mesh);
+  } else {
+    contact.read(*this, mesh, named_tets);
+  }
+  contact.forget(*this, touched.fresh);
 }
 
 void DeformableBody::State::release_lost_holds() {

@@ -5,10 +5,13 @@
 #include <limits>
 
 #include "sim/body/body_state.h"
+#include "sim/body/constants.h"
 
 namespace incise {
 inline namespace v0 {
 
+using detail::Crumb;
+using detail::Group;
 using detail::Piece;
 
 namespace {
@@ -31,14 +34,14 @@ std::uint32_t flood(DeformableBody::State& s, VertexId seed, std::uint32_t piece
   return count;
 }
 
-/// The turning ω that a piece needs besides its own, about its centre: what it adds to the angular momentum is linear
-/// in it, although it moves the places too.
-Vec3 turn_for(const Vec3& missing, const Mat3& by_turn) {
+}  // namespace
+
+/// In `correct_motion`: the turning that a piece needs besides its own, about its centre. What it adds to the angular
+/// momentum is linear in it, although it moves the places too.
+Vec3 detail::turn_for(const Vec3& missing, const Mat3& by_turn) {
   const Eigen::FullPivLU<Mat3> lu(by_turn);
   return lu.isInvertible() ? Vec3(lu.solve(missing)) : Vec3(Vec3::Zero());
 }
-
-}  // namespace
 
 void DeformableBody::State::label_pieces() {
   pieces.clear();
@@ -48,8 +51,90 @@ void DeformableBody::State::label_pieces() {
   std::vector<VertexId> stack;
   for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
     if (piece_of[VertexId(v)] != kNone || !is_live(VertexId(v))) continue;
-    flood(*this, VertexId(v), static_cast<std::uint32_t>(pieces.size()), stack);
+    const std::uint32_t count = flood(*this, VertexId(v), static_cast<std::uint32_t>(pieces.size()), stack);
     pieces.emplace_back();
+    pieces.back().vertices = count;
+  }
+  gather_crumbs();
+}
+
+// --- crumbs
+
+/// Takes pieces that are too small out of the descent: their vertices move with their mean velocity. Those that were
+/// crumbs before go on as they are.
+void DeformableBody::State::gather_crumbs() {
+  std::vector<double> volume(pieces.size());
+  for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
+    const VertexId v(slot);
+    if (!is_live(v) || !(volume[piece_of[v]] < largest_crumb)) continue;  // what is larger is no crumb
+    stars.for_each_tet(v, [&](TetId t) { volume[piece_of[v]] += detail::six_volumes(corners_at_rest(t)) / 24; });
+  }
+  for (std::size_t i = 0; i < pieces.size(); ++i) pieces[i].is_crumb = volume[i] < largest_crumb;
+  for (const auto& [v, hold] : holds) pieces[piece_of[VertexId(v)]].is_crumb = false;
+  for (std::size_t i = crumbs.size(); i-- > 0;) {
+    const VertexId v(crumbs[i].vertices.front());
+    if (!pieces[piece_of[v]].is_crumb) dissolve_crumb_at(v);
+  }
+  std::vector<std::uint32_t> crumb_of(pieces.size(), kInvalidIndex);
+  for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
+    const VertexId v(slot);
+    if (!is_live(v) || in_crumb[v] != 0 || !pieces[piece_of[v]].is_crumb) continue;
+    std::uint32_t& number = crumb_of[piece_of[v]];
+    if (number == kInvalidIndex) {
+      number = static_cast<std::uint32_t>(crumbs.size());
+      crumbs.emplace_back();
+    }
+    crumbs[number].vertices.push_back(slot);
+  }
+  for (const std::uint32_t number : crumb_of) {
+    if (number != kInvalidIndex) begin_crumb(crumbs[number]);
+  }
+}
+
+void DeformableBody::State::begin_crumb(const Crumb& crumb) {
+  double mass = 0;
+  Vec3 momentum = Vec3::Zero();
+  for (const std::uint32_t v : crumb.vertices) {
+    mass += mass_of(VertexId(v));
+    momentum += momentum_of(VertexId(v));
+  }
+  for (const std::uint32_t slot : crumb.vertices) {
+    const VertexId v(slot);
+    set_momentum(v, mass_of(v) / mass * momentum);
+    in_crumb[v] = 1;
+    order.drop(v);
+  }
+}
+
+/// What a cut, an undo or a hold has changed is computed again.
+void DeformableBody::State::dissolve_crumb_at(VertexId vertex) {
+  if (in_crumb[vertex] == 0) return;
+  const auto holds_vertex = [&](const Crumb& crumb) {
+    return std::find(crumb.vertices.begin(), crumb.vertices.end(), vertex.value) != crumb.vertices.end();
+  };
+  const auto at = std::find_if(crumbs.begin(), crumbs.end(), holds_vertex);
+  if (at == crumbs.end()) return;
+  const Crumb crumb = std::move(*at);
+  crumbs.erase(at);
+  for (const std::uint32_t v : crumb.vertices) in_crumb[VertexId(v)] = 0;
+  for (const std::uint32_t v : crumb.vertices) {
+    if (v < places.size()) settle_vertex(VertexId(v));
+  }
+}
+
+void DeformableBody::State::move_crumbs(double dt) {
+  const double kept = 1 / (1 + options.damping * dt);
+  for (Crumb& crumb : crumbs) {
+    if (crumb.age >= detail::kCrumbSeconds) continue;
+    crumb.age += dt;
+    const bool sleeps = crumb.age >= detail::kCrumbSeconds;
+    for (const std::uint32_t slot : crumb.vertices) {
+      const VertexId v(slot);
+      const Vec3 velocity = kept * momentum_of(v) / mass_of(v) + dt / unit() * options.gravity;
+      places[slot] += dt * velocity;
+      set_momentum(v, sleeps ? Vec3(Vec3::Zero()) : Vec3(mass_of(v) * velocity));
+      round_place(v);
+    }
   }
 }
 
@@ -66,17 +151,20 @@ void DeformableBody::State::find_free_pieces() {
   for (Piece& piece : pieces) {
     was_free.push_back(piece.is_free);
     piece.is_free = true;
+    piece.is_held = false;
   }
-  for (const auto& [v, hold] : holds) pieces[piece_of[VertexId(v)]].is_free = false;
+  for (const auto& [v, hold] : holds) pieces[piece_of[VertexId(v)]].is_held = true;
   for (const Pull& pull : pulls) {
     for (unsigned i = 0; i < 4; ++i) {
       if (pull.weights[i] != 0 && pull.stiffness > 0) pieces[piece_of[pull.vertices[i]]].is_free = false;
     }
   }
-  has_free_piece = false;
+  for (Piece& piece : pieces) {
+    piece.is_carried = !piece.is_free && !piece.is_held && !piece.is_crumb;
+    piece.is_free = piece.is_free && !piece.is_held && !piece.is_crumb;
+  }
   bool came_off = false;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    has_free_piece |= pieces[i].is_free;
     came_off |= pieces[i].is_free && !was_free[i];
   }
   if (!came_off) return;
@@ -87,10 +175,38 @@ void DeformableBody::State::find_free_pieces() {
   }
 }
 
+/// Pieces that touch each other move as one where nothing holds any of them: contact hands momentum on between them.
+void DeformableBody::State::find_groups() {
+  group_of.resize(pieces.size());
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    group_of[i] = i;
+  }
+  const auto root = [&](std::uint32_t piece) {
+    while (group_of[piece] != piece) piece = group_of[piece] = group_of[group_of[piece]];
+    return piece;
+  };
+  for (const detail::ContactTerm& term : contact.terms()) {
+    const std::uint32_t a = piece_of[VertexId(term.vertices[0])], b = piece_of[VertexId(term.vertices[1])];
+    if (a != b) pieces[a].is_carried = !pieces[a].is_held, pieces[b].is_carried = !pieces[b].is_held;
+    const std::uint32_t p = root(a), q = root(b);
+    group_of[std::max(p, q)] = std::min(p, q);
+  }
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) group_of[i] = root(i);
+  groups.assign(pieces.size(), {});
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    Group& group = groups[group_of[i]];
+    group.is_free = group.is_free && pieces[i].is_free;
+  }
+  has_free_group = has_carried_piece = false;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    has_free_group |= groups[group_of[i]].is_free;
+    has_carried_piece |= pieces[i].is_carried;
+  }
+}
+
 /// Pieces that have fallen far from what is held sleep where they are: single precision would not tell their cells
 /// apart any more. To be called with the middle and extent of what is held.
 void DeformableBody::State::leave_lost_pieces() {
-  constexpr double kLost = 200;  // extents
   std::vector<double> nearest(pieces.size(), std::numeric_limits<double>::infinity());
   for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
     if (!is_live(VertexId(slot))) continue;
@@ -100,53 +216,53 @@ void DeformableBody::State::leave_lost_pieces() {
   for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
     const VertexId v(slot);
     const std::uint32_t piece = piece_of[v];
-    if (!is_live(v) || !pieces[piece].is_free || !(nearest[piece] > kLost * extent)) continue;
+    if (!is_live(v) || !pieces[piece].is_free || !(nearest[piece] > detail::kLost * extent)) continue;
     order.put_to_sleep(v);
     set_momentum(v, Vec3::Zero());
   }
 }
 
-/// What each piece's momentum must be after a substep of h, and its angular momentum about its centre.
+/// What each group's momentum must be after a substep of h, and its angular momentum about its centre.
 void DeformableBody::State::expect_motion(double h) {
-  if (!has_free_piece) return;
+  if (!has_free_group) return;
   const double kept = 1 / (1 + options.damping * h);
   const Vec3 fall = h / unit() * options.gravity;
-  for (Piece& piece : pieces) piece = {piece.is_free};
+  for (Group& group : groups) group = {group.is_free};
   for_each_awake([&](std::uint32_t slot) {
-    Piece& piece = pieces[piece_of[VertexId(slot)]];
+    Group& group = groups[group_at(VertexId(slot))];
     const double m = mass_of(VertexId(slot));
     const Vec3 p = momentum_of(VertexId(slot));
-    piece.mass += m;
-    piece.momentum += p;
-    piece.centre += m * places[slot];
-    piece.spin += (places[slot] - middle).cross(p);
+    group.mass += m;
+    group.momentum += p;
+    group.centre += m * places[slot];
+    group.spin += (places[slot] - middle).cross(p);
   });
-  for (Piece& piece : pieces) {
-    if (piece.mass == 0) continue;
-    const Vec3 arm = piece.centre / piece.mass - middle;
-    piece.spin = kept * (piece.spin - arm.cross(piece.momentum));
-    piece.momentum = kept * piece.momentum + piece.mass * fall;
+  for (Group& group : groups) {
+    if (group.mass == 0) continue;
+    const Vec3 arm = group.centre / group.mass - middle;
+    group.spin = kept * (group.spin - arm.cross(group.momentum));
+    group.momentum = kept * group.momentum + group.mass * fall;
   }
 }
 
-/// Shifts and turns each free piece rigidly so that its momenta are what they must be.
+/// Shifts and turns each free group rigidly so that its momenta are what they must be.
 void DeformableBody::State::correct_motion(double h) {
-  if (!has_free_piece) return;
+  if (!has_free_group) return;
   struct Found {
     Vec3 momentum = Vec3::Zero(), centre = Vec3::Zero(), spin = Vec3::Zero(), shift = Vec3::Zero(), turn = Vec3::Zero();
     Mat3 by_turn = Mat3::Zero();  // Σ m (r² − r rᵀ) + h (r pᵀ − r·p): arms r, momenta p
   };
-  std::vector<Found> found(pieces.size());
+  std::vector<Found> found(groups.size());
   for_each_awake([&](std::uint32_t slot) {
-    const std::uint32_t i = piece_of[VertexId(slot)];
-    if (pieces[i].is_free) found[i].centre += mass_of(VertexId(slot)) * (places[slot] - middle);
+    const std::uint32_t i = group_at(VertexId(slot));
+    if (groups[i].is_free) found[i].centre += mass_of(VertexId(slot)) * (places[slot] - middle);
   });
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (pieces[i].mass > 0) found[i].centre /= pieces[i].mass;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i].mass > 0) found[i].centre /= groups[i].mass;
   }
   for_each_awake([&](std::uint32_t slot) {
-    const std::uint32_t i = piece_of[VertexId(slot)];
-    if (!pieces[i].is_free) return;
+    const std::uint32_t i = group_at(VertexId(slot));
+    if (!groups[i].is_free) return;
     const Vec3 arm = places[slot] - middle - found[i].centre, p = momentum_of(VertexId(slot));
     found[i].momentum += p;
     found[i].spin += arm.cross(p);
@@ -154,15 +270,15 @@ void DeformableBody::State::correct_motion(double h) {
     found[i].by_turn += (m * arm.squaredNorm() - h * arm.dot(p)) * Mat3::Identity();
     found[i].by_turn += arm * (h * p - m * arm).transpose();
   });
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (!pieces[i].is_free || pieces[i].mass == 0) continue;
-    found[i].shift = (pieces[i].momentum - found[i].momentum) / pieces[i].mass;
-    found[i].turn = turn_for(pieces[i].spin - found[i].spin, found[i].by_turn);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!groups[i].is_free || groups[i].mass == 0) continue;
+    found[i].shift = (groups[i].momentum - found[i].momentum) / groups[i].mass;
+    found[i].turn = detail::turn_for(groups[i].spin - found[i].spin, found[i].by_turn);
   }
   for_each_awake([&](std::uint32_t slot) {
     const VertexId v(slot);
-    const std::uint32_t i = piece_of[v];
-    if (!pieces[i].is_free) return;
+    const std::uint32_t i = group_at(v);
+    if (!groups[i].is_free) return;
     const Vec3 more = found[i].shift + found[i].turn.cross(places[slot] - middle - found[i].centre);
     places[slot] += h * more;
     set_momentum(v, momentum_of(v) + mass_of(v) * more);

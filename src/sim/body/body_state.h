@@ -10,6 +10,7 @@
 #include "incise/mesh/journal_cursor.h"
 #include "incise/sim/body.h"
 #include "sim/body/coarse_lattice.h"
+#include "sim/body/self_contact.h"
 #include "sim/body/star_kernel.h"
 #include "sim/body/stars.h"
 #include "sim/body/sweep_order.h"
@@ -32,16 +33,44 @@ enum class Held : std::uint8_t { kNot, kBySpring, kRigidly };
 /// The energy of a body in the middle of things, in kg L²/s², not counted from rest.
 struct EnergyNow {
   double total = 0;
-  double motion = 0;  ///< its kinetic part, without that of the drift of free pieces
+  double motion = 0;  ///< its kinetic part, without that of free pieces as rigid bodies
   double noise = 0;   ///< by which rounding may change it
 };
 
 /// A part of the body that hangs together through vertices.
 struct Piece {
-  bool is_free = false;  ///< nothing holds or pulls it
+  bool is_free = false;     ///< nothing holds or pulls it
+  bool is_crumb = false;    ///< it moves as a point, and is no part of the descent
+  bool is_held = false;     ///< something holds it
+  bool is_carried = false;  ///< contacts or pulls bear it, and nothing holds it
+  std::size_t vertices = 0;
+};
+
+/// Pieces that touch each other, or one that touches none: what moves as one body.
+struct Group {
+  bool is_free = true;  ///< nothing holds or pulls any of them
   double mass = 0;
   Vec3 momentum = Vec3::Zero(), centre = Vec3::Zero(), spin = Vec3::Zero();  ///< as they must be; centre: mass · place
 };
+
+/// How a free piece moves as a rigid body: no energy may be taken from that.
+struct Drift {
+  double mass = 0;
+  Vec3 velocity = Vec3::Zero(), centre = Vec3::Zero();  ///< centre: against the body's middle
+  Vec3 spin = Vec3::Zero(), turn = Vec3::Zero();        ///< angular momentum about the centre, and rate
+
+  /// Of a point that is at `place` against the body's middle.
+  [[nodiscard]] Vec3 velocity_at(const Vec3& place) const { return velocity + turn.cross(place - centre); }
+};
+
+/// A free piece too small to be computed: it moves as a point.
+struct Crumb {
+  std::vector<std::uint32_t> vertices;
+  double age = 0;  ///< s
+};
+
+/// The turning ω with `by_turn` ω = `missing`; none where there is no single one.
+[[nodiscard]] Vec3 turn_for(const Vec3& missing, const Mat3& by_turn);
 
 /// A pull as the descent sees it, limits in kg L/s².
 [[nodiscard]] PullTerm term_of(const Pull& pull, const Vec3& middle, double unit);
@@ -93,23 +122,30 @@ struct DeformableBody::State {
   std::vector<detail::PullUse> uses;
   IdArray<VertexId, float> travelled;  // squared, in this `advance`
   detail::CoarseLattice lattice;
+  detail::SelfContact contact;
   WorkPair pair;
 
   // free pieces
   IdArray<VertexId, std::uint32_t> piece_of;
   std::vector<detail::Piece> pieces;
-  bool has_free_piece = false;
-  unsigned stale_pieces = 0;  // `advance`s since tets changed; 0: none did
+  std::vector<std::uint32_t> group_of;  // by piece
+  std::vector<detail::Group> groups;
+  bool has_free_group = false, has_carried_piece = false;
+  std::vector<detail::Crumb> crumbs;
+  IdArray<VertexId, std::uint8_t> in_crumb;  // whether a vertex is in one of them
+  double largest_crumb = 0;                  // volume at rest, length unit³: what is smaller is one
+  unsigned stale_pieces = 0;                 // `advance`s since tets changed; 0: none did
 
   // scratch of `energy_now`
   std::vector<std::uint32_t> resting;  // live vertices that are held or asleep
-  std::vector<Vec3> drifts;            // by piece: mean velocity of the free ones
+  std::vector<detail::Drift> drifts;   // by group: how the free ones move as rigid bodies
 
   JournalCursor cursor;
 
   // of one `follow`
   detail::Touched touched;
   std::vector<std::uint32_t> changed;          // vertices whose stars changed
+  std::vector<std::uint32_t> named_tets;       // by the steps, changed or not: for contact
   ZeroedArray<std::uint8_t> is_touched_tet;    // scratch, zero between calls
   ZeroedArray<std::uint8_t> is_fresh;          // likewise, by vertex: `Fresh`
   ZeroedArray<std::uint8_t> has_changed_star;  // likewise
@@ -154,6 +190,7 @@ struct DeformableBody::State {
   void add_touched(const TetMesh& mesh, FollowReport& report);
   void settle_changed();
   void finish_follow(FollowReport& report);
+  void follow_contact(const TetMesh& mesh, bool has_rewound);
   bool add_tet(const TetMesh& mesh, TetId t);
   bool remove_tet(TetId t);
   void note_changed(const TetVertices& vertices);
@@ -172,6 +209,7 @@ struct DeformableBody::State {
   void centre();
   void prepare_pulls();
   void wake_pulled(const Pull& pull);
+  void wake_where_pulls_differ(const std::vector<Pull>& next);
   void list_uses();
   void begin_substep(double h);
   void descend(double h);
@@ -181,16 +219,25 @@ struct DeformableBody::State {
   void fall_asleep();
 
   // energy (body_energy.cpp)
-  void find_drifts(std::vector<Vec3>& found) const;
+  void find_drifts(std::vector<detail::Drift>& found) const;
   [[nodiscard]] detail::EnergyNow energy_now();
   void keep_energy(const detail::EnergyNow& before, double dt);
   void step_back(double most, double dt);
+  void find_turns(std::vector<detail::Drift>& found) const;
+  void move_rigidly(std::vector<detail::Drift> moved);
 
   // free pieces (body_pieces.cpp)
   void label_pieces();
   void label_stale_pieces();
   void find_free_pieces();
+  void find_groups();
+  void move_carried();  // body_carried.cpp
+  [[nodiscard]] std::uint32_t group_at(VertexId v) const { return group_of[piece_of[v]]; }
   void leave_lost_pieces();
+  void gather_crumbs();
+  void begin_crumb(const detail::Crumb& crumb);
+  void dissolve_crumb_at(VertexId v);
+  void move_crumbs(double dt);
   void expect_motion(double h);
   void correct_motion(double h);
 };

@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
+
+#include "sim/body/tool_touch.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
+
+using detail::Touch;
 
 Error bad(const char* message) {
   return {ErrorCode::kBadArgument, message, {}};
@@ -41,12 +43,6 @@ Status check_tool(const FlatTool& flat) {
              ? Status{}
              : Status{bad("the thickness of a flat must be at least 0")};
 }
-
-/// Where a tool's surface is, seen from a vertex: below 0, the vertex is inside it.
-struct Touch {
-  double distance = std::numeric_limits<double>::infinity();
-  Vec3 normal = Vec3::Zero(), surface = Vec3::Zero();
-};
 
 Touch touch_around(const Vec3& x, const Vec3& axis_point, double radius) {
   const Vec3 out = x - axis_point;
@@ -116,17 +112,6 @@ void add_outline(const FlatTool& flat, ToolOutline& outline) {
   }
 }
 
-/// The middle of one of the vertex' tets: on the tissue's side of its surface.
-Vec3 tissue_behind(const TetMesh& mesh, std::span<const Vec3> positions, VertexId v) {
-  Vec3 sum = Vec3::Zero();
-  for (const VertexId corner : mesh.vertices(mesh.tet_of(v))) sum += positions[corner.value];
-  return sum / 4;
-}
-
-bool is_surface(std::uint8_t bits) {
-  return (bits & (shape::kSkin | shape::kWall)) != 0 && (bits & (shape::kFront | shape::kDead)) == 0;
-}
-
 }  // namespace
 
 ToolOutline outline_of(const Tool& tool) {
@@ -139,30 +124,8 @@ Status check(const Tool& tool) {
   return std::visit([](const auto& t) { return check_tool(t); }, tool);
 }
 
-void find_contacts(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools, double stiffness,
-                   double margin, std::vector<Pull>& pulls) {
-  if (tools.empty()) return;
-  const bool has_flat =
-      std::any_of(tools.begin(), tools.end(), [](const Tool& tool) { return std::holds_alternative<FlatTool>(tool); });
-  for (std::uint32_t slot = 0; slot < mesh.vertex_slots(); ++slot) {
-    const VertexId v(slot);
-    if (!is_surface(mesh.shape_of(v)) || !mesh.tet_of(v).is_valid()) continue;
-    const Vec3& x = positions[slot];
-    const Vec3 inner = has_flat ? tissue_behind(mesh, positions, v) : x;  // flats alone ask for it
-    Touch deepest;
-    for (const Tool& tool : tools) {
-      const Touch found = std::visit([&](const auto& t) { return touch(t, x, inner); }, tool);
-      if (found.distance < deepest.distance) deepest = found;
-    }
-    if (deepest.distance >= margin) continue;
-    Pull pull;
-    pull.vertices[0] = v;
-    pull.target = deepest.surface;
-    pull.axis = deepest.normal;
-    pull.stiffness = stiffness;
-    pull.pushes_only = true;
-    pulls.push_back(pull);
-  }
+Touch detail::touch_of(const Tool& tool, const Vec3& point, const Vec3& inner) {
+  return std::visit([&](const auto& t) { return touch(t, point, inner); }, tool);
 }
 
 }  // namespace v0

@@ -93,6 +93,7 @@ template <bool kWithCurvature = true>
   Quadratic q = star_quadratic<kWithCurvature>(d, d.stars[vertex], x);
   add_inertia(motion, x, q);
   if (motion.pulls > 0) add_pulls(d, motion, q);
+  if (motion.contacts > 0) add_contacts(d, motion, q);
   return q;
 }
 

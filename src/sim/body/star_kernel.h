@@ -8,6 +8,7 @@
 #include <span>
 
 #include "incise/geom/vec.h"
+#include "sim/body/contact_terms.h"
 #include "sim/body/stars.h"
 
 namespace incise {
@@ -22,7 +23,9 @@ struct Motion {
   double diagonal = 0;                      ///< of the star's Laplacian
   float reach = 0;                          ///< the most that one visit may move it
   std::uint32_t first_pull = 0, pulls = 0;  ///< its part of the list of pull uses
-  bool leaps = false;                       ///< its velocity takes it far enough to do harm
+  std::uint32_t first_contact = 0;          ///< likewise of contact uses
+  std::uint16_t contacts = 0;
+  bool leaps = false;  ///< its velocity takes it far enough to do harm
 };
 
 /// A pull as the descent sees it; places against the body's middle.
@@ -50,6 +53,8 @@ struct Descent {
   const Motion* motions = nullptr;
   const PullTerm* terms = nullptr;
   const PullUse* uses = nullptr;
+  const ContactTerm* contact_terms = nullptr;
+  const ContactUse* contact_uses = nullptr;
 };
 
 /// The energy of one vertex as a quadratic: value 0 at its place, slope, and symmetric curvature (xx xy xz yy yz zz).

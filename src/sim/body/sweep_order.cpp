@@ -12,6 +12,7 @@ void SweepOrder::ensure(std::uint32_t vertex_slots) {
   parts_.resize(vertex_slots, Part::kNone);
   heat_.resize(vertex_slots, 0);
   rank_.resize(vertex_slots, 0);
+  is_lent_.resize(vertex_slots, 0);
 }
 
 void SweepOrder::begin(std::span<const std::uint32_t> order, const std::vector<bool>& is_first, const Stars& stars) {
@@ -79,6 +80,20 @@ void SweepOrder::wake_star(VertexId vertex, const Stars& stars) {
   for_each_neighbour(stars, vertex, [&](VertexId n) { wake(n); });
 }
 
+void SweepOrder::lend_to_seam(std::span<const std::uint32_t> vertices) {
+  if (std::equal(vertices.begin(), vertices.end(), lent_.begin(), lent_.end())) return;
+  const auto move = [&](std::span<const std::uint32_t> list, std::uint8_t lent) {
+    for (const std::uint32_t v : list) {
+      is_lent_[VertexId(v)] = lent;
+      if (heat_[VertexId(v)] > 0) woken_.push_back(v);
+    }
+  };
+  move(lent_, 0);
+  move(vertices, 1);
+  lent_.assign(vertices.begin(), vertices.end());
+  is_stale_ = true;
+}
+
 std::size_t SweepOrder::awake_count() const {
   return awake_[0].size() + awake_[1].size() + awake_[2].size();
 }
@@ -99,8 +114,10 @@ void SweepOrder::refresh() {
   woken_.erase(std::unique(woken_.begin(), woken_.end()), woken_.end());
   for (std::size_t part = 0; part < kParts; ++part) {
     auto& list = awake_[part];
-    const auto belongs = [&](std::uint32_t v) {
-      return static_cast<std::size_t>(parts_[VertexId(v)]) == part && heat_[VertexId(v)] > 0;
+    const auto belongs = [&](std::uint32_t slot) {
+      const VertexId v(slot);
+      const Part visited = is_lent_[v] != 0 && parts_[v] != Part::kNone ? Part::kSeam : parts_[v];
+      return static_cast<std::size_t>(visited) == part && heat_[v] > 0;
     };
     std::erase_if(list, [&](std::uint32_t v) { return !belongs(v); });
     if (!std::is_sorted(list.begin(), list.end(), is_before)) std::sort(list.begin(), list.end(), is_before);

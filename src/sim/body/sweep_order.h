@@ -31,6 +31,12 @@ class SweepOrder {
   /// Leaves a vertex out: dead or rigidly held.
   void drop(VertexId vertex);
 
+  /// The part that a vertex belongs to, lent or not.
+  [[nodiscard]] Part part_of(VertexId vertex) const { return parts_[vertex]; }
+  /// Until the next call these vertices, and no others, are visited with the seam, whatever their part: what they share
+  /// besides tets with the other part. Cost: O(lent).
+  void lend_to_seam(std::span<const std::uint32_t> vertices);
+
   [[nodiscard]] bool moves(VertexId vertex) const { return parts_[vertex] != Part::kNone; }
   [[nodiscard]] bool is_awake(VertexId vertex) const { return heat_[vertex] > 0; }
   void wake(VertexId vertex) { warm(vertex, kHot); }
@@ -63,6 +69,8 @@ class SweepOrder {
   IdArray<VertexId, Part> parts_;
   IdArray<VertexId, std::uint8_t> heat_;  // 0: asleep
   IdArray<VertexId, std::uint32_t> rank_;
+  IdArray<VertexId, std::uint8_t> is_lent_;
+  std::vector<std::uint32_t> lent_;  // ascending
   std::uint32_t next_rank_ = 0;
   std::size_t moving_ = 0;  // vertices in a part
   std::array<std::vector<std::uint32_t>, kParts> awake_;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Constants of contact and of free pieces.
+#pragma once
+
+namespace incise {
+inline namespace v0 {
+namespace detail {
+
+/// Frames over which the depth fades at which a contact was found: at 60 Hz a twelfth of a second, short to the eye and
+/// long against the swing of one cell. 1 throws tissue out that something appeared in.
+inline constexpr unsigned kFadingFrames = 5;
+
+/// Free pieces smaller than this share of the mean tet at load are crumbs and move as points: a few slivers, whose
+/// descent single precision does not carry (21 of them were drawn out to 1e5 times their size).
+inline constexpr double kCrumbPiece = 1e-2;
+/// Seconds after which a crumb sleeps.
+inline constexpr double kCrumbSeconds = 1;
+
+/// Free pieces further from what is held than this many of its extents sleep: nobody sees them, and where they go on
+/// they are cut and computed on.
+inline constexpr double kLost = 5;
+
+/// Shares of the local edge. A slow vertex is taken for contact when it is as near as this: contacts come into being
+/// before they are needed.
+inline constexpr double kContactMargin = 0.1;
+/// A vertex deeper than this that was no contact before is let alone: no explosion is worth a repaired overlap.
+inline constexpr double kDeepest = 0.5;
+/// How far a grid of faces sees, in mean edges of the surface; it is made anew when a part of that has been moved.
+inline constexpr double kGridReach = 1.0, kGridAge = 0.4;
+/// Cells of the grid, in the same.
+inline constexpr double kGridCell = 1.6;
+/// A vertex may stand so far beside the nearest point of a face, in edges: from the one on contact gets softer, from
+/// the other on there is none. Neither depends on the gap: what rests would press and let go by turns.
+inline constexpr double kBesideALittle = 0.03, kBesideFace = 0.1;
+/// The least cosine between the vertex' normal and the face's, turned round: a vertex on the side of a body does not
+/// face its top.
+inline constexpr double kFacing = 0.2;
+/// Faces as near as the nearest but for this share of an edge are as good: twins of a fresh cut are exactly so.
+inline constexpr double kAsNear = 1e-3;
+/// The face of the last step is as good as the nearest within this share of an edge, and counts as met more squarely by
+/// this cosine: else what rests would go to and fro between faces, and never sleep.
+inline constexpr double kKnownAsNear = 1e-2, kKnownSquarer = 0.1;
+/// A vertex that lies behind a face by more than this at rest, and no further than it is now, is behind it through the
+/// material: a thin flap is not in contact with its own back.
+inline constexpr double kBehindAtRest = 0.05;
+/// An anchor further from its face than so many of the face's own shares is let go.
+inline constexpr double kFarthestAnchor = 8;
+
+/// How often each carried piece is moved to where its neighbours leave it, at the end of a substep.
+inline constexpr unsigned kCarriedRounds = 3;
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace incise
