@@ -34,7 +34,7 @@ struct PaperRow {
 
 constexpr std::array<PaperRow, 5> kRows = {{{"CUBE straight", "sim_cube", 152.3, 8.6, 52.8, 30.3, 8.3},
                                             {"CUBE complex", "sim_cube_complex", 91.1, 8.5, 59.6, 22.5, 9.4},
-                                            {"MEAT", "sim_meat", 66.5, 8.1, 34.1, 38.9, 18.9},
+                                            {"MEAT", "sim_meat", 66.5, 8.1, 34.1, 18.9, 38.9},
                                             {"SPINE", "sim_spine", 20.2, 10.8, 36.8, 9.0, 43.4},
                                             {"BUNNY", "sim_bunny", 13.1, 9.6, 40.1, 7.3, 43.0}}};
 

@@ -64,6 +64,8 @@ void report(const Settings& settings) {
   const std::vector<CaseResults> results = run_cases(cases, settings);
   std::vector<Acceptance> lines;
   report_table2(results, settings.folder, lines);
+  const std::vector<TableCase> by_rule = make_rule_cases(settings.root);
+  report_rule(run_cases(by_rule, settings), settings.folder);
   report_table3(results, settings.folder, lines);
   report_spread(settings.is_quick ? 5 : 20, settings.folder);
   report_figure15(results, settings.folder);

@@ -7,6 +7,7 @@
 
 #include "app/scene/blade_file.h"
 #include "incise/io/mesh_loader.h"
+#include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
 #include "maintenance_cases.h"
 
@@ -55,7 +56,30 @@ void add_case(const std::filesystem::path& root, const Source& source, std::vect
   }
 }
 
+/// The plane across the longest side of the body's box, through its middle.
+Stroke stroke_by_rule(const TetMesh& mesh) {
+  const Box box = rest_bounds(mesh);
+  const Vec3 size = box.hi - box.lo;
+  int longest = 0;
+  for (const int axis : {1, 2}) longest = size[axis] > size[longest] ? axis : longest;
+  Vec3 normal = Vec3::Zero();
+  normal[longest] = 1;
+  return *plane_stroke(box, normal, 0.5 * (box.lo[longest] + box.hi[longest]));
+}
+
 }  // namespace
+
+std::vector<TableCase> make_rule_cases(const std::filesystem::path& root) {
+  std::vector<TableCase> cases;
+  for (const Source& source : kSources) {
+    Result<TetMesh> mesh = load_model(root, source.model);
+    if (!mesh.ok() || std::string(source.id) == "cube_complex")
+      continue;  // the same body; what is left out is said above
+    const Stroke stroke = stroke_by_rule(*mesh);
+    cases.push_back({source.name, source.id, std::move(*mesh), {stroke}, source.printed, false});
+  }
+  return cases;
+}
 
 TableCase make_oblique_case(std::uint64_t seed) {
   const Trial trial = make_trial(make_cube(5, seed), 'A');

@@ -37,6 +37,10 @@ struct TableCase {
 /// cubes are computed.
 std::vector<TableCase> make_table_cases(const std::filesystem::path& root);
 
+/// The models of Table 2, each with one stroke by one rule, whatever comes of it: the plane across the longest side of
+/// the body's box (the first of equal ones), through its middle.
+std::vector<TableCase> make_rule_cases(const std::filesystem::path& root);
+
 /// The oblique plane A of the other benchmark through the cube of 750 tets with one of its jitters.
 TableCase make_oblique_case(std::uint64_t seed);
 

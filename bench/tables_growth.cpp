@@ -142,6 +142,31 @@ void accept(const std::vector<CaseResults>& results, std::vector<Acceptance>& li
 
 }  // namespace
 
+void report_rule(const std::vector<CaseResults>& results, const std::filesystem::path& folder) {
+  Table table(
+      "table2_rule",
+      "Table 2, the plane across the longest side of the body's box through its middle: tets added, by tet that the "
+      "blade cut, and the share of them that merging leaves",
+      {"model", "before", "cut tets", "paper: added", "by cut tet", "merged", "left %", "with all", "incise: added",
+       "by cut tet", "with all", "printed: added", "merged", "left %"});
+  for (const CaseResults& r : results) {
+    const PrintedRow& printed = *r.of->printed;
+    const double before = static_cast<double>(r.original.all.tets);
+    const auto added = [&](Way way) { return static_cast<double>(r[way].tets()) - before; };
+    const double cut_tets = static_cast<double>(r[Way::kPaperCut].cut.cut_tets);
+    const double printed_added = static_cast<double>(printed.unmerged) - static_cast<double>(printed.tets);
+    const double printed_merged = static_cast<double>(printed.merged) - static_cast<double>(printed.tets);
+    table.add({r.of->name, count(r.original.all.tets), fixed(cut_tets, 0), fixed(added(Way::kPaperCut), 0),
+               fixed(added(Way::kPaperCut) / cut_tets, 2), fixed(added(Way::kPaperMerged), 0),
+               fixed(100 * added(Way::kPaperMerged) / added(Way::kPaperCut), 0), fixed(added(Way::kPaper), 0),
+               fixed(added(Way::kInciseCut), 0), fixed(added(Way::kInciseCut) / cut_tets, 2),
+               fixed(added(Way::kIncise), 0), fixed(printed_added, 0), fixed(printed_merged, 0),
+               fixed(100 * printed_merged / printed_added, 0)});
+  }
+  table.print();
+  table.write_csv(folder);
+}
+
 void report_table2(const std::vector<CaseResults>& results, const std::filesystem::path& folder,
                    std::vector<Acceptance>& lines) {
   print_tets(results, folder);

@@ -289,8 +289,10 @@ Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
     finish_sheet(context);
     move.strip = stroke_.motion.lay_anew({});
   }
+  const std::uint64_t cut_before = context.statistics.cut_tets;
   Status status = sheet_cut_.cut(context, move.strip->sheet, stroke_.tag, front_);
-  stroke_.has_cut = stroke_.has_cut || context.statistics.cut_tets > 0;
+  context.statistics.cut_tets = cut_before + sheet_cut_.divided_tets();  // few are crossed wholly in one frame
+  stroke_.has_cut = stroke_.has_cut || sheet_cut_.divided_tets() > 0;
   stroke_.sheet.add(std::move(move.strip));
   return status;
 }

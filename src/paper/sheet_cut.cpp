@@ -53,6 +53,7 @@ Subdivision SheetCut::divide(Transaction& transaction, const IncisionFront& fron
   statistics.cut_tets += static_cast<std::uint64_t>(
       std::count_if(near_.tets.begin(), near_.tets.end(), [](const NearTet& tet) { return tet.is_cuttable; }));
   Subdivision subdivision = subdivide(transaction, templates_, near_);
+  divided_tets_ = subdivision.parents.size();
   std::vector<VertexId> left_joined;
   for (const CollisionPoint& point : front.own()) left_joined.push_back(point.vertex);
   subdivision.incision = find_paper_incision(transaction.mesh(), near_, subdivision, left_joined);

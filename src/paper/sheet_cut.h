@@ -28,6 +28,8 @@ class SheetCut {
   /// steps: the cut, and the repair of edges that two fans of tets share. Errors: kOutOfMemory where ids would run out;
   /// the mesh is then as before. Cost: one pass over the mesh, then O(cut tets · rounds).
   Status cut(const CutContext& context, const Sheet& sheet, std::uint32_t tag, IncisionFront& front);
+  /// The tets that the last cut divided, crossed wholly or in part.
+  [[nodiscard]] std::uint64_t divided_tets() const { return divided_tets_; }
   /// The incision faces that the last cut left joined: a later frame may open them.
   [[nodiscard]] std::uint64_t latent_faces() const { return latent_faces_; }
 
@@ -42,7 +44,7 @@ class SheetCut {
   void part_edges(const CutContext& context, const Subdivision& subdivision);
 
   unsigned threads_;
-  std::uint64_t latent_faces_ = 0;
+  std::uint64_t latent_faces_ = 0, divided_tets_ = 0;
   Neighbourhood near_;
   SplitTemplates templates_;
   StarWalker walker_;

@@ -104,6 +104,15 @@ TEST(PaperFrames, cut_the_papers_cube_to_1300_tets_in_any_number_of_frames_and_s
   }
 }
 
+TEST(PaperFrames, divide_edges_where_the_blade_crosses_them) {
+  for (const auto& [frames, strokes] : kFramesAndStrokes) {
+    SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes");
+    const Engine engine = cut_in_frames(jittered_cube(4, 2), straight(0.43), at_rest, frames, strokes, false);
+    expect_pieces(engine.mesh(), {0.43, 0.57}, 1e-9);
+    EXPECT_NEAR(wall_area(engine.mesh()), 1.0, 1e-9);
+  }
+}
+
 TEST(PaperFrames, cut_a_body_that_has_moved_where_it_stands) {
   // The blade stands at x = 0.8 of the world, which is the middle of a body that was moved by 0.3.
   const Place moved = [](const Vec3& rest, double) { return Vec3(rest + Vec3(0.3, 0, 0)); };

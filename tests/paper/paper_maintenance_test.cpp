@@ -183,12 +183,45 @@ TEST(PaperMaintenance, moves_contours_walls_and_the_inside_beside_them) {
   EXPECT_EQ(beside, moved[static_cast<std::size_t>(paper::VertexClass::kInside)]);
 }
 
+/// In the plane x = 0.52, from one height to another.
+Stroke down_to(double from, double to) {
+  return quad_stroke(Vec3(0.52, -0.2, from), Vec3(0.52, 1.2, from), Vec3(0.52, -0.2, to), Vec3(0.52, 1.2, to));
+}
+
+TEST(PaperMaintenance, a_stroke_from_the_other_side_goes_on_with_an_incision) {
+  for (const double over : {0.0, 0.03, 0.2}) {
+    SCOPED_TRACE(over);
+    Engine engine = paper_engine(jittered_cube(5, 3));
+    cut_and_maintain(engine, down_to(-0.2, 0.5 + over));
+    EXPECT_EQ(piece_volumes(engine.mesh()).size(), 1U);
+    cut_and_maintain(engine, down_to(1.2, 0.5 - over));
+    EXPECT_EQ(piece_volumes(engine.mesh()).size(), 2U);
+    expect_valid(engine.mesh(), 1.0, 1e-2);
+  }
+}
+
+TEST(PaperMaintenance, holds_the_tets_at_the_front) {
+  Engine bare = paper_engine(jittered_cube(5, 3), kNothing), engine = paper_engine(jittered_cube(5, 3));
+  cut_and_maintain(bare, down_to(-0.2, 0.5));
+  cut_and_maintain(engine, down_to(-0.2, 0.5));
+  std::set<VertexId> front;
+  const Step& cut = bare.journal().step(0);
+  for (const BornVertex& born : cut.born) front.insert(born.id);
+  for (const CopiedVertex& copied : cut.copied) front.erase(copied.source);
+  ASSERT_GT(front.size(), 5U);
+  const std::vector<VertexId> held =
+      paper::find_corners_of(bare.mesh(), paper::find_tets_at(bare.mesh(), {front.begin(), front.end()}));
+  ASSERT_GT(held.size(), front.size());
+  for (const VertexId v : held) {
+    ASSERT_TRUE(engine.mesh().is_live(v));
+    EXPECT_EQ(engine.mesh().rest(v), bare.mesh().rest(v));
+  }
+  EXPECT_NE(engine.mesh().hash(), bare.mesh().hash());
+}
+
 TEST(PaperMaintenance, waits_at_the_front_until_the_incision_goes_on_or_is_complete) {
-  const auto half = [](double from, double to) {
-    return quad_stroke(Vec3(0.52, -0.2, from), Vec3(0.52, 1.2, from), Vec3(0.52, -0.2, to), Vec3(0.52, 1.2, to));
-  };
   Engine engine = paper_engine(jittered_cube(5, 3));
-  cut_and_maintain(engine, half(-0.2, 0.5));
+  cut_and_maintain(engine, down_to(-0.2, 0.5));
   EXPECT_FALSE(engine.has_maintenance());
   const auto front = [&] {
     double worst = 0;
@@ -204,8 +237,8 @@ TEST(PaperMaintenance, waits_at_the_front_until_the_incision_goes_on_or_is_compl
   };
   const double held = front();
   Engine other = paper_engine(jittered_cube(5, 3));
-  cut_and_maintain(other, half(-0.2, 0.5));
-  cut_and_maintain(other, half(0.5, 1.2));  // goes on
+  cut_and_maintain(other, down_to(-0.2, 0.5));
+  cut_and_maintain(other, down_to(0.5, 1.2));  // goes on
   EXPECT_EQ(piece_volumes(other.mesh()).size(), 2U);
   EXPECT_GT(engine.maintain()->maintain.work_units, 0U);  // complete
   EXPECT_LT(front(), held);
@@ -363,6 +396,41 @@ TEST(PaperMaintenance, brings_the_average_down_and_bad_shapes_to_few) {
   EXPECT_GT(before.lr_mean, 2 * original);
   EXPECT_LT(after.lr_mean, 0.7 * before.lr_mean);
   EXPECT_LE(after.lr_over_200_pct, 0.5 * before.lr_over_200_pct);
+}
+
+/// How far the distribution of L/r of one mesh is from another's: half the sum of the differences of the shares of tets
+/// in classes of a quarter octave, in [0, 1].
+double distance(const TetMesh& a, const TetMesh& b) {
+  const auto shares_of = [](const TetMesh& mesh) {
+    std::vector<double> shares(64, 0.0);
+    mesh.for_each_tet([&](TetId tet) {
+      const TetVertices& v = mesh.vertices(tet);
+      const double ratio =
+          longest_edge_over_inradius(mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3]));
+      const double octaves = std::log2(ratio / 4.8) * 4;
+      shares[static_cast<std::size_t>(std::clamp(octaves, 0.0, 63.0))] += 1.0 / static_cast<double>(mesh.tet_count());
+    });
+    return shares;
+  };
+  const std::vector<double> p = shares_of(a), q = shares_of(b);
+  double sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) sum += std::abs(p[i] - q[i]);
+  return 0.5 * sum;
+}
+
+/// Figure 15: with maintenance the distribution is "considerably closer" to the original's.
+TEST(PaperMaintenance, brings_the_distribution_considerably_closer_to_the_originals) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
+    SCOPED_TRACE(seed);
+    Engine bare = paper_engine(jittered_cube(5, seed), kNothing), engine = paper_engine(jittered_cube(5, seed));
+    const TetMesh original = bare.mesh();
+    const Stroke stroke = plane(engine, Vec3(0.3, 0.5, 0.9), 0.8);
+    cut_and_maintain(bare, stroke);
+    cut_and_maintain(engine, stroke);
+    const double before = distance(bare.mesh(), original), after = distance(engine.mesh(), original);
+    EXPECT_GT(before, 0.3);
+    EXPECT_LT(after, 0.6 * before);
+  }
 }
 
 }  // namespace
