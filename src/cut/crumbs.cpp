@@ -217,7 +217,7 @@ class CrumbFinder {
   ZeroedArray<std::uint8_t>&blocked_, &state_;
   std::vector<TetId> touched_;  // whose entries may not be zero
   std::vector<bool> is_dropped_;
-  std::vector<TetId> piece_;    // the last one searched
+  std::vector<TetId> piece_;  // the last one searched
   std::vector<Crumb> crumbs_;
   std::unordered_map<std::uint32_t, std::uint32_t> crumb_of_;  // by tet slot; looked up, never iterated
   std::vector<Border> borders_;

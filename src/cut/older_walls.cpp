@@ -54,8 +54,7 @@ bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, doub
     const Vec3 way = place - closest_on_triangle(place, a, b, c).point;
     const double across = way.dot(area) / length;
     const double along2 = way.squaredNorm() - across * across;
-    does_pass =
-        std::abs(across) <= beside && along2 <= beyond * beyond && is_older_wall(mesh_, complex_, side);
+    does_pass = std::abs(across) <= beside && along2 <= beyond * beyond && is_older_wall(mesh_, complex_, side);
   });
   return does_pass;
 }
