@@ -33,11 +33,9 @@ inline constexpr double kStandsWithin = 0.05;
 /// are smaller; and is near the body within so many of its diagonals.
 inline constexpr double kMostParts = 64;
 inline constexpr double kNearBody = 0.1;
-/// Where its next strip would cross an edge of the present wound's lips, by more than this share of the edge from the
-/// lip, a blade is held while it is less than so many spacings ahead of the cut: else strong shaking would hold it for
-/// ever. Less of either, and a trembling blade cuts crumbs off the lips.
-inline constexpr double kBesideLip = 0.05;
-inline constexpr double kGiveWay = 0.75;
+/// In a body that moves a blade that goes back is in its wound, and held, until it is so many spacings away from the
+/// front: then it is on another way. Less, and one that is drawn back by some elements cuts crumbs off the lips.
+inline constexpr double kTurnBack = 6.0;
 
 namespace paper {
 

@@ -75,7 +75,6 @@ bool has_both_sides(const TetMesh& mesh, VertexId vertex, const Vec3& normal, St
 void IncisionFront::begin_sheet() {
   older_.insert(older_.end(), own_.begin(), own_.end());
   own_.clear();
-  apart_.clear();
   make_set(older_);
 }
 
@@ -115,9 +114,6 @@ void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbou
 }
 
 void IncisionFront::follow(const TetMesh& mesh, const Step& step) {
-  for (const CopiedVertex& copied : step.copied) apart_.insert(apart_.end(), {copied.source, copied.id});
-  std::sort(apart_.begin(), apart_.end());
-  apart_.erase(std::unique(apart_.begin(), apart_.end()), apart_.end());
   std::vector<VertexId> apart;
   for (const CopiedVertex& copied : step.copied) apart.push_back(copied.source);
   std::sort(apart.begin(), apart.end());
@@ -143,7 +139,6 @@ void IncisionFront::renew(const TetMesh& mesh) {
 void IncisionFront::clear() {
   own_.clear();
   older_.clear();
-  apart_.clear();
   goes_on_ = false;
 }
 

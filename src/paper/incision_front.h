@@ -44,8 +44,6 @@ class IncisionFront {
   /// All incisions are complete.
   void clear();
 
-  /// The vertices that the sheet under way has taken apart wholly, with their copies, ascending: those of its lips.
-  [[nodiscard]] const std::vector<VertexId>& apart() const { return apart_; }
   /// Of the sheet under way, ascending.
   [[nodiscard]] const std::vector<CollisionPoint>& own() const { return own_; }
   /// Whether there are any points.
@@ -55,7 +53,6 @@ class IncisionFront {
 
  private:
   std::vector<CollisionPoint> own_, older_;  // ascending
-  std::vector<VertexId> apart_;              // likewise
   bool goes_on_ = false;                     // the stroke under way has met an older point
 };
 

@@ -205,10 +205,8 @@ Status PaperCutter::cut_to(const CutContext& context, const std::vector<Vec3>& r
   {
     const StageZone zone(context.times, Stage::kCollision);
     stroke_.material.locate(context.mesh, surface_, complex_, row, stroke_.direction, stroke_.is_last);
+    hold_where_it_turns_back();
     proposal = stroke_.motion.propose(stroke_.material.wanted());
-    while (!proposal.surface.triangles.empty() && hold_where_it_cuts_again(context.mesh, proposal.surface)) {
-      proposal = stroke_.motion.propose(stroke_.material.wanted());
-    }
   }
   if (stroke_.material.is_in_air(context.mesh, surface_)) {
     leave_body(context, row);
@@ -216,6 +214,7 @@ Status PaperCutter::cut_to(const CutContext& context, const std::vector<Vec3>& r
   }
   if (proposal.surface.triangles.empty()) return {};
   BladeMotion::Move move;
+  note_course(proposal.row);
   move.strip = stroke_.motion.accept(proposal, {});
   stroke_.material.advance(context.mesh, surface_, complex_);
   Status status = follow(context, std::move(move));
@@ -227,39 +226,20 @@ Status PaperCutter::cut_to(const CutContext& context, const std::vector<Vec3>& r
   return status;
 }
 
-/// Holds the points of the blade beside which a strip would cut into the lips of the present wound, unless they are far
-/// ahead: between lips that move the blade cuts nothing. Returns whether there were any.
-bool PaperCutter::hold_where_it_cuts_again(const TetMesh& mesh, const SweptSurface& surface) {
-  const std::vector<VertexId>& apart = front_.apart();
-  const auto is_in = [](const std::vector<VertexId>& set, VertexId v) {
-    return std::binary_search(set.begin(), set.end(), v);
-  };
-  if (apart.empty()) return false;
-  const Sheet sheet(surface, all_triangles(surface));
-  const std::vector<VertexId> points = front_.vertices(mesh);
-  SideSigns sides;
-  sides.begin(mesh, sheet);
-  std::vector<std::uint32_t> columns;
-  for (const TetId tet : find_near_tets(mesh, sheet)) {
-    const TetVertices& v = mesh.vertices(tet);
-    for (const auto& [i, j] : kEdgeCorners) {
-      const VertexId a = std::min(v[i], v[j]), b = std::max(v[i], v[j]);
-      if (is_in(apart, a) == is_in(apart, b) || is_in(points, a) || is_in(points, b)) continue;
-      const SheetCrossings crossings = find_crossings(mesh, sheet, sides, a, b);
-      const double along = is_in(apart, a) ? crossings.t : 1.0 - crossings.t;
-      if (crossings.count > 0 && along > kBesideLip) columns.push_back(surface.triangles[crossings.triangle].column);
-    }
+/// Holds the points of the blade that go back in the wound.
+void PaperCutter::hold_where_it_turns_back() {
+  const std::vector<Vec3> row = stroke_.material.wanted();
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const bool is_back = (row[i] - stroke_.material.anchors()[i]).dot(stroke_.course) < 0;
+    if (is_back && stroke_.material.lead(i) < kTurnBack * stroke_.spacing) stroke_.material.hold(i);
   }
-  bool has_held = false;
-  for (const std::uint32_t column : columns) {
-    for (const std::size_t point : {std::size_t{column}, std::size_t{column} + 1}) {
-      if (!stroke_.material.is_accepted(point)) continue;
-      if (stroke_.material.lead(point) > kGiveWay * stroke_.spacing) continue;
-      stroke_.material.hold(point);
-      has_held = true;
-    }
-  }
-  return has_held;
+}
+
+/// Where the front goes at rest: its mean way, new ones counting most.
+void PaperCutter::note_course(std::span<const SosPoint> row) {
+  Vec3 way = Vec3::Zero();
+  for (std::size_t i = 0; i < row.size(); ++i) way += row[i].position - stroke_.material.anchors()[i];
+  if (way.norm() > 0) stroke_.course = (0.5 * stroke_.course + way.normalized()).normalized();
 }
 
 /// A blade in the air cuts nothing: its sheet ends where it has left the body, and the next one begins where it comes
@@ -280,6 +260,7 @@ void PaperCutter::finish_sheet(const CutContext& context) {
   ++context.statistics.sheets;
   front_.begin_sheet();
   stroke_.sheet.clear();
+  stroke_.course = Vec3::Zero();
 }
 
 /// Cuts along what the blade's motion asks for.

@@ -68,6 +68,7 @@ class PaperCutter {
     std::vector<Vec3> last_row;
     double spacing = 1.0;
     Vec3 direction = Vec3::Zero();  // of the last frame in a body that moves
+    Vec3 course = Vec3::Zero();     // of the front there, at rest; unit
     bool is_in_material = false, is_last = false;
     bool has_cut = false;
     bool may_go_on = false;  // it has ended, and nothing else has happened since
@@ -82,7 +83,8 @@ class PaperCutter {
   Status step_in_material(const CutContext& context, const std::vector<Vec3>& before);
   void put_in_place(const TetMesh& mesh, const std::vector<Vec3>& row);
   Status cut_to(const CutContext& context, const std::vector<Vec3>& row);
-  bool hold_where_it_cuts_again(const TetMesh& mesh, const SweptSurface& surface);
+  void hold_where_it_turns_back();
+  void note_course(std::span<const SosPoint> row);
   void leave_body(const CutContext& context, const std::vector<Vec3>& row);
   Status follow(const CutContext& context, BladeMotion::Move move);
   void finish_sheet(const CutContext& context);

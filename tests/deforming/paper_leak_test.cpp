@@ -16,7 +16,7 @@ LeakResult run(LeakSettings settings, Profile profile) {
 TEST(PaperLeaks, none_in_twenty_scenes_of_moving_bodies) {
   for (const BodyKind body : {BodyKind::kBeam, BodyKind::kCube, BodyKind::kBall, BodyKind::kShuffled}) {
     for (const Motion motion :
-         {Motion::kStraight, Motion::kPause, Motion::kTremor, Motion::kCurve, Motion::kWithdrawal}) {
+         {Motion::kStraight, Motion::kTremor, Motion::kReversal, Motion::kCurve, Motion::kReentry}) {
       LeakSettings settings;
       settings.body = body;
       settings.motion = motion;
