@@ -125,8 +125,7 @@ TEST(ContactTerms, SlopesAreThoseOfTheEnergy) {
         std::vector<float> up = places, down = places;
         up[4 * corner + k] += step;
         down[4 * corner + k] -= step;
-        const double slope = (detail::contact_state(term, up.data()).energy -
-                              detail::contact_state(term, down.data()).energy) /
+        const double slope = (detail::contact_energy(term, up.data()) - detail::contact_energy(term, down.data())) /
                              (2 * static_cast<double>(step));
         EXPECT_NEAR(q.slope[k], slope, 0.05) << trial;
       }
@@ -142,7 +141,8 @@ TEST(ContactTerms, SlopesAreThoseOfTheEnergy) {
 /// A block of 40 mm on the ground, cut by a plane that rises by `rise` along x.
 MovingBody cut_block(const BodyOptions& options, double rise, bool is_cut = true) {
   constexpr unsigned kCells = 8;
-  MovingBody moving(kuhn_box(Vec3::Zero(), {kSide, kSide, kSide}, {kCells, kCells, kCells}), {tissue(10e3), {}}, options);
+  MovingBody moving(kuhn_box(Vec3::Zero(), {kSide, kSide, kSide}, {kCells, kCells, kCells}), {tissue(10e3), {}},
+                    options);
   moving.mesh().for_each_vertex([&](VertexId v) {
     if (moving.mesh().rest(v).z() < 1e-9) {
       ASSERT_TRUE(moving.body().hold(v, kInfinity).ok());
@@ -151,7 +151,8 @@ MovingBody cut_block(const BodyOptions& options, double rise, bool is_cut = true
   const double z = kSide / 2 + 0.31 * kSide / kCells;
   const double low = z - 0.03 * rise, high = z + 0.03 * rise;
   if (is_cut) {
-    moving.cut(quad_stroke(Vec3(-0.01, -0.01, low), Vec3(-0.01, 0.05, low), Vec3(0.05, -0.01, high), Vec3(0.05, 0.05, high)));
+    moving.cut(
+        quad_stroke(Vec3(-0.01, -0.01, low), Vec3(-0.01, 0.05, low), Vec3(0.05, -0.01, high), Vec3(0.05, 0.05, high)));
   }
   return moving;
 }
@@ -171,7 +172,7 @@ Vec3 top_of(const MovingBody& moving) {
 double energy_with_contacts(MovingBody& moving) {
   double energy = moving.body().energy().total();
   for (const detail::ContactTerm& term : moving.state().contact.terms()) {
-    energy += detail::contact_state(term, moving.state().floats.data()).energy;
+    energy += detail::contact_energy(term, moving.state().floats.data());
   }
   return energy;
 }
@@ -236,7 +237,8 @@ double acceleration_on_slope(double friction, double degrees) {
 
 TEST(SelfContact, AHalfSlidesDownAsCoulombSays) {
   for (const double friction : {0.3, 0.1, 0.0}) {
-    const double expected = 9.81 * (std::sin(25 * 3.14159265358979 / 180) - friction * std::cos(25 * 3.14159265358979 / 180));
+    const double expected =
+        9.81 * (std::sin(25 * 3.14159265358979 / 180) - friction * std::cos(25 * 3.14159265358979 / 180));
     const double found = acceleration_on_slope(friction, 25);
     std::printf("friction %.1f: %.3f m/s^2, expected %.3f\n", friction, found, expected);
     EXPECT_NEAR(found, expected, 0.1 * expected) << friction;

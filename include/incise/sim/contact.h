@@ -141,15 +141,16 @@ class ToolContacts {
   std::size_t find(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools,
                    const ToolContactOptions& options, const std::function<Vec3(std::size_t)>& force_of,
                    std::vector<Pull>& pulls);
-  /// Adds the depths that still fade and the anchors of friction to a hash; nothing where there are none. Cost: O(touched).
+  /// Adds the depths that still fade and the anchors of friction to a hash; nothing where there are none. Cost:
+  /// O(touched).
   void add_to(StateHash& hash) const;
 
  private:
   /// A vertex that a tool touches, or is about to.
   struct Held {
     std::uint32_t vertex = 0, tool = 0;
-    unsigned age = 0;  ///< frames
-    double depth = 0;  ///< that counted as none at first, at most 0; length unit
+    unsigned age = 0;            ///< frames
+    double depth = 0;            ///< that counted as none at first, at most 0; length unit
     Vec3 anchor = Vec3::Zero();  ///< where friction holds it
   };
 

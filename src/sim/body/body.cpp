@@ -56,7 +56,8 @@ Status check(const Pull& pull, std::size_t index, const DeformableBody::State& s
   if (!(pull.stiffness >= 0 && std::isfinite(pull.stiffness))) return bad_pull("the stiffness must be at least 0 N/m");
   if (!pull.target.allFinite()) return bad_pull("the target is not finite");
   if (!(pull.limit >= 0)) return bad_pull("the limit must be at least 0 N");
-  if (!(pull.drag >= 0) || !pull.anchor.allFinite()) return bad_pull("the drag must be at least 0 N, its anchor finite");
+  if (!(pull.drag >= 0) || !pull.anchor.allFinite())
+    return bad_pull("the drag must be at least 0 N, its anchor finite");
   const double length2 = pull.axis.squaredNorm();
   if (!(length2 == 0 || std::abs(length2 - 1) < 1e-6)) return bad_pull("the axis must be of length 1, or zero");
   bool has_vertex = false;

@@ -109,7 +109,7 @@ detail::EnergyNow DeformableBody::State::energy_now() {
     if (term.stiffness > 0) now.total += detail::pull_state(term, detail::off_target(term, floats.data())).energy;
   }
   for (const detail::ContactTerm& term : contact.terms()) {
-    now.total += detail::contact_state(term, floats.data()).energy;
+    now.total += detail::contact_energy(term, floats.data());
   }
   return now;
 }

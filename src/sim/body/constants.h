@@ -27,8 +27,8 @@ inline constexpr double kContactMargin = 0.1;
 inline constexpr double kDeepest = 0.5;
 /// Or than so many of the ways that the two came nearer in a step.
 inline constexpr double kDeepestSteps = 1.5;
-/// How far a search must see at least, in mean edges of the surface, and at most; beyond what it must, the grid of faces
-/// sees by the last two more, so that it serves for some steps.
+/// How far a search must see at least, in mean edges of the surface, and at most; beyond what it must, the grid of
+/// faces sees by the last two more, so that it serves for some steps.
 inline constexpr double kLeastReach = 0.15, kMostReach = 1.5, kReachMore = 0.1, kReachTimes = 1.5;
 /// A contact keeps its face unseen as long as nothing has moved by more than this, in mean edges.
 inline constexpr double kLookAgain = 0.02;

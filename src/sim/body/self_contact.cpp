@@ -283,7 +283,8 @@ double SelfContact::nears(const State& body, const Query& query, const Found& fo
 SelfContact::Query SelfContact::query_of(const State& body, std::uint32_t vertex, const Contact* old) const {
   const double length = normals_[vertex].norm();
   const Vec3 normal = length > 0 ? Vec3(normals_[vertex] / length) : Vec3(Vec3::Zero());
-  return {vertex, body.places[vertex], normal, edge_at(body, vertex, surface_.spacing()),
+  return {vertex, body.places[vertex],
+          normal, edge_at(body, vertex, surface_.spacing()),
           old,    surface_.vertex(vertex).is_beside_front};
 }
 
@@ -320,8 +321,8 @@ void SelfContact::look(State& body, std::uint32_t vertex, Contact* old, double d
     if (found.distance > nearest + kKnownAsNear * query.edge) return;
     if (is_known) found.squareness += kKnownSquarer;
     found.nears = nears(body, query, found, dt);
-    const double deepest = std::min(old != nullptr ? old->gap : 0.0, 0.0) -
-                           std::max(kDeepest * query.edge, kDeepestSteps * found.nears);
+    const double deepest =
+        std::min(old != nullptr ? old->gap : 0.0, 0.0) - std::max(kDeepest * query.edge, kDeepestSteps * found.nears);
     if (!is_known && found.gap < 0 && (found.gap < deepest || is_through_material(body, query, found))) return;
     nearest = std::min(nearest, found.distance);
     if (!is_beside) candidates_.push_back(found);
@@ -360,17 +361,18 @@ void SelfContact::find(State& body, double dt) {
   jump_ = 0;
   const double spacing = surface_.spacing();
   const bool moves = body.order.count_awake() > 0;
+  if (!moves) return;  // all is as it was, terms too
   const bool is_old = reach_ - (way_ - grid_way_) < needed_reach();
   next_.clear();
-  if (moves && (is_grid_stale_ || is_old)) build_grid(body);
+  if (is_grid_stale_ || is_old) build_grid(body);
   contact_of_.resize(body.places.size(), 0);
   clear_until_.resize(body.places.size(), 0);
   looked_at_.resize(body.places.size(), kNever);
   const double soon = way_ + step_way_;
   for (const std::uint32_t v : surface_.vertices()) {
     Contact* old = known(v);
-    if (old == nullptr && (!moves || soon < clear_until_[v])) continue;
-    if (old != nullptr && (!moves || rests(body, *old))) {
+    if (old == nullptr && soon < clear_until_[v]) continue;
+    if (old != nullptr && rests(body, *old)) {
       next_.push_back(*old);
       continue;
     }

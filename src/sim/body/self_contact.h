@@ -96,7 +96,8 @@ class SelfContact {
   [[nodiscard]] bool may_be_near(const Nearby& face, const std::array<float, 3>& place,
                                  const std::array<float, 3>& normal, float reach) const;
   void look(DeformableBody::State& body, std::uint32_t vertex, Contact* old, double dt);
-  [[nodiscard]] double nears(const DeformableBody::State& body, const Query& query, const Found& found, double dt) const;
+  [[nodiscard]] double nears(const DeformableBody::State& body, const Query& query, const Found& found,
+                             double dt) const;
   [[nodiscard]] bool try_face(const DeformableBody::State& body, const Query& query, const ContactFace& face,
                               Found& found) const;
   [[nodiscard]] bool is_through_material(const DeformableBody::State& body, const Query& query,

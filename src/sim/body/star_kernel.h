@@ -35,9 +35,9 @@ struct PullTerm {
   Vec3 target = Vec3::Zero();
   Vec3 axis = Vec3::Zero();
   double stiffness = 0;
-  double limit = 0;             ///< of the force along the axis
-  double drag = 0;              ///< the same across it: 0: none
-  Vec3 anchor = Vec3::Zero();   ///< with drag: where the point is held across the axis, against the target
+  double limit = 0;            ///< of the force along the axis
+  double drag = 0;             ///< the same across it: 0: none
+  Vec3 anchor = Vec3::Zero();  ///< with drag: where the point is held across the axis, against the target
   bool has_axis = false, pushes_only = false;
 };
 
