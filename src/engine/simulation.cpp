@@ -95,6 +95,7 @@ struct Simulation::State {
   std::vector<Vec3> blade_before;
   detail::BladeCoupling coupling;
   ToolContacts tool_contacts;
+  std::size_t first_tool_pull = 0;  // of the last frame
   std::map<std::uint32_t, Grip> grips;
   HapticSnapshot snapshot;
 
@@ -166,10 +167,14 @@ Status Simulation::State::press(const FrameInput& input, FrameReport& report) {
   if (input.blade && coupling.resists()) coupling.press(*input.blade, engine.mesh(), pulls);
   std::vector<Tool> tools = input.tools;
   add_flat(input, tools);
-  ToolContactOptions contact{contact_stiffness, 0.1 * spacing, Vec3::Zero()};
+  ToolContactOptions contact{contact_stiffness, 0.1 * spacing, Vec3::Zero(), options.body.length_unit, 0};
   const double dt = options.frame_seconds;
   if (body != nullptr) contact.speed_up = dt * dt / options.body.length_unit * options.body.gravity;
-  report.contacts = tool_contacts.find(engine.mesh(), solver->positions(), tools, contact, pulls);
+  if (body != nullptr && options.body.self.on) contact.friction = options.body.self.friction;
+  const std::size_t first = pulls.size();
+  const auto force_of = [&](std::size_t index) { return solver->pull_force(first_tool_pull + index); };
+  report.contacts = tool_contacts.find(engine.mesh(), solver->positions(), tools, contact, force_of, pulls);
+  first_tool_pull = first;
   return solver->set_pulls(std::move(pulls));
 }
 

@@ -77,6 +77,32 @@ bool run_falling(const char* name, SimulationOptions options) {
   return run(name, simulation, inputs);
 }
 
+/// Held below and cut level, twice: the parts lie on each other and rub, and a ball rubs on the uppermost; then the last
+/// cut is taken back and made again.
+bool run_touching(const char* name, SimulationOptions options) {
+  options.body.self.on = true;
+  options.body.damping = 2;
+  Simulation simulation = Simulation::create(TetMesh::build(jittered_cube(5, 12)).value(), std::move(options)).value();
+  hold_below(simulation, 0.1);
+  const auto level = [](double x, double height) {
+    return BladePose{{{x, -0.1, height}, {x, 1.1, height + 0.1}}, Vec3(1, 0, 0)};
+  };
+  std::vector<FrameInput> inputs;
+  for (const double height : {0.63, 0.31}) {
+    for (unsigned i = 0; i <= 12; ++i) {
+      FrameInput input;
+      input.blade = level(-0.1 + 0.1 * i, height);
+      inputs.push_back(std::move(input));
+    }
+    inputs.resize(inputs.size() + 7);
+  }
+  for (unsigned i = 20; i < 40; ++i) inputs[i].tools = {BallTool{Vec3(0.4 + 0.01 * i, 0.5, 1.2), 0.3}};
+  bool is_sound = run(name, simulation, inputs);
+  is_sound &= simulation.undo() && simulation.frame({}).ok() && print(name, 41, simulation);
+  is_sound &= simulation.redo() && simulation.frame({}).ok() && print(name, 42, simulation);
+  return is_sound;
+}
+
 }  // namespace
 
 bool run_all_simulated(unsigned threads) {
@@ -88,7 +114,8 @@ bool run_all_simulated(unsigned threads) {
   is_sound &= run_held("tough", tough);
   is_sound &= run_held("projected", projected);
   is_sound &= run_held("paper", paper);
-  return is_sound & run_falling("falling", soft_options(threads));
+  is_sound &= run_falling("falling", soft_options(threads));
+  return is_sound & run_touching("touching", soft_options(threads));
 }
 
 }  // namespace incise::test

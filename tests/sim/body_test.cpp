@@ -260,12 +260,13 @@ TEST(Body, EnergyOfAFreeBodyNeverRises) {
 
 // --- from anywhere
 
-void expect_finite_from_anywhere(Relaxation relaxation, double spread, double eps) {
+void expect_finite_from_anywhere(Relaxation relaxation, double spread, double eps, bool touches = false) {
   SCOPED_TRACE(testing::Message() << "spread " << spread << " eps " << eps);
   const CutBeam cut = cut_beam({}, eps);
   ASSERT_GT(cut.mesh.tet_count(), 0U);
   BodyOptions options = damped();
   options.relaxation = relaxation;
+  options.self.on = touches;
   DeformableBody body = make_body(cut.mesh, tissue(20e3, 0.45), options);
   for (const VertexId v : vertices_at(cut.mesh, 0)) ASSERT_TRUE(body.hold(v, kInfinity).ok());
   Random random(9);
@@ -287,6 +288,14 @@ void expect_finite_from_anywhere(Relaxation relaxation, double spread, double ep
 TEST(Body, StaysFiniteFromAnyStart) {
   for (const double spread : {0.005, 0.05, 5.0}) {
     for (const double eps : {0.3, 1e-2, 1e-4}) expect_finite_from_anywhere(Relaxation::kBlockDescent, spread, eps);
+  }
+}
+
+TEST(Body, StaysFiniteFromAnyStartWithContact) {
+  for (const double spread : {0.005, 0.05, 5.0}) {
+    for (const double eps : {0.3, 1e-2, 1e-4}) {
+      expect_finite_from_anywhere(Relaxation::kBlockDescent, spread, eps, true);
+    }
   }
 }
 

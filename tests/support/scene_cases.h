@@ -71,7 +71,7 @@ inline Json full_scene() {
   scene["solver"] = {{"relaxation", "position-based"}, {"substeps", 3}, {"iterations", 2}};
   scene["cut"] = {{"snap", 0.1}, {"profile", "incise"}};
   scene["maintain"] = {{"merge", true}, {"improve", true}, {"work_units", 5000}};
-  scene["contact"] = {{"stiffness", 100}, {"flat_height", 0.1}};
+  scene["contact"] = {{"stiffness", 100}, {"flat_height", 0.1}, {"self", true}, {"friction", 0.2}};
   scene["view"] = {{"from", {1, -2, 3}}, {"up", {0, 0, 2}},       {"target", {0.5, 0.4, 0.9}}, {"distance", 4.5},
                    {"zoom", 1.5},        {"color", "region"},     {"wireframe", true},         {"opacity", 0.25},
                    {"theme", "light"},   {"clip", {0, 1, 0, 0.1}}};

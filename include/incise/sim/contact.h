@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -118,6 +119,8 @@ struct ToolContactOptions {
   double stiffness = 0;          ///< N/m per vertex, at least 0
   double margin = 0;             ///< length unit, at least 0: as near as this a vertex is touched, however slow it is
   Vec3 speed_up = Vec3::Zero();  ///< by which a frame's motion grows in the next one: gravity, length unit
+  double length_unit = 1;        ///< metres
+  double friction = 0;           ///< of tissue on tools, at least 0: against anchors that tools take along
 };
 
 /// What tools touch, from frame to frame.
@@ -133,20 +136,26 @@ class ToolContacts {
   /// Appends a pull that only pushes, along the tool's normal, for each vertex that is touched or about to be. Each
   /// vertex is pushed by the tool that it is deepest in alone. Tools are the same from call to call by their place in
   /// the list and their kind. To be called once per frame. Returns how many vertices lie within `margin`.
+  /// `force_of(index)`: what the pull with that number, among those of the last call, did to the tissue, N.
   /// Cost: about 3 ns per vertex slot and tool, plus the touched vertices.
   std::size_t find(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools,
-                   const ToolContactOptions& options, std::vector<Pull>& pulls);
-  /// Adds the depths that still fade to a hash; nothing where there are none. Cost: O(touched).
+                   const ToolContactOptions& options, const std::function<Vec3(std::size_t)>& force_of,
+                   std::vector<Pull>& pulls);
+  /// Adds the depths that still fade and the anchors of friction to a hash; nothing where there are none. Cost:
+  /// O(touched).
   void add_to(StateHash& hash) const;
 
  private:
   /// A vertex that a tool touches, or is about to.
   struct Held {
     std::uint32_t vertex = 0, tool = 0;
-    unsigned age = 0;  ///< frames
-    double depth = 0;  ///< that counted as none at first, at most 0; length unit
+    unsigned age = 0;            ///< frames
+    double depth = 0;            ///< that counted as none at first, at most 0; length unit
+    Vec3 anchor = Vec3::Zero();  ///< where friction holds it
   };
 
+  static void rub(const ToolContactOptions& options, const Vec3& point, const Vec3& tool_way, const Vec3& force,
+                  Held& held, Pull& pull);
   [[nodiscard]] double depth_before(const Tool& tool, std::size_t index, const Vec3& point, const Vec3& inner) const;
   [[nodiscard]] Held take_up(const Held& found, const Tool& tool, const Vec3& point, const Vec3& inner, double distance,
                              std::size_t& next) const;
@@ -154,6 +163,7 @@ class ToolContacts {
   std::vector<Held> held_, fresh_;  // by vertex; `fresh_`: scratch
   std::vector<Tool> tools_;         // of the last call
   std::vector<Vec3> positions_;     // likewise
+  bool has_friction_ = false;       // likewise
 };
 
 }  // namespace v0

@@ -28,6 +28,10 @@ struct Pull {
   bool pushes_only = false;                   ///< with an axis: acts only where axis · (a − target) < 0
   /// With an axis: N, at least 0; where the spring would pull harder it gives way, and pulls with this.
   double limit = std::numeric_limits<double>::infinity();
+  /// With an axis: the spring holds the point across the axis to `anchor` as well, with this force at most, N:
+  /// friction.
+  double drag = 0;
+  Vec3 anchor = Vec3::Zero();  ///< where it holds it, length unit; without `drag` it means nothing
 
   /// Whether both are the same in all numbers.
   friend bool operator==(const Pull&, const Pull&) = default;

@@ -275,7 +275,9 @@ class SceneOptionsReader : public SceneBodyReader {
   bool read_contact(const JsonValue* value) {
     if (value == nullptr) return true;
     SimulationOptions& options = scene_.options;
-    return read_.is_object(*value, "contact", {"stiffness", "flat_height"}) &&
+    return read_.is_object(*value, "contact", {"stiffness", "flat_height", "self", "friction"}) &&
+           read_.optional_boolean(*value, "contact", "self", options.body.self.on) &&
+           read_.optional_ranged(*value, "contact", "friction", kAtLeast0, options.body.self.friction) &&
            read_.optional_ranged(*value, "contact", "stiffness", kAtLeast0, options.contact_stiffness) &&
            read_.optional_ranged(*value, "contact", "flat_height", kAtLeast0, options.flat_height);
   }

@@ -172,7 +172,10 @@ void add_options(const SimulationOptions& options, Json& root) {
   root["maintain"] = {{"merge", maintain.merge},
                       {"improve", maintain.improve},
                       {"work_units", maintain.work_units == kUnlimitedWork ? Json() : Json(maintain.work_units)}};
-  root["contact"] = {{"stiffness", options.contact_stiffness}, {"flat_height", options.flat_height}};
+  root["contact"] = {{"stiffness", options.contact_stiffness},
+                     {"flat_height", options.flat_height},
+                     {"self", options.body.self.on},
+                     {"friction", options.body.self.friction}};
 }
 
 }  // namespace

@@ -66,6 +66,7 @@ Scene scene_of_mesh(const fs::path& mesh, const Box& body, const Vec3& up) {
   scene.options.body.length_unit = kLongestSide / std::max(size.maxCoeff(), 1e-300);
   scene.options.body.gravity = -9.81 * up;
   scene.options.body.damping = 2;
+  scene.options.body.self.on = true;
   scene.options.materials.fallback.young = kYoung;
   const double low = std::min(body.lo.dot(up), body.hi.dot(up)), height = std::abs(size.dot(up));
   scene.attachments.push_back({HalfSpace{up, low + kHeldShare * height}});

@@ -56,6 +56,8 @@ Status check(const Pull& pull, std::size_t index, const DeformableBody::State& s
   if (!(pull.stiffness >= 0 && std::isfinite(pull.stiffness))) return bad_pull("the stiffness must be at least 0 N/m");
   if (!pull.target.allFinite()) return bad_pull("the target is not finite");
   if (!(pull.limit >= 0)) return bad_pull("the limit must be at least 0 N");
+  if (!(pull.drag >= 0) || !pull.anchor.allFinite())
+    return bad_pull("the drag must be at least 0 N, its anchor finite");
   const double length2 = pull.axis.squaredNorm();
   if (!(length2 == 0 || std::abs(length2 - 1) < 1e-6)) return bad_pull("the axis must be of length 1, or zero");
   bool has_vertex = false;
@@ -152,14 +154,10 @@ Vec3 off_target(const DeformableBody::State& s, const Pull& pull) {
   return off;
 }
 
-/// In kg L²/s²: k/2 x², and linear beyond the limit.
+/// In kg L²/s².
 double energy_of(const DeformableBody::State& s, const Pull& pull) {
   if (pull.stiffness <= 0) return 0;
-  const Vec3 off = off_target(s, pull);
-  const double force = detail::pull_state(detail::term_of(pull, Vec3::Zero(), s.unit()), off).slope.norm();
-  const double reached = force / pull.stiffness;
-  const double beyond = force > 0 && !pull.axis.isZero(0) ? std::abs(pull.axis.dot(off)) - reached : 0;
-  return 0.5 * force * reached + force * std::max(beyond, 0.0);
+  return detail::pull_state(detail::term_of(pull, Vec3::Zero(), s.unit()), off_target(s, pull)).energy;
 }
 
 }  // namespace

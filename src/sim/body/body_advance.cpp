@@ -2,6 +2,7 @@
 // One step in time: implicit Euler by vertex block descent.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "incise/geom/box.h"
 #include "sim/body/body_state.h"
@@ -19,7 +20,8 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   State& s = *state_;
   s.label_stale_pieces();
   if (s.drifted > 0.5 * s.extent) s.centre();
-  if (s.options.self.on) s.contact.find(s, dt);
+  const bool touches = s.options.self.on && s.options.relaxation == Relaxation::kBlockDescent;
+  if (touches) s.contact.find(s, dt);
   s.find_groups();
   s.prepare_pulls();
   s.order.refresh();
@@ -42,7 +44,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   if (is_watched) s.keep_energy(before, dt);
   s.move_crumbs(dt);
   s.drifted += report.fastest * dt;
-  if (s.options.self.on) {
+  if (touches) {
     s.contact.finish(s, dt, report.fastest);
     report.self_contacts = s.contact.count_pressing();
   }
@@ -98,6 +100,8 @@ detail::PullTerm detail::term_of(const Pull& pull, const Vec3& middle, double un
   term.pushes_only = pull.pushes_only && term.has_axis;
   term.stiffness = pull.stiffness;
   term.limit = pull.limit / unit;
+  term.drag = term.has_axis ? pull.drag / unit : 0.0;
+  term.anchor = pull.anchor - pull.target;
   return term;
 }
 
@@ -105,6 +109,18 @@ void DeformableBody::State::wake_pulled(const Pull& pull) {
   for (unsigned i = 0; i < 4; ++i) {
     if (pull.weights[i] != 0 && pull.stiffness > 0) order.wake(pull.vertices[i]);
   }
+}
+
+/// Whether a pull does what it did, but for what moves nothing.
+bool DeformableBody::State::is_as_before(const Pull& a, const Pull& b) const {
+  const auto shape = [](const Pull& p) { return std::tie(p.vertices, p.weights, p.stiffness, p.pushes_only, p.limit); };
+  if (shape(a) != shape(b) || !a.vertices[0].is_valid()) return false;
+  const double least = 4 * options.sleep_below * static_cast<double>(motions[a.vertices[0]].reach);
+  const Vec3 moved = b.target - a.target;
+  if (a.axis.isZero(0) || b.axis.isZero(0)) return a.axis == b.axis && moved.norm() < least;
+  if (!((a.axis - b.axis).squaredNorm() < 1e-8) || !(std::abs(a.axis.dot(moved)) < least)) return false;
+  return std::abs(a.drag - b.drag) <= 0.01 * std::max(a.drag, b.drag) &&
+         (a.drag == 0 || (b.anchor - a.anchor).norm() < least);
 }
 
 /// What pulls as it did lets its vertices sleep: a table under what rests on it, a hook that is held still.
@@ -122,7 +138,7 @@ void DeformableBody::State::wake_where_pulls_differ(const std::vector<Pull>& nex
   while (i < old_order.size() || j < new_order.size()) {
     const Pull* before = i < old_order.size() ? &pulls[old_order[i]] : nullptr;
     const Pull* after = j < new_order.size() ? &next[new_order[j]] : nullptr;
-    if (before != nullptr && after != nullptr && *before == *after) {
+    if (before != nullptr && after != nullptr && is_as_before(*before, *after)) {
       ++i, ++j;
     } else if (after == nullptr || (before != nullptr && before->vertices[0].value <= after->vertices[0].value)) {
       wake_pulled(*before);

@@ -173,8 +173,7 @@ class CarriedPieces {
       point += term.weights[i] * place_of(term.vertices[i]);
     }
     const detail::PullState pull = detail::pull_state(term, off);
-    const Mat3 along = term.has_axis ? Mat3(term.axis * term.axis.transpose()) : Mat3(Mat3::Identity());
-    add(1, point - carried_[number].centre, pull.slope, pull.stiffness * along, g, h);
+    add(1, point - carried_[number].centre, pull.slope, pull.curvature(term), g, h);
   }
 
   void move(std::uint32_t number) {
@@ -200,7 +199,7 @@ class CarriedPieces {
 }  // namespace
 
 void DeformableBody::State::move_carried() {
-  if (!has_carried_piece) return;
+  if (!has_carried_piece || options.relaxation == Relaxation::kPositionBased) return;
   CarriedPieces pieces_here(*this);
   if (!pieces_here.gather()) return;
   pieces_here.find_inertia();

@@ -15,16 +15,6 @@ namespace {
 /// Of the sum of single-precision energies, which do not start at 0: changes below are rounding.
 constexpr double kNoise = 2e-7;
 
-/// k/2 x², and linear beyond the limit.
-double energy_of(const detail::PullTerm& term, const Vec3& off) {
-  const detail::PullState state = detail::pull_state(term, off);
-  const double force = state.slope.norm();
-  if (force == 0) return 0;
-  const double reached = force / term.stiffness;
-  const double beyond = term.has_axis ? std::abs(term.axis.dot(off)) - reached : 0;
-  return 0.5 * force * reached + force * std::max(beyond, 0.0);
-}
-
 /// The turning by a small ω dt, by Cayley's formula: as good as exact, without sines.
 Mat3 turning_by(const Vec3& angle) {
   Mat3 half;
@@ -116,10 +106,10 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   now.total += elastic;
   now.noise = kNoise * std::abs(elastic);
   for (const detail::PullTerm& term : terms) {
-    if (term.stiffness > 0) now.total += energy_of(term, detail::off_target(term, floats.data()));
+    if (term.stiffness > 0) now.total += detail::pull_state(term, detail::off_target(term, floats.data())).energy;
   }
   for (const detail::ContactTerm& term : contact.terms()) {
-    now.total += detail::contact_state(term, floats.data()).energy;
+    now.total += detail::contact_energy(term, floats.data());
   }
   return now;
 }

@@ -209,6 +209,7 @@ struct DeformableBody::State {
   void centre();
   void prepare_pulls();
   void wake_pulled(const Pull& pull);
+  [[nodiscard]] bool is_as_before(const Pull& a, const Pull& b) const;
   void wake_where_pulls_differ(const std::vector<Pull>& next);
   void list_uses();
   void begin_substep(double h);

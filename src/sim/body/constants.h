@@ -25,10 +25,15 @@ inline constexpr double kLost = 5;
 inline constexpr double kContactMargin = 0.1;
 /// A vertex deeper than this that was no contact before is let alone: no explosion is worth a repaired overlap.
 inline constexpr double kDeepest = 0.5;
-/// How far a grid of faces sees, in mean edges of the surface; it is made anew when a part of that has been moved.
-inline constexpr double kGridReach = 1.0, kGridAge = 0.4;
-/// Cells of the grid, in the same.
-inline constexpr double kGridCell = 1.6;
+/// Or than so many of the ways that the two came nearer in a step.
+inline constexpr double kDeepestSteps = 1.5;
+/// How far a search must see at least, in mean edges of the surface, and at most; beyond what it must, the grid of
+/// faces sees by the last two more, so that it serves for some steps.
+inline constexpr double kLeastReach = 0.15, kMostReach = 1.5, kReachMore = 0.1, kReachTimes = 1.5;
+/// A contact keeps its face unseen as long as nothing has moved by more than this, in mean edges.
+inline constexpr double kLookAgain = 0.02;
+/// Cells of the grid: so much longer than it sees, in mean edges.
+inline constexpr double kGridCell = 0.6;
 /// A vertex may stand so far beside the nearest point of a face, in edges: from the one on contact gets softer, from
 /// the other on there is none. Neither depends on the gap: what rests would press and let go by turns.
 inline constexpr double kBesideALittle = 0.03, kBesideFace = 0.1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/body/contact_terms.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/body/star_kernel.h"
@@ -11,7 +12,7 @@ namespace detail {
 
 /// Pressing: k/2 gap² below 0. Friction: a spring to the anchor that gives way at its limit, as Huber's function has
 /// it, whose slope is continuous: the secant stiffness is its curvature's bound.
-ContactState contact_state(const ContactTerm& term, const float* places) {
+static inline ContactState state_of(const ContactTerm& term, const float* places) {
   const float* x = places + std::size_t{4} * term.vertices[0];
   const float* a = places + std::size_t{4} * term.vertices[1];
   const float* b = places + std::size_t{4} * term.vertices[2];
@@ -23,30 +24,35 @@ ContactState contact_state(const ContactTerm& term, const float* places) {
   ContactState state;
   const auto& n = term.normal;
   state.gap = n[0] * off[0] + n[1] * off[1] + n[2] * off[2];
-  if (state.gap < 0) {
-    state.press = term.stiffness * state.gap;
-    state.energy = 0.5 * static_cast<double>(state.press) * static_cast<double>(state.gap);
-  }
+  if (state.gap < 0) state.press = term.stiffness * state.gap;
   if (!(term.limit > 0)) return state;
-  float slip2 = 0;
-  for (unsigned i = 0; i < 3; ++i) {
-    state.slip[i] = off[i] - state.gap * n[i];
-    slip2 += state.slip[i] * state.slip[i];
-  }
-  const float length = std::sqrt(slip2), force = term.stiffness * length;
-  const bool sticks = force <= term.limit;
-  state.drag = sticks ? term.stiffness : term.limit / length;
-  const auto wide = [](float value) { return static_cast<double>(value); };
-  state.energy += sticks ? 0.5 * wide(force) * wide(length)
-                         : wide(term.limit) * (wide(length) - 0.5 * wide(term.limit) / wide(term.stiffness));
+  for (unsigned i = 0; i < 3; ++i) state.slip[i] = off[i] - state.gap * n[i];
+  const float slip2 = state.slip[0] * state.slip[0] + state.slip[1] * state.slip[1] + state.slip[2] * state.slip[2];
+  const float force2 = term.stiffness * term.stiffness * slip2;
+  state.drag = force2 <= term.limit * term.limit ? term.stiffness : term.limit / std::sqrt(slip2);
   return state;
+}
+
+ContactState contact_state(const ContactTerm& term, const float* places) {
+  return state_of(term, places);
+}
+
+double contact_energy(const ContactTerm& term, const float* places) {
+  const ContactState state = state_of(term, places);
+  const auto wide = [](float value) { return static_cast<double>(value); };
+  double energy = 0.5 * wide(state.press) * wide(std::min(state.gap, 0.0F));
+  if (!(state.drag > 0)) return energy;
+  const double x = wide(state.slip[0]), y = wide(state.slip[1]), z = wide(state.slip[2]);
+  const double length = std::sqrt(x * x + y * y + z * z), stiffness = wide(term.stiffness), limit = wide(term.limit);
+  const bool sticks = state.drag == term.stiffness;
+  return energy + (sticks ? 0.5 * stiffness * length * length : limit * (length - 0.5 * limit / stiffness));
 }
 
 void add_contacts(const Descent& descent, const Motion& motion, Quadratic& q) {
   for (std::uint32_t i = 0; i < motion.contacts; ++i) {
     const ContactUse use = descent.contact_uses[motion.first_contact + i];
     const ContactTerm& term = descent.contact_terms[use / 4];
-    const ContactState state = contact_state(term, descent.places);
+    const ContactState state = state_of(term, descent.places);
     if (!(state.gap < 0) && !(state.drag > 0)) continue;
     const float weight = term.weight(use % 4);
     const auto& n = term.normal;

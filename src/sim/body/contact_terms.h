@@ -40,9 +40,10 @@ struct ContactState {
   float press = 0;              ///< the slope of the energy along the normal, at most 0
   float drag = 0;               ///< the slope of the energy by how far it has slipped
   std::array<float, 3> slip{};  ///< across the normal
-  double energy = 0;            ///< kg L²/s²
 };
 [[nodiscard]] ContactState contact_state(const ContactTerm& term, const float* places);
+/// The energy of a term as it stands, kg L²/s².
+[[nodiscard]] double contact_energy(const ContactTerm& term, const float* places);
 
 /// Adds the contacts of a vertex to its quadratic.
 void add_contacts(const Descent& descent, const Motion& motion, Quadratic& q);

@@ -16,6 +16,8 @@ using State = DeformableBody::State;
 
 namespace {
 
+constexpr double kNever = -1e300;  // of a way: before all
+
 /// Shares of the point of a triangle that is nearest to p (Ericson 2005, section 5.1.5).
 std::array<double, 3> nearest_on(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
@@ -91,16 +93,21 @@ void SelfContact::read_all(const State& body, const TetMesh& mesh) {
   }
   if (surface_.refresh(mesh)) is_grid_stale_ = true;
   clear_until_.assign(mesh.vertex_slots(), 0);
+  looked_at_.assign(mesh.vertex_slots(), kNever);
 }
 
 void SelfContact::read(const State& body, const TetMesh& mesh, std::span<const std::uint32_t> tets) {
   clear_until_.resize(mesh.vertex_slots(), 0);
+  looked_at_.resize(mesh.vertex_slots(), kNever);
   for (const std::uint32_t slot : tets) {
     const TetId t(slot);
     const bool is_part = slot < body.tets.size() && body.tets[t][0].is_valid();
     surface_.set(mesh, t, is_part);
     if (!is_part) continue;
-    for (const VertexId v : body.tets[t]) clear_until_[v.value] = 0;
+    for (const VertexId v : body.tets[t]) {
+      clear_until_[v.value] = 0;
+      looked_at_[v.value] = kNever;
+    }
   }
   if (surface_.refresh(mesh)) is_grid_stale_ = true;
 }
@@ -135,28 +142,55 @@ Contact* SelfContact::known(std::uint32_t vertex) {
 
 // --- broad phase
 
+/// How far the next search must see: as far as anything may come in a step.
+double SelfContact::needed_reach() const {
+  return std::min(kLeastReach * surface_.spacing() + 2 * step_way_, kMostReach * surface_.spacing());
+}
+
 void SelfContact::build_grid(const State& body) {
-  const double reach = kGridReach * surface_.spacing();
+  reach_ = kReachTimes * needed_reach() + kReachMore * surface_.spacing();
+  middle_ = body.middle;
   normals_.assign(body.places.size(), Vec3::Zero());
   boxes_.clear();
+  nearby_.clear();
   for (const ContactFace& face : surface_.faces()) {
     Box& box = boxes_.emplace_back();
+    Nearby& nearby = nearby_.emplace_back();
     if (is_left_out(body, face.corners[0])) continue;
     const auto at = places_of(body, face.corners);
-    const Vec3 normal = (at[1] - at[0]).cross(at[2] - at[0]);
+    const Vec3 normal = (at[1] - at[0]).cross(at[2] - at[0]), middle = (at[0] + at[1] + at[2]) / 3;
+    const double length = normal.norm();
+    double radius2 = 0;
     for (unsigned i = 0; i < 3; ++i) {
       normals_[face.corners[i]] += normal;
       box.extend(at[i]);
+      radius2 = std::max(radius2, (at[i] - middle).squaredNorm());
+      nearby.normal[i] = length > 0 ? static_cast<float>(normal.data()[i] / length) : 0.0F;
+      nearby.middle[i] = static_cast<float>(middle.data()[i] - middle_.data()[i]);
     }
-    box.lo -= Vec3::Constant(reach);
-    box.hi += Vec3::Constant(reach);
+    nearby.radius = static_cast<float>(std::sqrt(radius2));
+    box.lo -= Vec3::Constant(reach_);
+    box.hi += Vec3::Constant(reach_);
   }
-  grid_.build(boxes_, kGridCell * surface_.spacing());
+  grid_.build(boxes_, kGridCell * surface_.spacing() + 2 * reach_);
   is_grid_stale_ = false;
   grid_way_ = way_;
 }
 
 // --- narrow phase
+
+/// Whether a face may be near as it was when the grid was made: `reach` says how far, with what has moved since.
+bool SelfContact::may_be_near(const Nearby& face, const std::array<float, 3>& place, const std::array<float, 3>& normal,
+                              float reach) const {
+  const auto dot = [](const std::array<float, 3>& a, const std::array<float, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  constexpr float kTurned = 0.15F;  // by what has moved since
+  if (dot(face.normal, normal) > kTurned - static_cast<float>(kFacing)) return false;
+  const std::array<float, 3> off = {place[0] - face.middle[0], place[1] - face.middle[1], place[2] - face.middle[2]};
+  const float farthest = face.radius + reach;
+  return std::abs(dot(off, face.normal)) < reach + kTurned * face.radius && dot(off, off) < farthest * farthest;
+}
 
 /// Whether a face is near the vertex and faces it.
 bool SelfContact::try_face(const State& body, const Query& query, const ContactFace& face, Found& found) const {
@@ -168,7 +202,8 @@ bool SelfContact::try_face(const State& body, const Query& query, const ContactF
   for (const VertexId corner : tet) {
     if (corner.value == query.vertex) return false;
   }
-  const double reach = kGridReach * surface_.spacing(), length = normal.norm();
+  const double deep = query.old != nullptr ? 1.2 * std::max(0.0, -query.old->gap) : 0.0;
+  const double reach = std::max(reach_ - (way_ - grid_way_), deep), length = normal.norm();
   found.gap = normal.dot(query.place - at[0]) / length;
   if (!(std::abs(found.gap) < reach)) return false;
   found.share = nearest_on(query.place, at[0], at[1], at[2]);
@@ -239,28 +274,65 @@ Contact SelfContact::contact_of(const State& body, const Query& query, const Fou
   return contact;
 }
 
-void SelfContact::look(State& body, std::uint32_t vertex, Contact* old, double dt) {
-  const auto& bits = surface_.vertex(vertex);
+double SelfContact::nears(const State& body, const Query& query, const Found& found, double dt) const {
+  Vec3 comes = velocity_of(body, query.vertex);
+  for (unsigned i = 0; i < 3; ++i) comes -= found.share[i] * velocity_of(body, found.face->corners[i]);
+  return std::max(0.0, -dt * comes.dot(found.normal));
+}
+
+SelfContact::Query SelfContact::query_of(const State& body, std::uint32_t vertex, const Contact* old) const {
   const double length = normals_[vertex].norm();
   const Vec3 normal = length > 0 ? Vec3(normals_[vertex] / length) : Vec3(Vec3::Zero());
-  const Query query{vertex, body.places[vertex], normal, edge_at(body, vertex, surface_.spacing()),
-                    old,    bits.is_beside_front};
-  double clear = kGridReach * surface_.spacing() - (way_ - grid_way_);
+  return {vertex, body.places[vertex],
+          normal, edge_at(body, vertex, surface_.spacing()),
+          old,    surface_.vertex(vertex).is_beside_front};
+}
+
+/// Whether a contact goes on before its face, without a look at others; then it is taken in as it is now.
+bool SelfContact::stays(const State& body, const Contact& old, double dt) {
+  if (old.face.value == kInvalidIndex || way_ - looked_at_[old.vertex] > kLookAgain * surface_.spacing()) return false;
+  const ContactFace face{old.face, old.corners, false};
+  const Query query = query_of(body, old.vertex, &old);
+  Found found;
+  if (!try_face(body, query, face, found) || beside(found) > kBesideALittle * query.edge) return false;
+  if (found.gap < kContactMargin * query.edge + nears(body, query, found, dt)) {
+    next_.push_back(contact_of(body, query, found));
+  }
+  return true;
+}
+
+void SelfContact::look(State& body, std::uint32_t vertex, Contact* old, double dt) {
+  const Query query = query_of(body, vertex, old);
+  const auto floats = [](const Vec3& v) {
+    return std::array<float, 3>{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+  };
+  const std::array<float, 3> place_here = floats(query.place - middle_), normal_here = floats(query.normal);
+  const auto reach = static_cast<float>(reach_ + (way_ - grid_way_));
+  double clear = reach_ - (way_ - grid_way_);
   candidates_.clear();
   double nearest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t i : grid_.near(query.place)) {
+  const ContactFace last = old != nullptr ? ContactFace{old->face, old->corners, false} : ContactFace{};
+  const auto consider = [&](const ContactFace& face) {
     Found found;
-    if (!try_face(body, query, surface_.faces()[i], found)) continue;
+    if (!try_face(body, query, face, found)) return;
     clear = std::min(clear, found.distance);
     const bool is_beside = beside(found) > kBesideFace * query.edge;
     const bool is_known = old != nullptr && old->face == found.face->side;
-    if (found.distance > nearest + kKnownAsNear * query.edge) continue;
+    if (found.distance > nearest + kKnownAsNear * query.edge) return;
     if (is_known) found.squareness += kKnownSquarer;
-    const double deepest = std::min(old != nullptr ? old->gap : 0.0, 0.0) - kDeepest * query.edge;
-    if (!is_known && found.gap < 0 && (found.gap < deepest || is_through_material(body, query, found))) continue;
+    found.nears = nears(body, query, found, dt);
+    const double deepest =
+        std::min(old != nullptr ? old->gap : 0.0, 0.0) - std::max(kDeepest * query.edge, kDeepestSteps * found.nears);
+    if (!is_known && found.gap < 0 && (found.gap < deepest || is_through_material(body, query, found))) return;
     nearest = std::min(nearest, found.distance);
     if (!is_beside) candidates_.push_back(found);
+  };
+  if (last.side.value != kInvalidIndex) consider(last);  // a deep one the grid may not see
+  for (const std::uint32_t i : grid_.near(query.place)) {
+    const ContactFace& face = surface_.faces()[i];
+    if (face.side != last.side && may_be_near(nearby_[i], place_here, normal_here, reach)) consider(face);
   }
+  looked_at_[vertex] = way_;
   clear_until_[vertex] = way_ + 0.5 * (clear - kContactMargin * query.edge);
   const Found* best = nullptr;
   for (const Found& found : candidates_) {
@@ -268,14 +340,9 @@ void SelfContact::look(State& body, std::uint32_t vertex, Contact* old, double d
     if (found.distance > nearest + (is_known ? kKnownAsNear : kAsNear) * query.edge) continue;
     if (best == nullptr || found.squareness > best->squareness) best = &found;
   }
-  if (best == nullptr) return;
-  const auto& corners = best->face->corners;
-  Vec3 comes = velocity_of(body, vertex);
-  for (unsigned i = 0; i < 3; ++i) comes -= best->share[i] * velocity_of(body, corners[i]);
-  const double falls = dt * dt / body.unit() * std::abs(body.options.gravity.dot(best->normal));
-  const double margin =
-      kContactMargin * query.edge + std::max(0.0, -dt * comes.dot(best->normal)) + std::min(falls, query.edge);
-  if (best->gap < margin) next_.push_back(contact_of(body, query, *best));
+  if (best != nullptr && best->gap < kContactMargin * query.edge + best->nears) {
+    next_.push_back(contact_of(body, query, *best));
+  }
 }
 
 /// Whether nothing of a contact is awake, and it is as it was: then it stays as it is.
@@ -294,22 +361,23 @@ void SelfContact::find(State& body, double dt) {
   jump_ = 0;
   const double spacing = surface_.spacing();
   const bool moves = body.order.count_awake() > 0;
-  const bool is_old = way_ - grid_way_ > kGridAge * spacing;
+  if (!moves) return;  // all is as it was, terms too
+  const bool is_old = reach_ - (way_ - grid_way_) < needed_reach();
   next_.clear();
-  if (moves && (is_grid_stale_ || is_old)) build_grid(body);
+  if (is_grid_stale_ || is_old) build_grid(body);
   contact_of_.resize(body.places.size(), 0);
   clear_until_.resize(body.places.size(), 0);
-  // Relative motion is at most twice the greatest; gravity may add to it.
-  const double soon = way_ + 1.5 * step_way_ + dt * dt / body.unit() * body.options.gravity.norm();
+  looked_at_.resize(body.places.size(), kNever);
+  const double soon = way_ + step_way_;
   for (const std::uint32_t v : surface_.vertices()) {
     Contact* old = known(v);
-    if (old == nullptr && (!moves || soon < clear_until_[v])) continue;
-    if (old != nullptr && (!moves || rests(body, *old))) {
+    if (old == nullptr && soon < clear_until_[v]) continue;
+    if (old != nullptr && rests(body, *old)) {
       next_.push_back(*old);
       continue;
     }
     if (surface_.vertex(v).is_at_front || is_left_out(body, v)) continue;
-    look(body, v, old, dt);
+    if (old == nullptr || !stays(body, *old, dt)) look(body, v, old, dt);
     if (next_.empty() || next_.back().vertex != v || old == nullptr) continue;
     const double least = body.options.sleep_below * edge_at(body, v, spacing);
     if (std::abs(next_.back().gap - old->gap) < least) continue;

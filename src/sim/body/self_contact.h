@@ -78,13 +78,26 @@ class SelfContact {
     Vec3 normal = Vec3::Zero();
     double gap = 0, distance = 0;
     double squareness = 0;
+    double nears = 0;  // by how much the two come nearer in a step, length unit
+  };
+  /// A face when the grid was made, in a few numbers: most are told off by them.
+  struct Nearby {
+    std::array<float, 3> normal{}, middle{};  // middle: against the body's
+    float radius = 0;
   };
 
   [[nodiscard]] static double beside(const Found& found);
   void build_grid(const DeformableBody::State& body);
   [[nodiscard]] Contact* known(std::uint32_t vertex);
   [[nodiscard]] bool rests(DeformableBody::State& body, Contact& contact) const;
+  [[nodiscard]] double needed_reach() const;
+  [[nodiscard]] Query query_of(const DeformableBody::State& body, std::uint32_t vertex, const Contact* old) const;
+  [[nodiscard]] bool stays(const DeformableBody::State& body, const Contact& old, double dt);
+  [[nodiscard]] bool may_be_near(const Nearby& face, const std::array<float, 3>& place,
+                                 const std::array<float, 3>& normal, float reach) const;
   void look(DeformableBody::State& body, std::uint32_t vertex, Contact* old, double dt);
+  [[nodiscard]] double nears(const DeformableBody::State& body, const Query& query, const Found& found,
+                             double dt) const;
   [[nodiscard]] bool try_face(const DeformableBody::State& body, const Query& query, const ContactFace& face,
                               Found& found) const;
   [[nodiscard]] bool is_through_material(const DeformableBody::State& body, const Query& query,
@@ -98,11 +111,15 @@ class SelfContact {
   ContactGrid grid_;
   std::vector<Vec3> normals_;  // by vertex slot, when the grid was made; not of length 1
   std::vector<Box> boxes_;
+  std::vector<Nearby> nearby_;  // by face
+  Vec3 middle_ = Vec3::Zero();  // of the body, when the grid was made
+  double reach_ = 0;            // how far the grid saw when it was made
   bool is_grid_stale_ = true;
   double grid_way_ = 0;                    // `way_` when the grid was made
   double way_ = 0;                         // at most so far has anything moved, ever
   double step_way_ = 0, jump_ = 0;         // in the last step; between the last two
   std::vector<double> clear_until_;        // by vertex slot: nothing is near before `way_` has come so far
+  std::vector<double> looked_at_;          // by vertex slot: `way_` when all faces around were last looked at
   std::vector<Contact> contacts_, next_;   // by vertex
   std::vector<std::uint32_t> contact_of_;  // by vertex slot: index + 1
   std::vector<Found> candidates_;

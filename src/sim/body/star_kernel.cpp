@@ -236,13 +236,44 @@ HWY_EXPORT(find_quadratic);
 #define INCISE_DISPATCH(function) plain::function
 #endif
 
+namespace {
+
+/// A spring that gives way at a limit: stiffness, its secant's, and energy at a length.
+struct Yielding {
+  double force, tangent, secant, energy;
+};
+Yielding yielding(double stiffness, double limit, double length) {
+  const double force = stiffness * length;
+  if (force <= limit) return {force, stiffness, stiffness, 0.5 * force * length};
+  return {limit, 0, limit / length, limit * (length - 0.5 * limit / stiffness)};
+}
+
+}  // namespace
+
+Mat3 PullState::curvature(const PullTerm& term) const {
+  if (!term.has_axis) return stiffness * Mat3::Identity();
+  Mat3 along = stiffness * (term.axis * term.axis.transpose());
+  if (across > 0) along += across * (Mat3::Identity() - term.axis * term.axis.transpose());
+  return along;
+}
+
 PullState pull_state(const PullTerm& term, const Vec3& off) {
-  if (!term.has_axis) return {term.stiffness * off, term.stiffness};
-  const double along = term.axis.dot(off), slope = term.stiffness * along;
-  if (term.pushes_only && along >= 0) return {};
-  if (slope > term.limit) return {term.limit * term.axis, 0};
-  if (slope < -term.limit) return {-term.limit * term.axis, 0};
-  return {slope * term.axis, term.stiffness};
+  if (!term.has_axis) {
+    return {term.stiffness * off, term.stiffness, 0, 0.5 * term.stiffness * off.squaredNorm()};
+  }
+  PullState state;
+  const double along = term.axis.dot(off);
+  if (term.drag > 0 && term.stiffness > 0) {
+    const Vec3 from = off - term.anchor, slip = from - term.axis.dot(from) * term.axis;
+    const Yielding drag = yielding(term.stiffness, term.drag, slip.norm());
+    state = {drag.secant * slip, 0, drag.secant, drag.energy};
+  }
+  if ((term.pushes_only && along >= 0) || !(term.stiffness > 0)) return state;
+  const Yielding spring = yielding(term.stiffness, term.limit, std::abs(along));
+  state.slope += (along < 0 ? -spring.force : spring.force) * term.axis;
+  state.stiffness = spring.tangent;
+  state.energy += spring.energy;
+  return state;
 }
 
 Vec3 off_target(const PullTerm& term, const float* places) {
@@ -260,8 +291,7 @@ void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q) {
     const PullUse& use = descent.uses[motion.first_pull + i];
     const PullTerm& term = descent.terms[use.term];
     const PullState pull = pull_state(term, off_target(term, descent.places));
-    const Mat3 along = term.has_axis ? Mat3(term.axis * term.axis.transpose()) : Mat3(Mat3::Identity());
-    const Mat3 bend = pull.stiffness * use.weight * use.weight * along;
+    const Mat3 bend = use.weight * use.weight * pull.curvature(term);
     for (int k = 0; k < 3; ++k) q.slope[static_cast<std::size_t>(k)] += use.weight * pull.slope[k];
     const std::array<double, 6> upper = {bend(0, 0), bend(0, 1), bend(0, 2), bend(1, 1), bend(1, 2), bend(2, 2)};
     for (unsigned k = 0; k < 6; ++k) q.curvature[k] += upper[k];

@@ -35,7 +35,9 @@ struct PullTerm {
   Vec3 target = Vec3::Zero();
   Vec3 axis = Vec3::Zero();
   double stiffness = 0;
-  double limit = 0;  ///< of the force along the axis
+  double limit = 0;            ///< of the force along the axis
+  double drag = 0;             ///< the same across it: 0: none
+  Vec3 anchor = Vec3::Zero();  ///< with drag: where the point is held across the axis, against the target
   bool has_axis = false, pushes_only = false;
 };
 
@@ -68,6 +70,11 @@ struct Quadratic {
 struct PullState {
   Vec3 slope = Vec3::Zero();
   double stiffness = 0;
+  double across = 0;  ///< how stiff it is across the axis
+  double energy = 0;  ///< k/2 x², and linear beyond the limits
+
+  /// All of its stiffness.
+  [[nodiscard]] Mat3 curvature(const PullTerm& term) const;
 };
 /// `off`: from the target to the point.
 [[nodiscard]] PullState pull_state(const PullTerm& term, const Vec3& off);

@@ -59,8 +59,39 @@ ToolContacts::Held ToolContacts::take_up(const Held& found, const Tool& tool, co
   return held;
 }
 
+/// Friction's part: the anchor goes with the tool, and comes along where the tissue has slipped.
+void ToolContacts::rub(const ToolContactOptions& options, const Vec3& point, const Vec3& tool_way, const Vec3& force,
+                       Held& held, Pull& pull) {
+  pull.drag = options.friction * std::max(0.0, force.dot(pull.axis));
+  Vec3 slip = point - held.anchor - tool_way;
+  slip -= pull.axis.dot(slip) * pull.axis;
+  const double stiffness = options.stiffness * options.length_unit;  // N per length unit
+  const double farthest = stiffness > 0 ? pull.drag / stiffness : 0.0, length = slip.norm();
+  if (length > farthest) slip *= farthest / length;
+  held.anchor = point - slip;
+  pull.anchor = held.anchor;
+}
+
+namespace {
+
+/// How far a tool of the same kind has moved as a whole.
+Vec3 way_of(const Tool& before, const Tool& now) {
+  if (const auto* ball = std::get_if<BallTool>(&now)) return ball->centre - std::get<BallTool>(before).centre;
+  if (const auto* flat = std::get_if<FlatTool>(&now)) {
+    return flat->edge.front() - std::get<FlatTool>(before).edge.front();
+  }
+  if (const auto* rod = std::get_if<RodTool>(&now)) {
+    const auto& old = std::get<RodTool>(before);
+    return 0.5 * (rod->from + rod->to - old.from - old.to);
+  }
+  return Vec3::Zero();
+}
+
+}  // namespace
+
 std::size_t ToolContacts::find(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools,
-                               const ToolContactOptions& options, std::vector<Pull>& pulls) {
+                               const ToolContactOptions& options, const std::function<Vec3(std::size_t)>& force_of,
+                               std::vector<Pull>& pulls) {
   const bool has_flat =
       std::any_of(tools.begin(), tools.end(), [](const Tool& tool) { return std::holds_alternative<FlatTool>(tool); });
   std::size_t next = 0, touched = 0;
@@ -73,34 +104,39 @@ std::size_t ToolContacts::find(const TetMesh& mesh, std::span<const Vec3> positi
     const auto [touch, tool] = deepest_of(tools, x, inner);
     if (!(touch.distance < std::numeric_limits<double>::infinity())) continue;
     const Vec3 way = slot < positions_.size() ? Vec3(x - positions_[slot] + options.speed_up) : options.speed_up;
-    const double comes_near = std::max(0.0, -way.dot(touch.normal));
-    if (touch.distance >= options.margin + comes_near) continue;
+    if (touch.distance >= options.margin + std::max(0.0, -way.dot(touch.normal))) continue;
     touched += touch.distance < options.margin ? 1U : 0U;
-    const Held held = take_up({slot, tool, 0, 0}, tools[tool], x, inner, touch.distance, next);
-    fresh_.push_back(held);
-    const double left = held.age < detail::kFadingFrames
-                            ? held.depth * (detail::kFadingFrames - held.age) / detail::kFadingFrames
-                            : 0.0;
+    Held held = take_up({slot, tool, 0, 0, x}, tools[tool], x, inner, touch.distance, next);
+    const bool fades = held.age < detail::kFadingFrames;
+    const double left = fades ? held.depth * (detail::kFadingFrames - held.age) / detail::kFadingFrames : 0.0;
     Pull pull;
     pull.vertices[0] = v;
     pull.target = touch.surface + left * touch.normal;
     pull.axis = touch.normal;
     pull.stiffness = options.stiffness;
     pull.pushes_only = true;
+    if (options.friction > 0 && held.age > 0) {
+      rub(options, x, way_of(tools_[tool], tools[tool]), force_of(next), held, pull);
+    }
+    fresh_.push_back(held);
     pulls.push_back(pull);
   }
   held_.swap(fresh_);
   tools_.assign(tools.begin(), tools.end());
   positions_.assign(positions.begin(), positions.end());
+  has_friction_ = options.friction > 0;
   return touched;
 }
 
 void ToolContacts::add_to(StateHash& hash) const {
   for (const Held& held : held_) {
-    if (held.depth == 0 || held.age >= detail::kFadingFrames) continue;
-    hash.add(std::uint64_t{held.vertex} << 32U | held.tool);
-    hash.add(std::uint64_t{held.age});
-    hash.add(held.depth);
+    if (held.depth != 0 && held.age < detail::kFadingFrames) {
+      hash.add(std::uint64_t{held.vertex} << 32U | held.tool);
+      hash.add(std::uint64_t{held.age});
+      hash.add(held.depth);
+    }
+    if (!has_friction_) continue;
+    for (const double x : {held.anchor.x(), held.anchor.y(), held.anchor.z()}) hash.add(x);
   }
 }
 

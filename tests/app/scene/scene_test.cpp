@@ -60,6 +60,8 @@ TEST(Scene, reads_every_key) {
   EXPECT_EQ(scene.options.materials.of(0).toughness, 5);
   EXPECT_EQ(scene.options.contact_stiffness, 100);
   EXPECT_EQ(scene.options.flat_height, 0.1);
+  EXPECT_TRUE(scene.options.body.self.on);
+  EXPECT_EQ(scene.options.body.self.friction, 0.2);
   EXPECT_EQ(scene.attachments.size(), 3U);
   EXPECT_TRUE(std::isinf(scene.attachments[0].stiffness));
   EXPECT_EQ(scene.attachments[1].stiffness, 500);
