@@ -200,6 +200,20 @@ TEST(PaperMaintenance, a_stroke_from_the_other_side_goes_on_with_an_incision) {
   }
 }
 
+TEST(PaperMaintenance, an_incision_goes_on_after_undo_and_redo) {
+  Engine engine = paper_engine(jittered_cube(5, 3)), straight = paper_engine(jittered_cube(5, 3));
+  cut_and_maintain(engine, down_to(-0.2, 0.5));
+  cut_and_maintain(engine, down_to(0.5, 1.2));
+  ASSERT_TRUE(engine.undo());
+  ASSERT_TRUE(engine.undo());
+  ASSERT_TRUE(engine.redo());
+  cut_and_maintain(engine, down_to(0.5, 1.2));
+  cut_and_maintain(straight, down_to(-0.2, 0.5));
+  cut_and_maintain(straight, down_to(0.5, 1.2));
+  EXPECT_EQ(piece_volumes(engine.mesh()).size(), 2U);
+  EXPECT_EQ(engine.mesh().tet_count(), straight.mesh().tet_count());
+}
+
 TEST(PaperMaintenance, holds_the_tets_at_the_front) {
   Engine bare = paper_engine(jittered_cube(5, 3), kNothing), engine = paper_engine(jittered_cube(5, 3));
   cut_and_maintain(bare, down_to(-0.2, 0.5));
