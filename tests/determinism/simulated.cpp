@@ -77,8 +77,8 @@ bool run_falling(const char* name, SimulationOptions options) {
   return run(name, simulation, inputs);
 }
 
-/// Held below and cut level, twice: the parts lie on each other and rub, and a ball rubs on the uppermost; then the last
-/// cut is taken back and made again.
+/// Held below and cut level, twice: the parts lie on each other and rub, and a ball rubs on the uppermost; then the
+/// last cut is taken back and made again.
 bool run_touching(const char* name, SimulationOptions options) {
   options.body.self.on = true;
   options.body.damping = 2;

@@ -30,8 +30,10 @@ inline constexpr double kDeepestSteps = 1.5;
 /// How far a search must see at least, in mean edges of the surface, and at most; beyond what it must, the grid of
 /// faces sees by the last two more, so that it serves for some steps.
 inline constexpr double kLeastReach = 0.15, kMostReach = 1.5, kReachMore = 0.1, kReachTimes = 1.5;
-/// A contact keeps its face unseen as long as nothing has moved by more than this, in mean edges.
+/// A contact keeps its face, without a look at others, as long as it has not slid by more than this, in local edges,
+/// and for so many steps.
 inline constexpr double kLookAgain = 0.02;
+inline constexpr unsigned kMostUnseen = 8;
 /// Cells of the grid: so much longer than it sees, in mean edges.
 inline constexpr double kGridCell = 0.6;
 /// A vertex may stand so far beside the nearest point of a face, in edges: from the one on contact gets softer, from

@@ -16,8 +16,6 @@ using State = DeformableBody::State;
 
 namespace {
 
-constexpr double kNever = -1e300;  // of a way: before all
-
 /// Shares of the point of a triangle that is nearest to p (Ericson 2005, section 5.1.5).
 std::array<double, 3> nearest_on(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
@@ -93,12 +91,10 @@ void SelfContact::read_all(const State& body, const TetMesh& mesh) {
   }
   if (surface_.refresh(mesh)) is_grid_stale_ = true;
   clear_until_.assign(mesh.vertex_slots(), 0);
-  looked_at_.assign(mesh.vertex_slots(), kNever);
 }
 
 void SelfContact::read(const State& body, const TetMesh& mesh, std::span<const std::uint32_t> tets) {
   clear_until_.resize(mesh.vertex_slots(), 0);
-  looked_at_.resize(mesh.vertex_slots(), kNever);
   for (const std::uint32_t slot : tets) {
     const TetId t(slot);
     const bool is_part = slot < body.tets.size() && body.tets[t][0].is_valid();
@@ -106,7 +102,6 @@ void SelfContact::read(const State& body, const TetMesh& mesh, std::span<const s
     if (!is_part) continue;
     for (const VertexId v : body.tets[t]) {
       clear_until_[v.value] = 0;
-      looked_at_[v.value] = kNever;
     }
   }
   if (surface_.refresh(mesh)) is_grid_stale_ = true;
@@ -235,7 +230,7 @@ Contact SelfContact::contact_of(const State& body, const Query& query, const Fou
   contact.vertex = query.vertex;
   contact.face = found.face->side;
   contact.corners = found.face->corners;
-  contact.share = found.share;
+  contact.share = contact.seen = found.share;
   contact.anchor = found.share;
   contact.normal = found.normal;
   contact.gap = found.gap;
@@ -290,13 +285,17 @@ SelfContact::Query SelfContact::query_of(const State& body, std::uint32_t vertex
 
 /// Whether a contact goes on before its face, without a look at others; then it is taken in as it is now.
 bool SelfContact::stays(const State& body, const Contact& old, double dt) {
-  if (old.face.value == kInvalidIndex || way_ - looked_at_[old.vertex] > kLookAgain * surface_.spacing()) return false;
+  if (old.face.value == kInvalidIndex || old.unseen >= kMostUnseen) return false;
   const ContactFace face{old.face, old.corners, false};
   const Query query = query_of(body, old.vertex, &old);
   Found found;
   if (!try_face(body, query, face, found) || beside(found) > kBesideALittle * query.edge) return false;
+  const auto at = places_of(body, old.corners);
+  if ((mix(found.share, at) - mix(old.seen, at)).norm() > kLookAgain * query.edge) return false;
   if (found.gap < kContactMargin * query.edge + nears(body, query, found, dt)) {
     next_.push_back(contact_of(body, query, found));
+    next_.back().seen = old.seen;
+    next_.back().unseen = old.unseen + 1;
   }
   return true;
 }
@@ -315,15 +314,17 @@ void SelfContact::look(State& body, std::uint32_t vertex, Contact* old, double d
   const auto consider = [&](const ContactFace& face) {
     Found found;
     if (!try_face(body, query, face, found)) return;
-    clear = std::min(clear, found.distance);
     const bool is_beside = beside(found) > kBesideFace * query.edge;
     const bool is_known = old != nullptr && old->face == found.face->side;
+    const bool is_behind = !is_known && found.gap < 0 && is_through_material(body, query, found);
+    if (is_behind) return;  // nor does it come to be one soon
+    clear = std::min(clear, found.distance);
     if (found.distance > nearest + kKnownAsNear * query.edge) return;
     if (is_known) found.squareness += kKnownSquarer;
     found.nears = nears(body, query, found, dt);
     const double deepest =
         std::min(old != nullptr ? old->gap : 0.0, 0.0) - std::max(kDeepest * query.edge, kDeepestSteps * found.nears);
-    if (!is_known && found.gap < 0 && (found.gap < deepest || is_through_material(body, query, found))) return;
+    if (!is_known && found.gap < deepest) return;
     nearest = std::min(nearest, found.distance);
     if (!is_beside) candidates_.push_back(found);
   };
@@ -332,7 +333,6 @@ void SelfContact::look(State& body, std::uint32_t vertex, Contact* old, double d
     const ContactFace& face = surface_.faces()[i];
     if (face.side != last.side && may_be_near(nearby_[i], place_here, normal_here, reach)) consider(face);
   }
-  looked_at_[vertex] = way_;
   clear_until_[vertex] = way_ + 0.5 * (clear - kContactMargin * query.edge);
   const Found* best = nullptr;
   for (const Found& found : candidates_) {
@@ -367,7 +367,6 @@ void SelfContact::find(State& body, double dt) {
   if (is_grid_stale_ || is_old) build_grid(body);
   contact_of_.resize(body.places.size(), 0);
   clear_until_.resize(body.places.size(), 0);
-  looked_at_.resize(body.places.size(), kNever);
   const double soon = way_ + step_way_;
   for (const std::uint32_t v : surface_.vertices()) {
     Contact* old = known(v);
@@ -484,7 +483,7 @@ std::size_t SelfContact::count_pressing() const {
 void SelfContact::add_to(StateHash& hash) const {
   for (const Contact& contact : contacts_) {
     hash.add(std::uint64_t{contact.vertex} << 32U | contact.face.value);
-    hash.add(std::uint64_t{contact.age});
+    hash.add(std::uint64_t{contact.age} << 32U | contact.unseen);
     for (const double share : contact.anchor) hash.add(share);
     hash.add(contact.depth);
     hash.add(contact.force);

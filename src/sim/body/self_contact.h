@@ -26,12 +26,14 @@ struct Contact {
   std::array<std::uint32_t, 3> corners{};
   std::array<double, 3> share{};   ///< of the nearest point of the face
   std::array<double, 3> anchor{};  ///< of the point of the face that friction holds the vertex to
+  std::array<double, 3> seen{};    ///< `share` when all faces around were last looked at
   Vec3 normal = Vec3::Zero();
-  double gap = 0;         ///< of the vertex before the face, below 0 within
-  double depth = 0;       ///< at most 0: the gap that counts as none; it fades
-  double force = 0;       ///< kg L/s²
-  double stiffness = 0;   ///< kg/s²
-  std::uint32_t age = 0;  ///< steps since `depth` was set
+  double gap = 0;            ///< of the vertex before the face, below 0 within
+  double depth = 0;          ///< at most 0: the gap that counts as none; it fades
+  double force = 0;          ///< kg L/s²
+  double stiffness = 0;      ///< kg/s²
+  std::uint32_t age = 0;     ///< steps since `depth` was set
+  std::uint32_t unseen = 0;  ///< steps since all faces around were looked at
 
   /// What is left of `depth`.
   [[nodiscard]] double depth_left() const;
@@ -119,7 +121,6 @@ class SelfContact {
   double way_ = 0;                         // at most so far has anything moved, ever
   double step_way_ = 0, jump_ = 0;         // in the last step; between the last two
   std::vector<double> clear_until_;        // by vertex slot: nothing is near before `way_` has come so far
-  std::vector<double> looked_at_;          // by vertex slot: `way_` when all faces around were last looked at
   std::vector<Contact> contacts_, next_;   // by vertex
   std::vector<std::uint32_t> contact_of_;  // by vertex slot: index + 1
   std::vector<Found> candidates_;
