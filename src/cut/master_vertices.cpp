@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A vertex that still stands at its rest place stays, with its slot and with where the body has it. A new one starts
-// where the old children had its place; one whose rest place has moved is another vertex.
+// A split point stays as long as its edge is split, a front point as long as its rest place is the same: with its slot,
+// and where the body has it. A front point whose rest place has moved is another vertex. New ones start where the old
+// children had their place.
 #include "cut/master_vertices.h"
 
 namespace incise {
