@@ -44,7 +44,7 @@ inline constexpr double kLeastRatio = 1e-9;
 inline constexpr double kFineTolerance = 0.01, kCoarseTolerance = 0.04;
 /// Skin from where it was before all, however often it is maintained; more where seams are thinned out. To mend bad
 /// tets it may by the last share of the edges that it had.
-inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadSkinTolerance = 0.018;
+inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadSkinTolerance = 0.019;
 /// To mend bad tets walls and skin may leave their place by this share of the edges that the body came with, however
 /// short cuts have made those that stand there now.
 inline constexpr double kOriginalTolerance = 0.03;

@@ -163,19 +163,6 @@ TEST(BodyFall, AFreeBodySpinsOnForTenSeconds) {
   }
 }
 
-/// The length of the longest edge over what it is at rest.
-double worst_stretch(const MovingBody& moving) {
-  double worst = 0;
-  moving.mesh().for_each_tet([&](TetId t) {
-    const TetVertices& v = moving.mesh().vertices(t);
-    for (const auto& [a, b] : kEdgeCorners) {
-      const double now = (moving.state().places[v[a].value] - moving.state().places[v[b].value]).norm();
-      worst = std::max(worst, now / (moving.mesh().rest(v[a]) - moving.mesh().rest(v[b])).norm());
-    }
-  });
-  return worst;
-}
-
 /// A chip much smaller than a tet, cut off a corner, keeps its shape, falls as a point, and sleeps after a second.
 TEST(BodyFall, ACrumbMovesAsAPointAndSleeps) {
   EngineOptions sharp;
@@ -204,23 +191,6 @@ TEST(BodyFall, ACrumbMovesAsAPointAndSleeps) {
   moving.advance(2);
   EXPECT_TRUE(moving.state().crumbs.empty());
   EXPECT_EQ(moving.body().active_vertices(), moving.mesh().vertex_count() - 25);
-}
-
-/// Without snapping strokes leave slivers; none is drawn out.
-TEST(BodyFall, CrumbsOfManyStrokesAreNotDrawnOut) {
-  EngineOptions sharp;
-  sharp.cut.snap = 0;
-  MovingBody moving(jittered_cube(4, 21), {tissue(3e3), {}}, {}, sharp);
-  moving.hold_where(0);
-  Random random(21);
-  const Box box = rest_bounds(moving.mesh());
-  for (int i = 0; i < 10; ++i) {
-    moving.cut(random_stroke(random, box));
-    moving.advance(10);
-  }
-  moving.advance(120);
-  EXPECT_TRUE(moving.body().is_finite());
-  EXPECT_LT(worst_stretch(moving), 20);
 }
 
 /// What has fallen five lengths from what is held costs nothing more.

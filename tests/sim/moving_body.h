@@ -132,7 +132,10 @@ class MovingBody {
       const VertexId v(slot);
       ASSERT_EQ(a.is_live(v), b.is_live(v)) << slot;
       ASSERT_EQ(lanes_of(a.stars, v), lanes_of(b.stars, v)) << "the star of vertex " << slot;
-      ASSERT_EQ(a.order.moves(v), b.order.moves(v) && !body_.is_held(v)) << slot;
+      // What counts as a crumb is measured by the mean tet that a body was made with: it differs after cuts.
+      if (!a.is_live(v) || a.in_crumb[v] == b.in_crumb[v]) {
+        ASSERT_EQ(a.order.moves(v), b.order.moves(v) && !body_.is_held(v)) << slot;
+      }
       if (!a.is_live(v)) continue;
       ASSERT_EQ(a.rest[v], b.rest[v]);
       ASSERT_EQ(a.places[slot], b.places[slot]);
