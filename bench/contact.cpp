@@ -142,12 +142,12 @@ int run(int argc, char** argv) {
   table.print();
   table.write_csv(folder);
   const double rest = measure_rest();
-  report_acceptance("contact",
-                    {{"a frame with contact over one without, worst block", "≤ 1.25", "≤ 1.1",
-                      fmt::format("{:.2f}", worst), worst <= 1.25},
-                     {"a frame with contact in which nothing is awake, ms", "≤ 0.05", "≤ 0.02",
-                      fmt::format("{:.3f}", rest), rest <= 0.05}},
-                    folder);
+  report_acceptance(
+      "contact",
+      {{"a frame with contact over one without, worst block", "≤ 1.1", "-", fmt::format("{:.2f}", worst), worst <= 1.1},
+       {"a frame with contact in which nothing is awake, ms", "≤ 0.02", "-", fmt::format("{:.3f}", rest),
+        rest <= 0.02}},
+      folder);
   return 0;
 }
 

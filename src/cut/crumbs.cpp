@@ -45,7 +45,7 @@ class CrumbFinder {
         if (state_[seed.value] == kUnseen && is_crumb(seed)) add_crumb();
       }
     }
-    if (crumbs_.empty()) return 0;
+    if (homes_.empty()) return 0;
     collect_borders();
     std::uint64_t kept = 0;
     for (; attach_next(); ++kept) {
@@ -130,12 +130,6 @@ class CrumbFinder {
     const auto v = mesh_.vertices(side);
     return (mesh_.rest(v[1]) - mesh_.rest(v[0])).cross(mesh_.rest(v[2]) - mesh_.rest(v[0])).norm();
   }
-  /// A crumb, and once it is attached a tet of the piece that it hangs on, be it by other crumbs.
-  struct Crumb {
-    std::vector<TetId> tets;
-    TetId home = {};
-    [[nodiscard]] bool is_attached() const { return home.is_valid(); }
-  };
   /// A face on which a crumb may hang; `behind` is no tet of that crumb.
   struct Border {
     std::uint32_t face, crumb, behind_crumb;  ///< `behind_crumb`: kInvalidIndex where `behind` is in none
@@ -143,8 +137,8 @@ class CrumbFinder {
     double area;
   };
   void add_crumb() {
-    for (const TetId tet : piece_) crumb_of_.emplace(tet.value, static_cast<std::uint32_t>(crumbs_.size()));
-    crumbs_.push_back({piece_});
+    for (const TetId tet : piece_) crumb_of_.emplace(tet.value, static_cast<std::uint32_t>(homes_.size()));
+    homes_.push_back({});
   }
   [[nodiscard]] std::uint32_t crumb_of(TetId tet) const {
     const auto found = crumb_of_.find(tet.value);
@@ -162,19 +156,19 @@ class CrumbFinder {
   }
   /// The piece behind a border, by one of its tets; invalid while that is a crumb that hangs on nothing yet.
   [[nodiscard]] TetId home_behind(const Border& border) const {
-    return border.behind_crumb == kInvalidIndex ? border.behind : crumbs_[border.behind_crumb].home;
+    return border.behind_crumb == kInvalidIndex ? border.behind : homes_[border.behind_crumb];
   }
   /// Hangs one more crumb on what is no crumb, or hangs on such a piece already: crumbs side by side would else hang on
   /// each other, and fall together. The largest face first. Returns whether there was one.
   bool attach_next() {
     const Border* largest = nullptr;
     for (const Border& border : borders_) {
-      if (crumbs_[border.crumb].is_attached() || !home_behind(border).is_valid()) continue;
+      if (homes_[border.crumb].is_valid() || !home_behind(border).is_valid()) continue;
       if (largest == nullptr || border.area > largest->area) largest = &border;
     }
     if (largest == nullptr) return false;
     const TetId home = home_behind(*largest);
-    crumbs_[largest->crumb].home = home;
+    homes_[largest->crumb] = home;
     const std::vector<TetId> piece = piece_around(home);
     for (const Border& border : borders_) {
       const TetId behind = home_behind(border);
@@ -218,7 +212,8 @@ class CrumbFinder {
   std::vector<TetId> touched_;  // whose entries may not be zero
   std::vector<bool> is_dropped_;
   std::vector<TetId> piece_;  // the last one searched
-  std::vector<Crumb> crumbs_;
+  /// By crumb: a tet of the piece that it hangs on, be it by other crumbs; invalid until it hangs on one.
+  std::vector<TetId> homes_;
   std::unordered_map<std::uint32_t, std::uint32_t> crumb_of_;  // by tet slot; looked up, never iterated
   std::vector<Border> borders_;
 };

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <new>
+
 #include "incise/core/profile.h"
+#include "incise/core/result.h"
 #include "incise/cut/options.h"
 #include "incise/mesh/journal.h"
 
@@ -16,6 +19,22 @@ struct CutContext {
   StageTimes& times;
   CutStatistics& statistics;
 };
+
+/// Runs `work` on such a context. Where it fails, or memory runs out, the steps that it appended are taken back.
+template <class Work>
+Result<CutStatistics> cut_or_take_back(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work) {
+  const std::size_t start = journal.position();
+  CutStatistics statistics;
+  Status status;
+  try {
+    status = work(CutContext{mesh, journal, times, statistics});
+  } catch (const std::bad_alloc&) {
+    status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
+  }
+  if (status) return statistics;
+  journal.take_back(mesh, start);
+  return status.error();
+}
 
 }  // namespace v0
 }  // namespace incise

@@ -224,18 +224,9 @@ std::uint32_t Cutter::pieces_at(const TetMesh& mesh, const Journal& journal, std
 /// Runs some work; where it fails, what it did is taken back.
 template <class Work>
 Result<CutStatistics> Cutter::guarded(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work) {
-  const std::size_t start = journal.position();
-  CutStatistics statistics;
-  Status status;
-  try {
-    status = work(CutContext{mesh, journal, times, statistics});
-  } catch (const std::bad_alloc&) {
-    status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
-  }
-  if (status) return statistics;
-  stroke_cut_.forget();
-  journal.take_back(mesh, start);
-  return status.error();
+  auto cut = cut_or_take_back(mesh, journal, times, std::forward<Work>(work));
+  if (!cut) stroke_cut_.forget();
+  return cut;
 }
 
 BladeMotion::Touches Cutter::touches(const TetMesh& mesh) const {

@@ -31,19 +31,10 @@ std::vector<std::uint32_t> all_triangles(const SweptSurface& surface) {
 /// Runs some work; where it fails, what it did is taken back.
 template <class Work>
 Result<CutStatistics> PaperCutter::guarded(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work) {
-  const std::size_t start = journal.position();
   const IncisionFront before = front_;
-  CutStatistics statistics;
-  Status status;
-  try {
-    status = work(CutContext{mesh, journal, times, statistics});
-  } catch (const std::bad_alloc&) {
-    status = Error{ErrorCode::kOutOfMemory, "not enough memory to cut; use a coarser mesh", {}};
-  }
-  if (status) return statistics;
-  journal.take_back(mesh, start);
-  restore(before);
-  return status.error();
+  auto cut = cut_or_take_back(mesh, journal, times, std::forward<Work>(work));
+  if (!cut) restore(before);
+  return cut;
 }
 
 void PaperCutter::restore(IncisionFront front) {

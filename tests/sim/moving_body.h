@@ -13,6 +13,7 @@
 
 #include "incise/engine/engine.h"
 #include "incise/mesh/bounds.h"
+#include "incise/mesh/components.h"
 #include "incise/sim/body.h"
 #include "sim/body/body_state.h"
 #include "support/bodies.h"
@@ -132,9 +133,13 @@ class MovingBody {
       const VertexId v(slot);
       ASSERT_EQ(a.is_live(v), b.is_live(v)) << slot;
       ASSERT_EQ(lanes_of(a.stars, v), lanes_of(b.stars, v)) << "the star of vertex " << slot;
-      // What counts as a crumb is measured by the mean tet that a body was made with: it differs after cuts.
       if (!a.is_live(v) || a.in_crumb[v] == b.in_crumb[v]) {
         ASSERT_EQ(a.order.moves(v), b.order.moves(v) && !body_.is_held(v)) << slot;
+      } else if (a.stale_pieces == 0 && !is_in_held_piece(v)) {
+        // Pieces are told late. What counts as a crumb is measured by the mean tet of the mesh that a body was made of.
+        const auto [least, most] = std::minmax({a.largest_crumb, b.largest_crumb});
+        ASSERT_GE(volume_of_piece(v), least * (1 - 1e-9)) << slot;
+        ASSERT_LT(volume_of_piece(v), most * (1 + 1e-9)) << slot;
       }
       if (!a.is_live(v)) continue;
       ASSERT_EQ(a.rest[v], b.rest[v]);
@@ -153,6 +158,25 @@ class MovingBody {
   }
 
  private:
+  /// Whether a vertex of the piece is held: such a piece is no crumb.
+  [[nodiscard]] bool is_in_held_piece(VertexId vertex) {
+    const DeformableBody::State& state = this->state();
+    return std::any_of(state.holds.begin(), state.holds.end(), [&](const auto& hold) {
+      return state.piece_of[VertexId(hold.first)] == state.piece_of[vertex];
+    });
+  }
+  /// At rest, of the piece that the vertex is in.
+  [[nodiscard]] double volume_of_piece(VertexId vertex) const {
+    const Components components = find_components(mesh());
+    double volume = 0;
+    mesh().for_each_tet([&](TetId t) {
+      const auto corners = mesh().vertices(t);
+      const bool is_at = std::find(corners.begin(), corners.end(), vertex) != corners.end();
+      if (is_at) volume = components.volume[components.label[t.value]];
+    });
+    return volume;
+  }
+
   Engine engine_;
   DeformableBody body_;
 };
