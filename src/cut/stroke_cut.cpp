@@ -134,10 +134,9 @@ bool StrokeCut::bisect(const CutContext& context, const std::vector<BetweenCross
     if (!is_whole) continue;
     const SplitEdgePlan plan =
         plan_split_edge(context.mesh, edge.a, edge.b, complex_.children(complex_[place.master])[0], place.t);
-    if (!plan) continue;
-    for (const TetId tet : plan.ring) {
-      if (const std::uint32_t master = complex_.find(tet); master != Master::kNone) complex_.release(master);
-    }
+    const auto is_master = [&](TetId tet) { return complex_.find(tet) != Master::kNone; };
+    if (!plan || !std::all_of(plan.ring.begin(), plan.ring.end(), is_master)) continue;  // the blade has left the others
+    for (const TetId tet : plan.ring) complex_.release(complex_.find(tet));
     apply(transaction, plan);
   }
   return context.journal.append_if_changed(transaction.commit());
@@ -158,7 +157,7 @@ void StrokeCut::flag(const TetMesh& mesh, const Strip& strip) {
     const ClosedEdge& edge = complex_.edges()[crossing.edge];
     const double t = crossing.count > 1 ? 0.5 * (crossing.t + crossing.t_last) : crossing.t;
     const Crossed crossed{crossing.edge, edge.a, edge.b, t, strip.sheet.normal(crossing.triangle).normalized()};
-    if (is_all_reached || is_reached(crossing.edge)) {
+    if ((is_all_reached || is_reached(crossing.edge)) && is_whole_around(mesh, crossing.edge)) {
       cross(mesh, crossed);
     } else {
       waiting_.push_back(crossed);
