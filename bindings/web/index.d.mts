@@ -176,8 +176,8 @@ export declare class Session {
   readonly hash: string;
   /** Of the mesh alone. */
   readonly meshHash: string;
-  /** The picture's size in CSS pixels, above 0. */
-  resize(width: number, height: number): void;
+  /** The picture's size in CSS pixels, above 0. Bodies are framed in `freeHeight` of it, around its middle. */
+  resize(width: number, height: number, freeHeight?: number): void;
   /** A pointer event at a place of the picture, in CSS pixels from its upper left corner. */
   pointer(kind: PointerKind, x: number, y: number, options?: PointerOptions): void;
   /** Gives up a drag. Returns whether there was one. */

@@ -211,8 +211,8 @@ function makeSession(module, tools) {
     get meshHash() {
       return this.#core.meshHash;
     }
-    resize(width, height) {
-      this.#core.resize(numberOf(width, 'width'), numberOf(height, 'height'));
+    resize(width, height, freeHeight = height) {
+      this.#core.resize(numberOf(width, 'width'), numberOf(height, 'height'), numberOf(freeHeight, 'freeHeight'));
     }
     pointer(kind, x, y, { button = 'left', shift = false, control = false, alt = false, wheel = 0, pressure = 1 } = {}) {
       const keys = (shift ? 1 : 0) | (control ? 2 : 0) | (alt ? 4 : 0);

@@ -28,6 +28,21 @@ val to_value(const StrokeReport& report) {
   return value;
 }
 
+/// A step of the engine between each two times, as `incise cut --blade` does; then what a budget left undone.
+Result<StrokeReport> cut_by_steps(Engine& engine, const incise::Stroke& stroke) {
+  const Result<std::uint32_t> begun = engine.begin_stroke({stroke.edges.front()});
+  if (!begun.ok()) return begun.error();
+  for (std::size_t i = 1; i < stroke.edges.size(); ++i) {
+    const Result<incise::StepReport> step = engine.step({stroke.edges[i]});
+    if (!step.ok()) return step.error();
+  }
+  Result<StrokeReport> report = engine.end_stroke();
+  if (!report.ok() || !engine.has_maintenance()) return report;
+  const Result<incise::MaintainReport> maintained = engine.maintain();
+  if (!maintained.ok()) return maintained.error();
+  return report;
+}
+
 }  // namespace
 
 val WebEngine::open(const val& bytes, const std::string& name) {
@@ -43,10 +58,14 @@ val WebEngine::open(const val& bytes, const std::string& name) {
 val WebEngine::cut(const std::string& blade) {
   const Result<std::vector<incise::Stroke>> strokes = incise::app::parse_blade(blade, "the blade");
   if (!strokes.ok()) return to_error(strokes.error());
+  const std::uint32_t before = engine_.stroke_count();
   val reports = val::array();
   for (const incise::Stroke& stroke : *strokes) {
-    const Result<StrokeReport> report = engine_.cut(stroke);
-    if (!report.ok()) return to_error(report.error());
+    const Result<StrokeReport> report = cut_by_steps(engine_, stroke);
+    if (!report.ok()) {
+      while ((engine_.is_in_stroke() || engine_.stroke_count() > before) && engine_.undo()) continue;
+      return to_error(report.error());
+    }
     reports.call<void>("push", to_value(*report));
   }
   return reports;

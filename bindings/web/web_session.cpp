@@ -56,7 +56,7 @@ WebSession::WebSession(std::unique_ptr<Folder> folder, app::Session session)
       tools_(app::ToolSettings{}),
       monitor_(session_.mesh(), session_.engine().journal()) {
   begin_anew();
-  camera_ = app::camera_of(session_.scene(), body_, viewport_);
+  frame_camera();
 }
 
 val WebSession::open(const val& bytes, const std::string& name, const val& files, const val& up) {
@@ -91,17 +91,20 @@ void WebSession::begin_anew() {
   queue_.clear();
 }
 
-void WebSession::resize(int width, int height) {
+/// The body is framed as in a picture of the free height; the field of view is that of the whole.
+void WebSession::frame_camera() {
+  camera_ = app::camera_of(session_.scene(), body_, {viewport_.width, free_height_});
+  camera_.distance *= static_cast<double>(viewport_.height) / free_height_;
+  framed_ = camera_;
+}
+
+void WebSession::resize(int width, int height, int free_height) {
   if (width <= 0 || height <= 0) return;
-  const bool is_first = viewport_.width == app::Viewport{}.width && viewport_.height == app::Viewport{}.height;
-  const double before = viewport_.aspect();
+  const bool is_framed = camera_.distance == framed_.distance && camera_.azimuth == framed_.azimuth &&
+                         camera_.elevation == framed_.elevation && camera_.target == framed_.target;
   viewport_ = {width, height};
-  // What was seen stays seen where the picture gets narrower than it is high.
-  if (is_first) {
-    camera_ = app::camera_of(session_.scene(), body_, viewport_);
-  } else {
-    camera_.distance *= std::max(1.0, 1 / viewport_.aspect()) / std::max(1.0, 1 / before);
-  }
+  free_height_ = std::clamp(free_height, 1, height);
+  if (is_framed) frame_camera();  // else the person's view stays
 }
 
 void WebSession::pointer(int kind, double x, double y, int button, int keys, double wheel, double pressure) {
@@ -147,7 +150,7 @@ double WebSession::depth() const {
 }
 
 void WebSession::frame_body() {
-  camera_ = app::camera_of(session_.scene(), body_, viewport_);
+  frame_camera();
 }
 
 val WebSession::frame() {
@@ -225,9 +228,8 @@ val WebSession::surface() const {
 
 val WebSession::camera() const {
   val camera = val::object();
-  incise::Box seen = body_;
   camera.set("view", to_array(camera_.to_view()));
-  camera.set("clip", to_array(app::to_clip(camera_, viewport_, seen)));
+  camera.set("clip", to_array(app::to_clip(camera_, viewport_, body_)));
   return camera;
 }
 

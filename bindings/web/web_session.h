@@ -28,7 +28,8 @@ class WebSession {
   /// scene's or a recording's model is looked for in. `up`: of a mesh, three numbers.
   static val open(const val& bytes, const std::string& name, const val& files, const val& up);
 
-  void resize(int width, int height);
+  /// @param free_height  of the picture, around its middle, that controls leave free: bodies are framed there.
+  void resize(int width, int height, int free_height);
   /// @param kind  0 move, 1 press, 2 release, 3 wheel. @param button  0 left, 1 right, 2 middle.
   /// @param keys  1 shift, 2 control, 4 alt.
   void pointer(int kind, double x, double y, int button, int keys, double wheel, double pressure);
@@ -73,6 +74,7 @@ class WebSession {
   void begin_anew();
   void add_edges(const std::vector<std::array<std::uint32_t, 2>>& edges, std::size_t style, float width);
   void fill_corners();
+  void frame_camera();
 
   std::unique_ptr<Folder> folder_;
   incise::app::Session session_;
@@ -80,8 +82,9 @@ class WebSession {
   incise::app::SurfaceFrame frame_;
   incise::app::ToolMachine tools_;
   incise::app::HandQueue queue_;
-  incise::app::Camera camera_;
+  incise::app::Camera camera_, framed_;  // as it is; as it last looked at the whole body
   incise::app::Viewport viewport_;
+  int free_height_ = viewport_.height;
   incise::app::QualityMonitor monitor_;
   incise::Box body_;
   incise::render::SurfaceNormals averages_;

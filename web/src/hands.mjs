@@ -9,9 +9,8 @@ export class Hands {
   #events = [];
   #down = null; // the button of a drag
 
-  constructor(canvas, onBeginning) {
+  constructor(canvas) {
     this.canvas = canvas;
-    this.onBeginning = onBeginning;
     const hear = (type, what, options) => canvas.addEventListener(type, what, options);
     hear('pointerdown', (event) => this.#press(event));
     hear('pointermove', (event) => this.#move(event));
@@ -34,8 +33,6 @@ export class Hands {
 
   #press(event) {
     this.canvas.setPointerCapture(event.pointerId);
-    this.canvas.focus({ preventScroll: true });
-    this.onBeginning();
     if (event.pointerType === 'touch') {
       this.#fingers.set(event.pointerId, event);
       if (this.#fingers.size === 2) return this.#beginGesture(event);

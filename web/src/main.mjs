@@ -343,7 +343,8 @@ function animate() {
 function fit() {
   const { innerWidth: width, innerHeight: height } = window;
   picture?.resize(width, height);
-  engine?.send({ type: 'resize', size: [width, height] });
+  const controls = 2 * Math.max(document.querySelector('header').offsetHeight, document.querySelector('footer').offsetHeight);
+  engine?.send({ type: 'resize', size: [width, height, Math.max(height / 3, height - controls)] });
 }
 
 /** The longest time for which the page did not answer, once it can be cut. */
@@ -417,7 +418,7 @@ function begin() {
   for (const body of bodies) $('body').append(new Option(body.name, body.id));
   makeTools();
   hearControls();
-  hands = new Hands($('picture'), () => document.activeElement?.blur?.());
+  hands = new Hands($('picture'));
   watchBlocks();
   startEngine();
   addEventListener('resize', fit);

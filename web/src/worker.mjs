@@ -6,7 +6,7 @@ const STILL_FRAMES = 20; // without motion, and the body is said to be at rest
 const STILL = 2e-5; // of the body's size, in a frame
 const REPLAY_SECONDS = 12; // that a recording takes at most
 
-let incise, session, size = 1, viewport = [960, 640];
+let incise, session, size = 1, viewport = [960, 640, 640];
 let events = [], last, stillFrames = 0, replayed = false;
 let isAwake = true, isWanted = false, isShown = true, hasNewTriangles = true, timer = 0, perFrame = 1;
 let rate = { frames: 0, since: 0, value: 0, longest: 0 };
