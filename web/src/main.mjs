@@ -19,7 +19,7 @@ const TOOLS = [
 const LARGEST_FILE = 200e6; // bytes; a mesh of some two million tets
 
 /** For tests and the curious: what the page measured of itself. */
-const measured = (window.incise = { state: 'loading', frames: 0, longestBlockMs: 0, drawMs: 0 });
+const measured = (window.incise = { state: 'loading', frames: 0, longestBlockMs: 0, longestBlockLoadingMs: 0, drawMs: 0 });
 
 let engine, picture, hands, look, tool = 'Scalpel', theme, isReady = false, hasFrame = false;
 let opened = { id: '', isReplay: false }, hintTimer = 0, shownAt = 0;
@@ -279,6 +279,7 @@ const show = (id, text) => ($(id).textContent = text);
 
 async function refreshFigures() {
   if (!isReady || $('figures').hidden) return;
+  if (measured.figures) showFrame(measured.figures); // at rest no frames come
   const { now, before, pieces } = await engine.ask('quality');
   show('f-pieces', pieces);
   show('f-mean', `${before.lrMean.toFixed(2)} → ${now.lrMean.toFixed(2)}`);
@@ -347,11 +348,14 @@ function fit() {
   engine?.send({ type: 'resize', size: [width, height, Math.max(height / 3, height - controls)] });
 }
 
-/** The longest time for which the page did not answer, once it can be cut. */
+/** The longest times for which the page did not answer: while it loaded, and once it could be cut. */
 function watchBlocks() {
   if (!PerformanceObserver.supportedEntryTypes?.includes('longtask')) return;
   new PerformanceObserver((list) => {
-    for (const entry of list.getEntries()) measured.longestBlockMs = Math.max(measured.longestBlockMs, entry.duration);
+    for (const { startTime, duration } of list.getEntries()) {
+      const when = startTime > (measured.cuttableMs ?? Infinity) ? 'longestBlockMs' : 'longestBlockLoadingMs';
+      measured[when] = Math.max(measured[when], duration);
+    }
   }).observe({ type: 'longtask', buffered: true });
 }
 
@@ -391,20 +395,15 @@ async function onLoaded({ detail }) {
 }
 
 async function openFirst() {
-  let found = null;
+  let isDamaged = false;
   try {
-    found = await fromFragment(location.hash);
+    const found = await fromFragment(location.hash);
+    if (found) return await openLink(found);
   } catch {
-    say('The link is damaged: it may have been cut off. Here is a fresh body.', 10);
-  }
-  if (found) {
-    try {
-      return await openLink(found);
-    } catch (error) {
-      failed(error);
-    }
+    isDamaged = true;
   }
   await openBody(new URLSearchParams(location.search).get('body') ?? bodies[0].id);
+  if (isDamaged) say('The link is damaged: it may have been cut off. Here is a fresh body.', 12);
 }
 
 function begin() {
@@ -422,6 +421,7 @@ function begin() {
   watchBlocks();
   startEngine();
   addEventListener('resize', fit);
+  addEventListener('hashchange', () => openFirst().catch(failed));
   setInterval(() => refreshFigures().catch(failed), 1000);
   requestAnimationFrame(animate);
 }
