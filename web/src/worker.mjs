@@ -4,6 +4,7 @@ import { load } from 'incise';
 
 const STILL_FRAMES = 20; // without motion, and the body is said to be at rest
 const STILL = 2e-5; // of the body's size, in a frame
+const SPREAD = 3; // frames
 const REPLAY_SECONDS = 12; // that a recording takes at most
 
 let incise, session, size = 1, viewport = [960, 640, 640];
@@ -75,10 +76,13 @@ function moves(positions) {
   return false;
 }
 
-/** Hands events to the tools; frames between them, so that a fast drag is not cut as one long chord. */
+/**
+ * Hands events to the tools. Those of a drag come in batches, one for each picture: they are spread over the frames until
+ * the next batch, so that a fast drag is cut along its curve and not along a chord.
+ */
 function feed() {
-  const taken = events;
-  events = [];
+  const most = session.isBusy ? Math.ceil(events.length / SPREAD) : events.length;
+  const taken = events.splice(0, most);
   for (const [kind, x, y, options] of taken) session.pointer(kind, x, y, options);
   return taken.length > 0;
 }
