@@ -94,9 +94,7 @@ describe('the page', { skip: executablePath ? false : 'Chromium is not installed
     await openPage();
     await press('3');
     await drag([0.5, 0.1], [0.52, 0.85]);
-    await until(() => window.incise.figures.strokes === 1);
-    await isAtRest();
-    assert.equal((await ask('quality')).pieces, 2);
+    await until(async () => (await window.incise.engine.ask('quality')).pieces === 2);
     const before = await page.screenshot();
     await press('4');
     const { width, height } = page.viewportSize();
@@ -270,6 +268,15 @@ describe('the page', { skip: executablePath ? false : 'Chromium is not installed
         await page.context().close();
       }
     }
+  });
+
+  test('a body comes to rest, and nothing is computed or drawn then', async () => {
+    await openPage();
+    await isAtRest();
+    const counts = () => page.evaluate(() => [window.incise.figures.frames, window.incise.frames]);
+    const before = await counts();
+    await page.waitForTimeout(500);
+    assert.deepEqual(await counts(), before);
   });
 
   test('the session goes on when the window is resized', async () => {

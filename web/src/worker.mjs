@@ -4,12 +4,13 @@ import { load } from 'incise';
 
 const STILL_FRAMES = 20; // without motion, and the body is said to be at rest
 const STILL = 2e-5; // of the body's size, in a frame
+const IDLE_FRAMES = 600; // after the last hand, whatever still trembles
 const SPREAD = 3; // frames
 const REPLAY_SECONDS = 12; // that a recording takes at most
 
 let incise, session, size = 1, viewport = [960, 640, 640];
 let events = [], last, stillFrames = 0, replayed = false;
-let isAwake = true, isWanted = false, isShown = true, hasNewTriangles = true, timer = 0, perFrame = 1;
+let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, timer = 0, perFrame = 1;
 let rate = { frames: 0, since: 0, value: 0, longest: 0 };
 
 const say = (type, data = {}, transfer = []) => postMessage({ type, ...data }, transfer);
@@ -63,7 +64,7 @@ function extent(positions) {
 
 function wake() {
   isAwake = true;
-  stillFrames = 0;
+  stillFrames = idleFrames = 0;
 }
 
 /** Whether the surface moved by more than a hair since the last frame. */
@@ -151,7 +152,7 @@ function tick() {
         stillFrames = moves(positions) ? 0 : stillFrames + 1;
         last = positions.slice();
         hasMoved = true;
-        if (stillFrames > STILL_FRAMES) isAwake = false;
+        if (stillFrames > STILL_FRAMES || ++idleFrames > IDLE_FRAMES) isAwake = false;
         count(performance.now() - began);
       }
       if (isWanted && (hasMoved || hadEvents || hasNewTriangles)) {
