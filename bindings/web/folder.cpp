@@ -33,7 +33,8 @@ fs::path Folder::place_of(const std::string& name) const {
 
 Error Folder::named(Error error) const {
   const std::string own = path_.string() + "/";
-  for (std::size_t at = 0; (at = error.message.find(own, at)) != std::string::npos;) error.message.erase(at, own.size());
+  for (std::size_t at = 0; (at = error.message.find(own, at)) != std::string::npos;)
+    error.message.erase(at, own.size());
   return error;
 }
 

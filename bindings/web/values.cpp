@@ -55,8 +55,8 @@ val to_array(const Vec3& vector) {
 
 val to_bytes(std::string_view bytes) {
   val copy = val::global("Uint8Array").new_(bytes.size());
-  copy.call<void>("set", val(emscripten::typed_memory_view(
-                             bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()))));
+  copy.call<void>(
+      "set", val(emscripten::typed_memory_view(bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()))));
   return copy;
 }
 

@@ -47,7 +47,8 @@ Result<StrokeReport> cut_by_steps(Engine& engine, const incise::Stroke& stroke) 
 
 val WebEngine::open(const val& bytes, const std::string& name) {
   const Folder folder;
-  if (const incise::Status status = folder.write(name, from_bytes(bytes)); !status.ok()) return to_error(status.error());
+  if (const incise::Status status = folder.write(name, from_bytes(bytes)); !status.ok())
+    return to_error(status.error());
   Result<incise::io::LoadedMesh> loaded = incise::io::load_mesh(folder.place_of(name));
   if (!loaded.ok()) return to_error(folder.named(loaded.error()));
   Result<Engine> engine = Engine::create(std::move(loaded->mesh));

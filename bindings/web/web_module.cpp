@@ -35,7 +35,8 @@ val look(bool is_dark) {
     palette.push_back(255);
   }
   for (unsigned i = 0; i < 256; ++i) {
-    for (const std::uint8_t channel : incise::app::quality_color(static_cast<std::uint8_t>(i))) palette.push_back(channel);
+    for (const std::uint8_t channel : incise::app::quality_color(static_cast<std::uint8_t>(i)))
+      palette.push_back(channel);
     palette.push_back(255);
   }
   val inks = val::array();

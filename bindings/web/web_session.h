@@ -88,9 +88,9 @@ class WebSession {
   incise::app::QualityMonitor monitor_;
   incise::Box body_;
   incise::render::SurfaceNormals averages_;
-  std::vector<Eigen::Vector3f> positions_, normals_;    // per corner of a triangle in use
-  std::vector<incise::app::TriangleLook> looks_;        // likewise
-  std::vector<float> lines_, balls_, triangles_;        // rows
+  std::vector<Eigen::Vector3f> positions_, normals_;  // per corner of a triangle in use
+  std::vector<incise::app::TriangleLook> looks_;      // likewise
+  std::vector<float> lines_, balls_, triangles_;      // rows
   double depth_share_ = 0.125;
 };
 
