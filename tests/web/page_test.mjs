@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
+import { gzipSync } from 'node:zlib';
 import { after, before, beforeEach, afterEach, describe, test } from 'node:test';
 import { at, read, serve } from './support.mjs';
 
@@ -14,6 +15,7 @@ const ARGS = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swifts
 
 describe('the page', { skip: executablePath ? false : 'Chromium is not installed: script/bootstrap --web' }, () => {
   let browser, server, page, complaints;
+  const fetched = new Set();
 
   before(async () => {
     mkdirSync(pictures, { recursive: true });
@@ -38,6 +40,7 @@ describe('the page', { skip: executablePath ? false : 'Chromium is not installed
     page = await context.newPage();
     page.on('pageerror', (error) => complaints.push(String(error)));
     page.on('console', (message) => ['error', 'warning'].includes(message.type()) && !isOfDriver(message.text()) && complaints.push(message.text()));
+    page.on('request', (request) => request.url().startsWith(`${server.url}`) && fetched.add(new URL(request.url()).pathname.replace(/\/$/, '/index.html')));
     page.on('request', (request) => new URL(request.url()).protocol === 'http:' && !request.url().startsWith(server.url) && complaints.push(`asks ${request.url()}`));
     if (script) await page.addInitScript(script);
     await page.goto(server.url + path);
@@ -121,7 +124,6 @@ describe('the page', { skip: executablePath ? false : 'Chromium is not installed
     await isAtRest();
     await page.screenshot({ path: `${pictures}/touch.png` });
     const { cutTets } = await figures();
-    const hash = await ask('hash');
     const before = await page.screenshot();
     await touch('touchStart', [20, 150]);
     await touch('touchStart', [20, 150], [60, 150]);
@@ -130,7 +132,6 @@ describe('the page', { skip: executablePath ? false : 'Chromium is not installed
     await page.waitForTimeout(500);
     assert.notDeepEqual(await page.screenshot(), before);
     assert.equal((await figures()).cutTets, cutTets);
-    assert.equal(await ask('hash').then((now) => typeof now), typeof hash);
   });
 
   test('a link plays the session again and ends in the same state', async () => {
@@ -304,6 +305,7 @@ describe('the page', { skip: executablePath ? false : 'Chromium is not installed
   test('figures of the page', async (context) => {
     const measured = [];
     for (const body of ['patch', 'bunny']) {
+      fetched.clear();
       await openPage({ path: `?body=${body}` });
       await page.waitForTimeout(500);
       const settled = await page.evaluate(() => ({ simulated: window.incise.figures.frames, drawn: window.incise.frames }));
@@ -312,12 +314,14 @@ describe('the page', { skip: executablePath ? false : 'Chromium is not installed
       const seconds = (Date.now() - began) / 1000;
       const found = await page.evaluate(() => ({ ...window.incise, engine: undefined }));
       measured.push({
+        gzippedBytes: [...fetched].reduce((sum, path) => sum + gzipSync(read('build/site', path)).length, 0),
         tets: found.figures.tetsAtStart, cuttableMs: Math.round(found.cuttableMs),
         simulatedPerSecond: Math.round((found.figures.frames - settled.simulated) / seconds),
         drawnPerSecond: Math.round((found.frames - settled.drawn) / seconds),
         longestBlockMs: found.longestBlockMs, longestBlockLoadingMs: found.longestBlockLoadingMs,
         longestFrameMs: Math.round(found.figures.longestFrameMs),
       });
+      assert.ok(fetched.size >= 6 && measured.at(-1).gzippedBytes <= 1.5e6, `${measured.at(-1).gzippedBytes} bytes`);
       assert.ok(found.cuttableMs > 0 && found.figures.cutTets > 0);
       await page.context().close();
     }
