@@ -155,3 +155,5 @@ quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags doxygen
 model_packages=(tetgen python3:python3)
 # shellcheck disable=SC2034
 wasm_packages=(emscripten node:nodejs clang-14)
+# shellcheck disable=SC2034
+web_packages=(emscripten node:nodejs npm:npm chromium)

@@ -16,7 +16,7 @@ void main() {
   vec3 n = mat3(to_view) * normal;
   float size = length(n);
   view_position = p.xyz;
-  view_normal = size > 0 ? n / size : vec3(0);
+  view_normal = size > 0.0 ? n / size : vec3(0);
   gl_Position = to_clip * p;
 }
 )";

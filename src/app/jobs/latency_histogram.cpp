@@ -19,9 +19,9 @@ void increase(std::atomic<std::uint64_t>& counter) {
 
 std::size_t LatencyHistogram::bucket_of(std::uint64_t nanoseconds) {
   const auto width = static_cast<unsigned>(std::bit_width(nanoseconds));
-  if (width <= kSubBits) return nanoseconds;
+  if (width <= kSubBits) return static_cast<std::size_t>(nanoseconds);
   const unsigned shift = width - kSubBits - 1;  // the leading kSubBits + 1 bits stay
-  return ((std::size_t{shift} << kSubBits) + (nanoseconds >> shift));
+  return (std::size_t{shift} << kSubBits) + static_cast<std::size_t>(nanoseconds >> shift);
 }
 
 std::uint64_t LatencyHistogram::upper_end(std::size_t bucket) {

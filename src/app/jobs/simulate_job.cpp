@@ -74,13 +74,14 @@ Status SceneRunner::run_frames(FrameSeries* series, const io::LoadedMesh& loaded
     return series->add(static_cast<double>(done) * scene_.options.frame_seconds,
                        io::to_mesh_data(mesh, find_components(mesh), loaded.file_vertex, io::MeshPose::kAsItStands));
   };
+  const auto frames = static_cast<std::size_t>(scene_.frames);  // at most kMaxSceneFrames
   if (Status status = add_moment(0); !status.ok()) return status;
-  for (std::uint64_t i = 0; i < scene_.frames && !stops(); ++i) {
-    if (job_.progress) job_.progress(i, scene_.frames);
+  for (std::size_t i = 0; i < frames && !stops(); ++i) {
+    if (job_.progress) job_.progress(i, frames);
     if (Status status = run_frame(i); !status.ok()) return status;
     if (Status status = add_moment(i + 1); !status.ok()) return status;
   }
-  if (job_.progress) job_.progress(scene_.frames, scene_.frames);
+  if (job_.progress) job_.progress(frames, frames);
   return {};
 }
 

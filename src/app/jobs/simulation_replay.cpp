@@ -78,7 +78,7 @@ Status replay_all(Simulation& simulation, SimulationReader& reader, const Replay
     if (!difference.ok()) return difference.error();
     result.difference = std::move(*difference);
     ++result.calls;
-    if (job.progress) job.progress(reader.bytes() >> 10U, kilobytes);
+    if (job.progress) job.progress(static_cast<std::size_t>(reader.bytes() >> 10U), kilobytes);
   }
   if (last && !result.difference) result.difference = compare_hashes(*last, simulation);
   return {};

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types of the package `incise`. Lengths are in the mesh's own unit, forces in N, times in s unless they say
+// otherwise. Every call but `load` is synchronous and may take long on large meshes: run it in a Worker.
+
+/** A kind of failure; see `InciseError.code`. */
+export type ErrorCode = 'BadArgument' | 'BadFile' | 'Unsupported' | 'OutOfMemory' | 'Io' | 'Internal';
+
+/** What a call throws that cannot do what is asked. What it was called on stays as it was and usable. */
+export declare class InciseError extends Error {
+  constructor(message: string, code: ErrorCode, ids?: number[]);
+  readonly name: 'InciseError';
+  readonly code: ErrorCode;
+  /** Offending elements, at most a few; the message says what they are. */
+  readonly ids: number[];
+}
+
+export type Vec3 = readonly [number, number, number];
+/** A file's content; a string is taken as UTF-8. */
+export type Bytes = string | ArrayBuffer | ArrayBufferView;
+
+export interface LoadOptions {
+  /** Where the `.wasm` file of this name is, seen from the page; by default beside this module. */
+  locateFile?: (name: string) => string;
+  /** The content of the `.wasm` file, for those who have it already; nothing is fetched then. */
+  wasmBinary?: ArrayBuffer | ArrayBufferView;
+  /** Which build: by default the one with SIMD where the engine has it. */
+  simd?: boolean;
+  /** Hears what the module prints; by default nobody. */
+  print?: (line: string) => void;
+}
+
+/** What one stroke did. */
+export interface StrokeReport {
+  stroke: number;
+  cutTets: number;
+  createdTets: number;
+  newVertices: number;
+  snappedVertices: number;
+}
+
+/** L/r is a tet's longest edge over its inscribed radius: 4.9 for a regular one, infinite for a flat one. */
+export interface Quality {
+  lrMin: number;
+  lrMean: number;
+  lrMax: number;
+  dihedralMinDeg: number;
+  dihedralMaxDeg: number;
+}
+
+/** A mesh at rest that can be cut. */
+export declare class Engine {
+  private constructor();
+  /**
+   * Opens a tetrahedral mesh: MEDIT, Gmsh, VTK, TetGen, Vega or Abaqus. `name` is for messages and, where the bytes do
+   * not tell, for its extension. Throws BadFile, naming the line. Cost: O(size).
+   */
+  static open(bytes: Bytes, name: string): Engine;
+  readonly tetCount: number;
+  readonly vertexCount: number;
+  /** Face-connected pieces. Cost: O(tets). */
+  readonly pieces: number;
+  /** Sixteen hexadecimal digits: of connectivity, rest positions and tags; the same on every platform. */
+  readonly hash: string;
+  /** Cuts by the strokes of a blade file (docs/formats.md): an object, or its JSON. Cost: O(tets). */
+  cut(blade: object | string): StrokeReport[];
+  /** Cuts through all along normal·x = offset; the normal is of any length but zero. */
+  cutPlane(normal: Vec3, offset: number): StrokeReport;
+  /** Maintains the whole mesh. */
+  improve(): void;
+  /** Takes the last stroke back, bit for bit; false where there is none. */
+  undo(): boolean;
+  redo(): boolean;
+  /** Three numbers per point, compact; a copy. */
+  points(): Float64Array;
+  /** Four points per tet; a copy. */
+  tets(): Uint32Array;
+  quality(): Quality;
+  /** The bytes of a mesh file: ".mesh", ".msh", ".vtk", ".node", ".ele", ".veg" or ".inp". */
+  write(extension: string): Uint8Array;
+  /** Frees its memory. Later calls throw. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+}
+
+export type ToolName = 'Orbit' | 'Scalpel' | 'Plane cut' | 'Grasp' | 'Pin' | 'Probe';
+export type PointerKind = 'move' | 'press' | 'release' | 'wheel';
+
+export interface PointerOptions {
+  /** Of press and release. Right and middle drags turn the view. */
+  button?: 'left' | 'right' | 'middle';
+  /** With a left drag: grasp, whatever the tool. With a right one: move the view. */
+  shift?: boolean;
+  control?: boolean;
+  /** With a left drag: turn the view. */
+  alt?: boolean;
+  /** Notches, positive away from the person. */
+  wheel?: number;
+  /** Of a pen, in [0, 1]: how much of its depth a scalpel goes in. */
+  pressure?: number;
+}
+
+/** What is seen: three corners per triangle. Views of the module's memory: copy them before the next call. */
+export interface Surface {
+  /** Three numbers per corner. */
+  positions: Float32Array;
+  /** Three numbers per corner, of any length. */
+  normals: Float32Array;
+  /** Four bytes per corner: flags (1 wall of a cut, 2 of the newest stroke), stroke, region, quality. */
+  looks: Uint8Array;
+}
+
+/** Column by column, as WebGL takes them. */
+export interface CameraMatrices {
+  view: Float64Array;
+  clip: Float64Array;
+}
+
+/** Views of the module's memory: copy them before the next call. An ink is a place in `Look.inks`. */
+export interface Marks {
+  /** Nine numbers each: from, to, ink, width in pixels, 1 where it is seen through what is before it. */
+  lines: Float32Array;
+  /** Six numbers each: centre, ink, radius, 1 where that is in pixels. */
+  balls: Float32Array;
+  /** Eleven numbers each: three corners, ink, opacity. */
+  triangles: Float32Array;
+}
+
+export interface Figures {
+  frames: number;
+  seconds: number;
+  /** What the last frame took, ms. */
+  frameMs: number;
+  /** What a frame simulates, s. */
+  frameSeconds: number;
+  tets: number;
+  tetsAtStart: number;
+  vertices: number;
+  strokes: number;
+  cutTets: number;
+  /** On the blade in the last frame, N. */
+  force: number;
+  peakForce: number;
+}
+
+export interface QualityFigures {
+  lrMin: number;
+  lrMean: number;
+  lrMax: number;
+  lrOver200Pct: number;
+  /** Tets by L/r, logarithmic from 2√6 to 200. */
+  histogram: number[];
+}
+
+export interface SessionOptions {
+  /** Files that a scene or a recording names, by name. */
+  files?: Record<string, Bytes>;
+  /** Which way is up in a mesh without a scene; by default z. */
+  up?: Vec3;
+}
+
+/** A body under hands: it moves, is cut and held by pointer events, and everything is recorded. */
+export declare class Session {
+  private constructor();
+  /** Opens a mesh, a scene or a recording, told apart by what is in it. A scene's body is at rest when this returns. */
+  static open(bytes: Bytes, name: string, options?: SessionOptions): Session;
+  tool: ToolName;
+  /** Of the scalpel, as a share of the body's shortest side, in [0.01, 2]. */
+  depth: number;
+  /** A drag, or a cut by a plane, is under way. */
+  readonly isBusy: boolean;
+  readonly isReplay: boolean;
+  /** Face-connected pieces. Cost: O(tets). */
+  readonly pieces: number;
+  readonly title: string;
+  /** Sixteen hexadecimal digits: of the mesh and of the moving body, as recordings have them. */
+  readonly hash: string;
+  /** Of the mesh alone. */
+  readonly meshHash: string;
+  /** The picture's size in CSS pixels, above 0. Bodies are framed in `freeHeight` of it, around its middle. */
+  resize(width: number, height: number, freeHeight?: number): void;
+  /** A pointer event at a place of the picture, in CSS pixels from its upper left corner. */
+  pointer(kind: PointerKind, x: number, y: number, options?: PointerOptions): void;
+  /** Gives up a drag. Returns whether there was one. */
+  cancel(): boolean;
+  /** Looks at the whole body. */
+  frameBody(): void;
+  /** One frame: of the simulation, or the next call of a recording. */
+  frame(): void;
+  undo(): boolean;
+  redo(): boolean;
+  /** Back to the start. */
+  reset(): void;
+  /** How far a recording has been played. */
+  place(): { call: number; calls: number };
+  /** Plays a recording up to a call. */
+  seek(call: number): void;
+  /** Goes on by hand from where a recording stands. Returns whether the session is live now. */
+  takeOver(): boolean;
+  /** Brings `surface` up to date. Returns whether triangles came or went. */
+  refresh(): boolean;
+  surface(): Surface;
+  camera(): CameraMatrices;
+  marks(): Marks;
+  figures(): Figures;
+  /** Of all tets at rest, now and before the first cut. */
+  quality(): { now: QualityFigures; before: QualityFigures };
+  /** What was done, a line each. */
+  log(): string[];
+  /** The recording so far: `open` and `incise replay` do the same again, bit for bit. */
+  recording(): Uint8Array;
+  /** The mesh at rest, as `Engine.write`. */
+  write(extension: string): Uint8Array;
+  dispose(): void;
+  [Symbol.dispose](): void;
+}
+
+/** How the window draws. Colours are sRGB in [0, 1]. */
+export interface Look {
+  /** GLSL 3.30 without its version line. */
+  vertexShader: string;
+  fragmentShader: string;
+  /** 256 × 2 RGBA: colours of labels, then of quality. */
+  palette: Uint8Array;
+  inks: Vec3[];
+  top: Vec3;
+  bottom: Vec3;
+  rim: number;
+}
+
+export interface Incise {
+  readonly version: string;
+  readonly tools: readonly ToolName[];
+  look(theme: 'light' | 'dark'): Look;
+  readonly Engine: typeof Engine;
+  readonly Session: typeof Session;
+}
+
+/** Loads the module. Each call makes one of its own, with memory of its own. */
+export declare function load(options?: LoadOptions): Promise<Incise>;
+
+/** Whether this engine has WebAssembly's SIMD instructions. */
+export declare function hasSimd(): boolean;

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// The module in node: the same results as the native command, errors, memory, and types that tell the truth.
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { at, incise, read } from './support.mjs';
+
+const { InciseError, hasSimd, load } = await import(at('build/npm/index.mjs'));
+const module = await load();
+const plain = await load({ simd: false });
+const folder = mkdtempSync(join(tmpdir(), 'incise-'));
+after(() => rmSync(folder, { recursive: true }));
+
+const bunny = read('models/bunny.mesh');
+const patch = read('scenes/web_patch.json');
+
+/** Draws a stroke across the picture, a frame for each move. */
+function draw(session, tool = 'Scalpel') {
+  session.resize(800, 600);
+  session.refresh();
+  session.tool = tool;
+  session.pointer('press', 330, 300);
+  for (let i = 0; i <= 25; ++i) {
+    session.pointer('move', 330 + 6 * i, 300 + i);
+    session.frame();
+    session.refresh();
+  }
+  session.pointer('release', 480, 325);
+  for (let i = 0; i < 3; ++i) session.frame();
+  session.refresh();
+}
+
+test('this engine has SIMD, so that both builds are compared below', () => assert.equal(hasSimd(), true));
+
+test('a plane cuts as the native command does, and undo gives the mesh back bit for bit', async () => {
+  const report = JSON.parse(await incise('cut', at('models/bunny.mesh'), '--plane', '1,0.2,0,0.06', '--report', '-'));
+  for (const { Engine } of [module, plain]) {
+    const engine = Engine.open(bunny, 'bunny.mesh');
+    const { hash, tetCount } = engine;
+    const { cutTets } = engine.cutPlane([1, 0.2, 0], 0.06);
+    assert.equal(engine.hash, report.hash);
+    assert.equal(cutTets, report.cut.cut_tets);
+    assert.equal(engine.tetCount, report.mesh.after.tets);
+    assert.equal(engine.pieces, report.mesh.after.components);
+    assert.equal(engine.undo(), true);
+    assert.deepEqual([engine.hash, engine.tetCount], [hash, tetCount]);
+    assert.equal(engine.undo(), false);
+    assert.equal(engine.redo(), true);
+    assert.equal(engine.hash, report.hash);
+    engine.dispose();
+  }
+});
+
+test('a blade file cuts as the native command does', async () => {
+  const scene = at('scenes/bunny_stroke.json');
+  const report = JSON.parse(await incise('cut', at('models/bunny.mesh'), '--blade', scene, '--report', '-'));
+  const engine = module.Engine.open(bunny, 'bunny.mesh');
+  engine.cut(readFileSync(scene, 'utf8'));
+  assert.equal(engine.hash, report.hash);
+});
+
+test('a moving body under a pointer is cut alike by both builds, and the native command replays it', async () => {
+  const sessions = [module, plain].map(({ Session }) => Session.open(bunny, 'bunny.mesh', { up: [0, 1, 0] }));
+  for (const session of sessions) draw(session);
+  const [first, second] = sessions;
+  assert.ok(first.figures().tets > 10668, 'the stroke did not cut');
+  assert.equal(first.figures().strokes, 1);
+  assert.equal(first.hash, second.hash);
+  const recording = first.recording();
+  writeFileSync(join(folder, 'bunny.mesh'), bunny);
+  writeFileSync(join(folder, 'drag.jsonl'), recording);
+  const said = await incise('replay', join(folder, 'drag.jsonl'), '--verify');
+  assert.match(said, new RegExp(first.hash));
+  const again = module.Session.open(recording, 'drag.jsonl', { files: { 'bunny.mesh': bunny } });
+  assert.equal(again.isReplay, true);
+  again.seek(again.place().calls);
+  assert.equal(again.hash, first.hash);
+  assert.match(again.log().at(-1), /^End: the same state/);
+});
+
+test('a changed recording is not taken for the same', () => {
+  const session = module.Session.open(patch, 'patch.json');
+  draw(session);
+  const lines = Buffer.from(session.recording()).toString().trimEnd().split('\n');
+  lines.splice(10, 1); // a frame less
+  const other = module.Session.open(lines.join('\n') + '\n', 'less.jsonl');
+  other.seek(1e9);
+  assert.match(other.log().at(-1), /NOT/);
+});
+
+test('a plane across a moving body leaves two pieces, which undo joins', () => {
+  const session = module.Session.open(patch, 'patch.json');
+  session.resize(800, 600);
+  session.refresh();
+  session.tool = 'Plane cut';
+  session.pointer('press', 400, 20);
+  session.pointer('move', 420, 580);
+  session.pointer('release', 420, 580);
+  assert.equal(session.isBusy, true);
+  for (let i = 0; i < 100 && session.isBusy; ++i) session.frame();
+  assert.equal(session.pieces, 2);
+  assert.equal(session.undo(), true);
+  assert.equal(session.pieces, 1);
+  session.reset();
+  assert.equal(session.figures().strokes, 0);
+});
+
+test('views of the heap are taken anew after memory has grown', () => {
+  const session = module.Session.open(patch, 'patch.json');
+  session.refresh();
+  const before = session.surface().positions;
+  const first = before.slice();
+  const held = [];
+  while (before.length > 0 && held.length < 40) held.push(module.Engine.open(bunny, 'bunny.mesh'));
+  assert.equal(before.length, 0, 'memory did not grow: the test shows nothing');
+  assert.deepEqual(session.surface().positions, first);
+  held.forEach((engine) => engine.dispose());
+});
+
+test('errors are InciseErrors that name file and remedy, and nothing of the inside', () => {
+  const { Engine, Session } = module;
+  const thrown = (what) => {
+    try {
+      what();
+    } catch (error) {
+      assert.ok(error instanceof InciseError && error instanceof Error, String(error));
+      return error;
+    }
+    return assert.fail('nothing was thrown');
+  };
+  assert.equal(thrown(() => Engine.open('nonsense', 'x.mesh')).code, 'Unsupported');
+  assert.match(thrown(() => Engine.open('nonsense', 'x.mesh')).message, /^x\.mesh: /);
+  const broken = bunny.subarray(0, bunny.length / 2);
+  assert.equal(thrown(() => Session.open(broken, 'half.mesh')).code, 'BadFile');
+  assert.match(thrown(() => Session.open(broken, 'half.mesh')).message, /^half\.mesh:\d+/);
+  const engine = Engine.open(bunny, 'bunny.mesh');
+  assert.equal(thrown(() => engine.cutPlane([0, 0, 0], 1)).code, 'BadArgument');
+  assert.equal(thrown(() => engine.cutPlane([1, 0], 1)).code, 'BadArgument');
+  assert.equal(thrown(() => engine.cut({ format: 'incise-blade', version: 1, strokes: [] })).code, 'BadFile');
+  assert.equal(thrown(() => engine.write('.xyz')).code, 'BadArgument');
+  assert.deepEqual(thrown(() => engine.write('.xyz')).ids, []);
+  const session = Session.open(patch, 'patch.json');
+  assert.throws(() => (session.tool = 'Chainsaw'), { code: 'BadArgument' });
+  assert.throws(() => session.pointer('press', NaN, 0), { code: 'BadArgument' });
+  session.dispose();
+  assert.throws(() => session.frame(), { code: 'BadArgument' });
+});
+
+test('what is disposed of gives its memory back', () => {
+  const { Engine } = plain;
+  for (let i = 0; i < 60; ++i) {
+    const engine = Engine.open(bunny, 'bunny.mesh');
+    engine.cutPlane([1, 0, 0], 0.02);
+    engine[Symbol.dispose ?? Symbol.for('Symbol.dispose')]();
+  }
+});
+
+test('a written mesh reads back', () => {
+  const engine = module.Engine.open(bunny, 'bunny.mesh');
+  engine.cutPlane([0, 1, 0], 5);
+  for (const extension of ['.mesh', '.msh', '.vtk']) {
+    const again = module.Engine.open(engine.write(extension), `again${extension}`);
+    assert.deepEqual([again.tetCount, again.vertexCount], [engine.tetCount, engine.vertexCount]);
+  }
+  assert.equal(engine.points().length, 3 * engine.vertexCount);
+  assert.equal(engine.tets().length, 4 * engine.tetCount);
+});
+
+test('the bytes of the module may be handed over', async () => {
+  const own = await load({ wasmBinary: read('build/npm/incise_core.wasm') });
+  assert.equal(own.Engine.open(bunny, 'bunny.mesh').tetCount, 10668);
+  const asked = [];
+  const located = await load({ locateFile: (name) => asked.push(name) && new URL(`file://${at('build/npm')}/${name}`).href });
+  assert.deepEqual(asked, ['incise_core.wasm']);
+  assert.equal(located.version, module.version);
+});
+
+test('index.d.mts declares what the module has, and no more', () => {
+  const typescript = createRequire(at('web/package.json'))('typescript');
+  const source = typescript.createSourceFile('index.d.mts', read('build/npm/index.d.mts').toString(), typescript.ScriptTarget.Latest);
+  const declared = { class: {}, interface: {}, function: new Set() };
+  const name = (node) => node.name?.text ?? node.name?.escapedText;
+  source.forEachChild((node) => {
+    const kind = typescript.isClassDeclaration(node) ? 'class' : typescript.isInterfaceDeclaration(node) ? 'interface' : null;
+    if (kind) declared[kind][name(node)] = node.members;
+    if (typescript.isFunctionDeclaration(node)) declared.function.add(name(node));
+  });
+  const isStatic = (node) => node.modifiers?.some((each) => each.kind === typescript.SyntaxKind.StaticKeyword);
+  const members = (nodes, wantsStatic) => [...nodes].filter((node) => name(node) && Boolean(isStatic(node)) === wantsStatic).map(name).sort();
+  const own = (object) => Object.getOwnPropertyNames(object).filter((key) => !['constructor', 'length', 'name', 'prototype'].includes(key)).sort();
+  for (const type of ['Engine', 'Session']) {
+    assert.deepEqual(own(module[type].prototype), members(declared.class[type], false));
+    assert.deepEqual(own(module[type]), members(declared.class[type], true));
+  }
+  assert.deepEqual(own(module), members(declared.interface.Incise, false));
+  const session = module.Session.open(patch, 'patch.json');
+  const returned = { Figures: session.figures(), Marks: session.marks(), Surface: session.surface(), CameraMatrices: session.camera() };
+  returned.QualityFigures = session.quality().now;
+  returned.Look = module.look('dark');
+  for (const [type, value] of Object.entries(returned)) assert.deepEqual(own(value), members(declared.interface[type], false), type);
+  assert.deepEqual([...declared.function].sort(), ['hasSimd', 'load']);
+});
