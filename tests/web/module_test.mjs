@@ -6,11 +6,11 @@ import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
-import { at, incise, read } from './support.mjs';
+import { at, hasPlain, incise, read } from './support.mjs';
 
 const { InciseError, hasSimd, load } = await import(at('build/npm/index.mjs'));
 const module = await load();
-const plain = await load({ simd: false });
+const builds = hasPlain ? [module, await load({ simd: false })] : [module];
 const folder = mkdtempSync(join(tmpdir(), 'incise-'));
 after(() => rmSync(folder, { recursive: true }));
 
@@ -33,11 +33,11 @@ function draw(session, tool = 'Scalpel') {
   session.refresh();
 }
 
-test('this engine has SIMD, so that both builds are compared below', () => assert.equal(hasSimd(), true));
+test('this engine has SIMD: the builds that are there are compared below', () => assert.equal(hasSimd(), true));
 
 test('a plane cuts as the native command does, and undo gives the mesh back bit for bit', async () => {
   const report = JSON.parse(await incise('cut', at('models/bunny.mesh'), '--plane', '1,0.2,0,0.06', '--report', '-'));
-  for (const { Engine } of [module, plain]) {
+  for (const { Engine } of builds) {
     const engine = Engine.open(bunny, 'bunny.mesh');
     const { hash, tetCount } = engine;
     const { cutTets } = engine.cutPlane([1, 0.2, 0], 0.06);
@@ -63,12 +63,12 @@ test('a blade file cuts as the native command does', async () => {
 });
 
 test('a moving body under a pointer is cut alike by both builds, and the native command replays it', async () => {
-  const sessions = [module, plain].map(({ Session }) => Session.open(bunny, 'bunny.mesh', { up: [0, 1, 0] }));
+  const sessions = builds.map(({ Session }) => Session.open(bunny, 'bunny.mesh', { up: [0, 1, 0] }));
   for (const session of sessions) draw(session);
-  const [first, second] = sessions;
+  const first = sessions[0];
   assert.ok(first.figures().tets > 10668, 'the stroke did not cut');
   assert.equal(first.figures().strokes, 1);
-  assert.equal(first.hash, second.hash);
+  for (const session of sessions) assert.equal(session.hash, first.hash);
   const recording = first.recording();
   writeFileSync(join(folder, 'bunny.mesh'), bunny);
   writeFileSync(join(folder, 'drag.jsonl'), recording);
@@ -150,7 +150,7 @@ test('errors are InciseErrors that name file and remedy, and nothing of the insi
 });
 
 test('what is disposed of gives its memory back', () => {
-  const { Engine } = plain;
+  const { Engine } = builds.at(-1);
   for (let i = 0; i < 60; ++i) {
     const engine = Engine.open(bunny, 'bunny.mesh');
     engine.cutPlane([1, 0, 0], 0.02);

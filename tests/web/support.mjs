@@ -10,6 +10,8 @@ import { promisify } from 'node:util';
 export const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
 export const at = (...parts) => join(root, ...parts);
 export const read = (...parts) => readFileSync(at(...parts));
+/** `INCISE_WEB_PLAIN=0 script/web` leaves the module without SIMD out. */
+export const hasPlain = existsSync(at('build/npm/incise_plain.wasm'));
 
 /** Runs the native command. Rejects unless it exits with 0. */
 export async function incise(...args) {
