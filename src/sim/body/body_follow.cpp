@@ -34,9 +34,9 @@ struct Stiffness {
   double lambda, mu;
   double shared;  ///< of Lamé's λ, what vertices resist with
 };
-/// Tets resist a change of volume themselves as tissue of this Poisson's ratio would. More of it locks: a cantilever of
-/// four cells across at ν 0.49 is 19 % too stiff, 23 % with 0.3. Without any the volumes of single tets are free.
-constexpr double kOwnPoisson = 0.12;
+/// Tets resist a change of volume themselves as tissue of this Poisson's ratio would. More of it locks: with 0.3 a
+/// cantilever of four cells across at ν 0.49 is 25 % too stiff. Without any, the volumes of single tets are free.
+constexpr double kOwnPoisson = 0.1;
 
 double own_share(const Material& material, bool is_averaged) {
   if (!is_averaged || material.poisson <= kOwnPoisson) return material.lambda();
