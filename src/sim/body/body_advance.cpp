@@ -310,7 +310,11 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
   for (const std::uint32_t slot : vertices) before.push_back(place_of(slot));
   const detail::Descent d = descent();
   if (nodal.is_on) {
-    nodal.gather([&](const auto& take) { for (const std::uint32_t v : vertices) take(v); }, pressed);
+    nodal.gather(
+        [&](const auto& take) {
+          for (const std::uint32_t v : vertices) take(v);
+        },
+        pressed);
     find_pressures();
   }
   for (unsigned i = 0; i < sweeps; ++i) detail::sweep(d, vertices, i % 2 == 1);

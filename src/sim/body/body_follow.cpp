@@ -88,8 +88,8 @@ bool DeformableBody::State::add_tet(const TetMesh& mesh, TetId t) {
   }
   regions[t] = mesh.region(t);
   const Stiffness stiffness = stiffness_of(materials.of(regions[t]), unit(), nodal.is_on);
-  const detail::Element element = detail::slopes_of(p, stiffness.lambda, stiffness.mu, options.thinnest,
-                                                    6 * options.crumb, stiffness.shared);
+  const detail::Element element =
+      detail::slopes_of(p, stiffness.lambda, stiffness.mu, options.thinnest, 6 * options.crumb, stiffness.shared);
   stars.add(t, tets[t], element);
   if (nodal.is_on) nodal.put(t, detail::six_volumes(p), element);
   note_changed(tets[t]);

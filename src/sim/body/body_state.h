@@ -119,7 +119,7 @@ struct DeformableBody::State {
   detail::SweepOrder order;
   detail::NodalVolumes nodal;
   std::vector<std::uint32_t> pressed;  // awake vertices and their neighbours, of this `advance`
-  GrowArray<float> floats;  // places against the middle, and pressures, 4 per vertex
+  GrowArray<float> floats;             // places against the middle, and pressures, 4 per vertex
   IdArray<VertexId, detail::Motion> motions;
   std::vector<detail::PullTerm> terms;
   std::vector<detail::PullUse> uses;

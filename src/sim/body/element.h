@@ -26,9 +26,9 @@ struct Element {
 
 /// The element of a tet with rest positions `p`, positive; `lambda` and `mu` in the units of energy per cubed length.
 /// A tet thinner than `thinnest` of its longest edge is as soft as a layer that thick would be: slivers would hold the
-/// descent up for hundreds of sweeps otherwise. `shared`: what its vertices resist with as one (`NodalVolumes`), besides
-/// `lambda`. One of less than `crumb` six volumes only resists stretch, and shrinks
-/// where nothing else holds it: what it swells by as its corners move would hold or throw all around it.
+/// descent up for hundreds of sweeps otherwise. `shared`: what its vertices resist with as one (`NodalVolumes`),
+/// besides `lambda`. One of less than `crumb` six volumes only resists stretch, and shrinks where nothing else holds
+/// it: what it swells by as its corners move would hold or throw all around it.
 [[nodiscard]] Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest,
                                  double crumb = 0, double shared = 0);
 /// The same, without its offset.

@@ -41,9 +41,7 @@ class NodalVolumes {
   [[nodiscard]] const float* stiffnesses() const { return stiffnesses_.data(); }
   /// By vertex: six volumes at rest of its tets that take part.
   [[nodiscard]] const float* rest_volumes() const { return rest_volumes_.data(); }
-  [[nodiscard]] double stiffness(VertexId vertex) const {
-    return gives_[vertex] > 0 ? 1 / (24 * gives_[vertex]) : 0.0;
-  }
+  [[nodiscard]] double stiffness(VertexId vertex) const { return gives_[vertex] > 0 ? 1 / (24 * gives_[vertex]) : 0.0; }
   /// Whether a tet takes part.
   [[nodiscard]] bool has(TetId tet) const { return tets_[tet].give > 0; }
 

@@ -48,8 +48,8 @@ struct StarSum {
       : gx(zero), gy(zero), gz(zero), xx(zero), xy(zero), xz(zero), yy(zero), yz(zero), zz(zero) {}
 
   template <Wanted kWanted>
-  [[gnu::always_inline]] inline void add(const StarBlock& block, const Descent& d, const Lanes& x, const Lanes& y, const Lanes& z,
-                  float own_pressure, float* normals) {
+  [[gnu::always_inline]] inline void add(const StarBlock& block, const Descent& d, const Lanes& x, const Lanes& y,
+                                         const Lanes& z, float own_pressure, float* normals) {
     Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
     Lanes of_nodes = all(own_pressure);
     if constexpr (kWanted == Wanted::kSlopeAveraged) {
@@ -99,8 +99,8 @@ struct StarSum {
   }
 };
 
-/// Sums what the tets between a vertex and each neighbour do. Each tet has three other corners: its share in the vertex'
-/// own volume is a third of all.
+/// Sums what the tets between a vertex and each neighbour do. Each tet has three other corners: its share in the
+/// vertex' own volume is a third of all.
 inline void find_around(const Descent& d, std::uint32_t vertex, const Around& around) {
   const NeighbourList& list = d.neighbours[vertex];
   const std::uint32_t* slots = d.neighbour_slots + list.first;
@@ -182,7 +182,8 @@ inline void add_inertia(const Motion& motion, const float* x, Quadratic& q) {
 }
 
 template <Wanted kWanted>
-[[gnu::always_inline]] inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex, const Around& around = {}) {
+[[gnu::always_inline]] inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex,
+                                                        const Around& around = {}) {
   const Motion& motion = d.motions[vertex];
   const float* x = d.places + std::size_t{4} * vertex;
   Quadratic q = star_quadratic<kWanted>(d, vertex, around);
