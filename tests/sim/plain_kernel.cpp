@@ -22,12 +22,22 @@ plain::Descent descent_of(const PlainDescent& d) {
           static_cast<const plain::PullTerm*>(d.terms),
           static_cast<const plain::PullUse*>(d.uses),
           nullptr,
-          nullptr};
+          nullptr,
+          d.pressures,
+          d.node_stiffnesses,
+          d.rest_volumes,
+          static_cast<const plain::NeighbourList*>(d.neighbours),
+          d.neighbour_slots,
+          d.rings};
 }
 }  // namespace
 
 void plain_sweep(const PlainDescent& descent, std::span<const std::uint32_t> order, bool is_backward) {
   plain::sweep(descent_of(descent), order, is_backward);
+}
+
+void plain_find_pressures(const PlainDescent& descent, std::span<const std::uint32_t> vertices) {
+  plain::find_pressures(descent_of(descent), vertices);
 }
 
 void plain_pick_starts(const PlainDescent& descent, std::span<const std::uint32_t> order) {

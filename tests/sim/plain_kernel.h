@@ -11,9 +11,15 @@ namespace incise::test {
 struct PlainDescent {
   float* places;
   const void *blocks, *stars, *motions, *terms, *uses;
+  float* pressures = nullptr;
+  const float *node_stiffnesses = nullptr, *rest_volumes = nullptr;
+  const void* neighbours = nullptr;
+  const std::uint32_t* neighbour_slots = nullptr;
+  const std::uint16_t* rings = nullptr;
 };
 
 void plain_sweep(const PlainDescent& descent, std::span<const std::uint32_t> order, bool is_backward);
+void plain_find_pressures(const PlainDescent& descent, std::span<const std::uint32_t> vertices);
 void plain_pick_starts(const PlainDescent& descent, std::span<const std::uint32_t> order);
 
 }  // namespace incise::test

@@ -12,6 +12,7 @@
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
 #include "plain_kernel.h"
+#include "sim/body/nodal_volumes.h"
 #include "support/random.h"
 
 #if INCISE_WITH_HIGHWAY
@@ -30,15 +31,17 @@ using test::Random;
 struct Scene {
   static constexpr std::size_t kPulls = 12;
 
-  explicit Scene(std::uint64_t seed, double size = 0.1) : random(seed) {
+  explicit Scene(std::uint64_t seed, double size = 0.1, bool averages = false) : random(seed) {
     TetSoup soup = kuhn_cube(3);
     jitter(soup, 0.15, seed);
     mesh = *TetMesh::build(std::move(soup));
     stars.ensure(mesh.vertex_slots(), mesh.tet_slots());
     mesh.for_each_tet([&](TetId t) {
-      elements.push_back(detail::element_of(corners(t, true), 3e3, 1e3, 0.05));
+      const double shared = averages && t.value % 7 != 0 ? 9e3 : 0.0;
+      elements.push_back(detail::element_of(corners(t, true), 3e3, 1e3, 0.05, 0, shared));
       stars.add(t, mesh.vertices(t), elements.back());
     });
+    if (averages) average();
     for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
       const Vec3 place = mesh.rest(VertexId(v)) + random.point(-size, size);
       for (int i = 0; i < 3; ++i) places.push_back(static_cast<float>(place[i]));
@@ -57,6 +60,12 @@ struct Scene {
   [[nodiscard]] Vec3 place(VertexId v) const {
     const float* p = places.data() + std::size_t{4} * v.value;
     return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+  }
+  void average() {
+    nodal.is_on = true;
+    nodal.ensure(mesh.vertex_slots(), mesh.tet_slots());
+    mesh.for_each_tet([&](TetId t) { nodal.put(t, detail::six_volumes(corners(t, true)), elements[t.value]); });
+    for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) nodal.update(VertexId(v), stars);
   }
   detail::Motion any_motion(VertexId v) {
     detail::Motion motion;
@@ -96,15 +105,29 @@ struct Scene {
     }
   }
   [[nodiscard]] Descent descent() {
-    return {places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
+    Descent d{places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
+    if (nodal.is_on) give_nodes(d);
+    return d;
+  }
+  template <class To>
+  void give_nodes(To& d) {
+    d.pressures = nodal.pressures();
+    d.node_stiffnesses = nodal.stiffnesses();
+    d.rest_volumes = nodal.rest_volumes();
+    d.neighbours = nodal.neighbours().lists();
+    d.neighbour_slots = nodal.neighbours().slots();
+    d.rings = nodal.neighbours().rings();
   }
   [[nodiscard]] test::PlainDescent plain_descent() {
-    return {places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
+    test::PlainDescent d{places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
+    if (nodal.is_on) give_nodes(d);
+    return d;
   }
 
   Random random;
   TetMesh mesh;
   detail::Stars stars;
+  detail::NodalVolumes nodal;
   std::vector<detail::Element> elements;
   std::vector<float> places;
   std::vector<detail::Motion> motions;
@@ -230,17 +253,24 @@ std::vector<float> outcome(Scene& scene, const Sweep& sweep, const Pick& pick) {
   return scene.places;
 }
 
+/// Odd ones average their volumes.
+Scene any_scene(std::uint64_t seed) {
+  return Scene(seed, 0.1, seed % 2 == 1);
+}
+
 std::vector<float> outcome_here(std::uint64_t seed) {
-  Scene scene(seed);
+  Scene scene = any_scene(seed);
   const Descent d = scene.descent();
+  if (scene.nodal.is_on) detail::find_pressures(d, scene.order);
   return outcome(
       scene, [&](auto order, bool backward) { detail::sweep(d, order, backward); },
       [&](auto order) { detail::pick_starts(d, order); });
 }
 
 std::vector<float> plain_outcome(std::uint64_t seed) {
-  Scene scene(seed);
+  Scene scene = any_scene(seed);
   const test::PlainDescent d = scene.plain_descent();
+  if (scene.nodal.is_on) test::plain_find_pressures(d, scene.order);
   return outcome(
       scene, [&](auto order, bool backward) { test::plain_sweep(d, order, backward); },
       [&](auto order) { test::plain_pick_starts(d, order); });

@@ -80,6 +80,7 @@ class Program {
     for (double& entry : element.laplacian) entry = random_.real(-1, 1);
     element.bulk = random_.real(0, 1);
     element.pressure = random_.real(0, 1);
+    element.give = static_cast<double>(random_.integer(0, 1));
     stars_.add(tet, vertices, element);
     tets_[tet.value] = {vertices, element};
   }
@@ -109,7 +110,8 @@ class Program {
       const auto& [a, b, d] = kSideCorners[c];
       const auto to = [&](unsigned j) { return static_cast<float>(e.laplacian[kEdgeOfCorners[c][j]]); };
       result.insert({static_cast<float>(v[a].value), static_cast<float>(v[b].value), static_cast<float>(v[d].value),
-                     static_cast<float>(e.bulk), static_cast<float>(e.pressure), 0, to(a), to(b), to(d)});
+                     static_cast<float>(e.bulk), static_cast<float>(e.give > 0 ? e.pressure : -e.pressure), 0, to(a),
+                     to(b), to(d)});
     });
     return result;
   }

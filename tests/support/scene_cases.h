@@ -68,7 +68,7 @@ inline Json full_scene() {
   scene["frame_seconds"] = 0.02;
   scene["settle"] = {{"frames", 5}, {"speed", 1e-3}};
   scene["seed"] = 12345678901234567890U;
-  scene["solver"] = {{"relaxation", "position-based"}, {"substeps", 3}, {"iterations", 2}};
+  scene["solver"] = {{"relaxation", "position-based"}, {"substeps", 3}, {"iterations", 2}, {"average_volumes", true}};
   scene["cut"] = {{"snap", 0.1}, {"profile", "incise"}};
   scene["maintain"] = {{"merge", true}, {"improve", true}, {"work_units", 5000}};
   scene["contact"] = {{"stiffness", 100}, {"flat_height", 0.1}, {"self", true}, {"friction", 0.2}};

@@ -235,10 +235,11 @@ class SceneOptionsReader : public SceneBodyReader {
     std::string name = "block-descent";
     std::uint64_t substeps = body.substeps;
     std::uint64_t iterations = body.iterations;
-    if (!read_.is_object(*value, "solver", {"relaxation", "substeps", "iterations"}) ||
+    if (!read_.is_object(*value, "solver", {"relaxation", "substeps", "iterations", "average_volumes"}) ||
         !read_.optional_text(*value, "solver", "relaxation", name) ||
         !read_.optional_whole(*value, "solver", "substeps", 1, 1000, substeps) ||
-        !read_.optional_whole(*value, "solver", "iterations", 1, 1000, iterations)) {
+        !read_.optional_whole(*value, "solver", "iterations", 1, 1000, iterations) ||
+        !read_.optional_boolean(*value, "solver", "average_volumes", body.average_volumes)) {
       return false;
     }
     body.substeps = static_cast<unsigned>(substeps);

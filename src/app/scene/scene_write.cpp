@@ -166,7 +166,8 @@ void add_options(const SimulationOptions& options, Json& root) {
   root["frame_seconds"] = options.frame_seconds;
   root["solver"] = {{"relaxation", is_descent ? "block-descent" : "position-based"},
                     {"substeps", options.body.substeps},
-                    {"iterations", options.body.iterations}};
+                    {"iterations", options.body.iterations},
+                    {"average_volumes", options.body.average_volumes}};
   root["cut"] = {{"snap", options.engine.cut.snap},
                  {"profile", options.engine.cut.profile == Profile::kPaper ? "paper" : "incise"}};
   root["maintain"] = {{"merge", maintain.merge},

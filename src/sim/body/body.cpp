@@ -184,6 +184,7 @@ Vec3 DeformableBody::force_on_holds() const {
       while (s.tets[t][corner] != v) ++corner;
       force -= detail::slope_of(s.element(t), s.corners(t), corner);
     });
+    if (s.nodal.is_on) force -= s.pressure_slope(v);
   }
   return s.unit() * force;
 }
@@ -264,6 +265,7 @@ BodyEnergy DeformableBody::energy() const {
       energy.elastic += to_joule * detail::energy_of(s.element(TetId(t)), s.corners(TetId(t)));
     }
   }
+  if (s.nodal.is_on) energy.elastic += to_joule * s.pressure_energy();
   for (std::uint32_t slot = 0; slot < s.places.size(); ++slot) {
     const VertexId v(slot);
     if (!s.is_live(v)) continue;
@@ -293,6 +295,7 @@ Mat3 DeformableBody::local_stiffness(VertexId vertex) const {
       if (j != corner) stiffness.diagonal().array() -= element.laplacian[kEdgeOfCorners[corner][j]];
     }
   });
+  if (s.nodal.is_on) stiffness += s.pressure_stiffness(vertex);
   return stiffness;  // kg/s², whatever the length unit
 }
 

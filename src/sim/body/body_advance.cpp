@@ -25,6 +25,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   s.find_groups();
   s.prepare_pulls();
   s.order.refresh();
+  s.list_pressed();
   AdvanceReport report;
   report.active_vertices = s.order.awake_count();
   s.for_each_awake([&](std::uint32_t v) { s.travelled[VertexId(v)] = 0; });
@@ -54,8 +55,17 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
 }
 
 detail::Descent DeformableBody::State::descent() {
-  return {floats.data(), stars.blocks(),         stars.all(),   motions.data(), terms.data(),
-          uses.data(),   contact.terms().data(), contact.uses()};
+  detail::Descent d{floats.data(), stars.blocks(),         stars.all(),   motions.data(), terms.data(),
+                    uses.data(),   contact.terms().data(), contact.uses()};
+  if (nodal.is_on) {
+    d.pressures = nodal.pressures();
+    d.node_stiffnesses = nodal.stiffnesses();
+    d.rest_volumes = nodal.rest_volumes();
+    d.neighbours = nodal.neighbours().lists();
+    d.neighbour_slots = nodal.neighbours().slots();
+    d.rings = nodal.neighbours().rings();
+  }
+  return d;
 }
 
 void DeformableBody::State::round_place(VertexId v) {
@@ -198,6 +208,20 @@ void DeformableBody::State::list_uses() {
 /// Of the reach of a visit, so 0.005 of the local edge: a tenth of the thickness that the thinnest tets are taken for.
 static constexpr double kSafeLeap = 0.02;
 
+/// Visits read the pressures of what they move and of what is around it.
+void DeformableBody::State::list_pressed() {
+  if (nodal.is_on) nodal.gather([&](const auto& take) { for_each_awake(take); }, pressed);
+}
+
+/// As places are now. To be called whenever anything but a visit moved them, before the next visit.
+void DeformableBody::State::find_pressures() {
+  if (!nodal.is_on) return;
+  const detail::Descent d = descent();
+  const std::span<const std::uint32_t> all(pressed);
+  const std::size_t half = all.size() / 2;
+  pair.run([&] { detail::find_pressures(d, all.first(half)); }, [&] { detail::find_pressures(d, all.subspan(half)); });
+}
+
 /// Everything starts where its velocity takes it.
 void DeformableBody::State::begin_substep(double h) {
   const double kept = 1 / (1 + options.damping * h);
@@ -230,6 +254,7 @@ void DeformableBody::State::descend(double h) {
     detail::project(*this, h);
     return;
   }
+  find_pressures();
   visit([&](std::span<const std::uint32_t> part) { detail::pick_starts(d, part); });
   if (options.coarse) lattice.correct(*this);
   for (unsigned i = 0; i < options.iterations; ++i) {
@@ -240,6 +265,9 @@ void DeformableBody::State::descend(double h) {
 /// The slopes of the energy in all awake vertices, 4 numbers per vertex slot.
 void DeformableBody::State::find_slopes(float* slopes) {
   const detail::Descent d = descent();
+  if (nodal.is_on) {
+    for (const std::uint32_t v : pressed) floats[std::size_t{4} * v + 3] = d.pressures[v];
+  }
   const auto find = [&](Part part) { detail::find_slopes(d, order.awake(part), slopes); };
   pair.run([&] { find(Part::kFirst); }, [&] { find(Part::kSecond); });
   find(Part::kSeam);
@@ -281,6 +309,14 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
   };
   for (const std::uint32_t slot : vertices) before.push_back(place_of(slot));
   const detail::Descent d = descent();
+  if (nodal.is_on) {
+    nodal.gather(
+        [&](const auto& take) {
+          for (const std::uint32_t v : vertices) take(v);
+        },
+        pressed);
+    find_pressures();
+  }
   for (unsigned i = 0; i < sweeps; ++i) detail::sweep(d, vertices, i % 2 == 1);
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const std::array<float, 3> after = place_of(vertices[k]);

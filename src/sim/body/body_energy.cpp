@@ -99,9 +99,17 @@ detail::EnergyNow DeformableBody::State::energy_now() {
     now.motion += 0.5 * relative.squaredNorm() / m;
   });
   const detail::Descent d = descent();
+  find_pressures();
   double elastic = detail::energy_share(d, resting);
   for (std::size_t part = 0; part < detail::SweepOrder::kParts; ++part) {
     elastic += detail::energy_share(d, order.awake(static_cast<detail::SweepOrder::Part>(part)));
+  }
+  if (nodal.is_on) {
+    for (const std::uint32_t v : pressed) {
+      const double k = nodal.stiffness(VertexId(v));
+      const auto pressure = static_cast<double>(d.pressures[v]);
+      if (k > 0) elastic += 0.5 * pressure * pressure / k;
+    }
   }
   now.total += elastic;
   now.noise = kNoise * std::abs(elastic);

@@ -10,6 +10,7 @@
 #include "incise/mesh/journal_cursor.h"
 #include "incise/sim/body.h"
 #include "sim/body/coarse_lattice.h"
+#include "sim/body/nodal_volumes.h"
 #include "sim/body/self_contact.h"
 #include "sim/body/star_kernel.h"
 #include "sim/body/stars.h"
@@ -116,7 +117,9 @@ struct DeformableBody::State {
   // the descent
   detail::Stars stars;
   detail::SweepOrder order;
-  GrowArray<float> floats;  // places against the middle, 4 per vertex
+  detail::NodalVolumes nodal;
+  std::vector<std::uint32_t> pressed;  // awake vertices and their neighbours, of this `advance`
+  GrowArray<float> floats;             // places against the middle, and pressures, 4 per vertex
   IdArray<VertexId, detail::Motion> motions;
   std::vector<detail::PullTerm> terms;
   std::vector<detail::PullUse> uses;
@@ -180,6 +183,7 @@ struct DeformableBody::State {
 
   // building and following (body_follow.cpp)
   void build(const TetMesh& mesh);
+  [[nodiscard]] bool is_to_average() const;
   void ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots);
   void lay_out_stars();
   void note_tet(TetId t);
@@ -199,6 +203,14 @@ struct DeformableBody::State {
   void drop_lost_pulls(const TetMesh& mesh);
   [[nodiscard]] bool differs(const TetMesh& mesh, TetId t) const;
 
+  // averaged volumes, in double precision (body_pressure.cpp)
+  template <class Visit>
+  void for_each_volume_around(VertexId v, const Visit& visit) const;
+  [[nodiscard]] double pressure_at(VertexId v) const;
+  [[nodiscard]] Vec3 pressure_slope(VertexId v) const;
+  [[nodiscard]] Mat3 pressure_stiffness(VertexId v) const;
+  [[nodiscard]] double pressure_energy() const;
+
   // moving on (body_advance.cpp)
   template <class Visit>
   void for_each_awake(Visit&& visit) const {
@@ -212,6 +224,8 @@ struct DeformableBody::State {
   [[nodiscard]] bool is_as_before(const Pull& a, const Pull& b) const;
   void wake_where_pulls_differ(const std::vector<Pull>& next);
   void list_uses();
+  void list_pressed();
+  void find_pressures();
   void begin_substep(double h);
   void descend(double h);
   void find_slopes(float* slopes);

@@ -372,6 +372,7 @@ void CoarseLattice::go(DeformableBody::State& state, double share) {
     float* x = state.floats.data() + std::size_t{4} * v;
     for (unsigned k = 0; k < 3; ++k) x[k] = before_[v][k] + scale * steps_[v][k];
   });
+  state.find_pressures();
 }
 
 void CoarseLattice::correct(DeformableBody::State& state) {

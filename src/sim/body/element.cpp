@@ -21,7 +21,8 @@ double softening(const std::array<Vec3, 4>& p, const std::array<Vec3, 4>& slope,
 
 }  // namespace
 
-Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest, double crumb) {
+Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest, double crumb,
+                  double shared) {
   std::array<Vec3, 4> slope;
   for (unsigned i = 0; i < 4; ++i) slope[i] = volume_slope(p, i);
   const double volume6 = six_volumes(p);
@@ -34,11 +35,13 @@ Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double
   if (volume6 < crumb) return element;
   element.bulk = scale * lambda / (6 * volume6);
   element.pressure = scale * (lambda + mu) / 6;
+  if (shared > 0) element.give = volume6 / (scale * shared);
   return element;
 }
 
-Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest, double crumb) {
-  Element element = slopes_of(p, lambda, mu, thinnest, crumb);
+Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest, double crumb,
+                   double shared) {
+  Element element = slopes_of(p, lambda, mu, thinnest, crumb, shared);
   element.offset = energy_of(element, p);
   return element;
 }

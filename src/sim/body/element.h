@@ -20,18 +20,20 @@ struct Element {
   std::array<double, 6> laplacian{};  ///< by edge: μ V ∇φi·∇φj
   double bulk = 0;                    ///< λ / (36 V), by the square of six volumes
   double pressure = 0;                ///< (λ + μ) / 6
+  double give = 0;                    ///< six volumes by the stiffness that its vertices share: 0: they share none
   double offset = 0;                  ///< what the energy below is at rest
 };
 
 /// The element of a tet with rest positions `p`, positive; `lambda` and `mu` in the units of energy per cubed length.
 /// A tet thinner than `thinnest` of its longest edge is as soft as a layer that thick would be: slivers would hold the
-/// descent up for hundreds of sweeps otherwise. One of less than `crumb` six volumes only resists stretch, and shrinks
-/// where nothing else holds it: what it swells by as its corners move would hold or throw all around it.
+/// descent up for hundreds of sweeps otherwise. `shared`: what its vertices resist with as one (`NodalVolumes`),
+/// besides `lambda`. One of less than `crumb` six volumes only resists stretch, and shrinks where nothing else holds
+/// it: what it swells by as its corners move would hold or throw all around it.
 [[nodiscard]] Element element_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest,
-                                 double crumb = 0);
+                                 double crumb = 0, double shared = 0);
 /// The same, without its offset.
 [[nodiscard]] Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest,
-                                double crumb = 0);
+                                double crumb = 0, double shared = 0);
 
 /// Six volumes of a tet, positive where it is not turned inside out.
 inline double six_volumes(const std::array<Vec3, 4>& p) {

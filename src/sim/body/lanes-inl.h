@@ -37,7 +37,7 @@ using Four = hn::FixedTag<float, 4>;
 using FourV = hn::Vec<Four>;
 
 /// Rows of points, x y z and a fourth number each, to columns.
-HWY_INLINE void columns(FourV r0, FourV r1, FourV r2, FourV r3, FourV& x, FourV& y, FourV& z) {
+HWY_INLINE void columns(FourV r0, FourV r1, FourV r2, FourV r3, FourV& x, FourV& y, FourV& z, FourV& w) {
   const Four d;
   const hn::Repartition<double, Four> d64;
   const auto xy01 = hn::BitCast(d64, hn::InterleaveLower(r0, r1)), xy23 = hn::BitCast(d64, hn::InterleaveLower(r2, r3));
@@ -46,6 +46,7 @@ HWY_INLINE void columns(FourV r0, FourV r1, FourV r2, FourV r3, FourV& x, FourV&
   x = hn::BitCast(d, hn::InterleaveLower(xy01, xy23));
   y = hn::BitCast(d, hn::InterleaveUpper(d64, xy01, xy23));
   z = hn::BitCast(d, hn::InterleaveLower(zw01, zw23));
+  w = hn::BitCast(d, hn::InterleaveUpper(d64, zw01, zw23));
 }
 
 /// a0+a1 of four lanes in the order (0+2)+(1+3), for four vectors at once.
@@ -57,6 +58,40 @@ HWY_INLINE FourV sums(FourV a, FourV b, FourV c, FourV e) {
   return hn::Add(hn::BitCast(d, hn::InterleaveLower(ab, ce)), hn::BitCast(d, hn::InterleaveUpper(d64, ab, ce)));
 }
 
+/// Four floats of one vertex.
+struct Row {
+  FourV v;
+};
+HWY_INLINE Row load_row(const float* p) {
+  return {hn::LoadU(Four(), p)};
+}
+HWY_INLINE void store_row(Row r, float* p) {
+  hn::StoreU(r.v, Four(), p);
+}
+HWY_INLINE Row row_of(float x) {
+  return {hn::Set(Four(), x)};
+}
+HWY_INLINE Row operator+(Row a, Row b) {
+  return {hn::Add(a.v, b.v)};
+}
+HWY_INLINE Row operator*(Row a, Row b) {
+  return {hn::Mul(a.v, b.v)};
+}
+/// Columns to rows, with 0 as their fourth numbers.
+HWY_INLINE void store_rows(FourV x, FourV y, FourV z, float* out) {
+  const Four d;
+  const hn::Repartition<double, Four> d64;
+  const auto zero = hn::Zero(d);
+  const auto xy_low = hn::BitCast(d64, hn::InterleaveLower(x, y));
+  const auto xy_high = hn::BitCast(d64, hn::InterleaveUpper(d, x, y));
+  const auto z_low = hn::BitCast(d64, hn::InterleaveLower(z, zero));
+  const auto z_high = hn::BitCast(d64, hn::InterleaveUpper(d, z, zero));
+  hn::StoreU(hn::BitCast(d, hn::InterleaveLower(xy_low, z_low)), d, out);
+  hn::StoreU(hn::BitCast(d, hn::InterleaveUpper(d64, xy_low, z_low)), d, out + 4);
+  hn::StoreU(hn::BitCast(d, hn::InterleaveLower(xy_high, z_high)), d, out + 8);
+  hn::StoreU(hn::BitCast(d, hn::InterleaveUpper(d64, xy_high, z_high)), d, out + 12);
+}
+
 #if HWY_MAX_BYTES >= 32
 
 using Eight = hn::FixedTag<float, 8>;
@@ -65,6 +100,9 @@ struct Lanes {
 };
 HWY_INLINE Lanes load(const float* p) {
   return {hn::LoadU(Eight(), p)};
+}
+HWY_INLINE void store(Lanes a, float* p) {
+  hn::StoreU(a.v, Eight(), p);
 }
 HWY_INLINE Lanes all(float x) {
   return {hn::Set(Eight(), x)};
@@ -79,13 +117,26 @@ HWY_INLINE Lanes operator*(Lanes a, Lanes b) {
   return {hn::Mul(a.v, b.v)};
 }
 
+HWY_INLINE Lanes absolute(Lanes a) {
+  return {hn::Abs(a.v)};
+}
+/// `value` where `sign` is above 0, 0 elsewhere.
+HWY_INLINE Lanes where_positive(Lanes sign, Lanes value) {
+  return {hn::IfThenElseZero(hn::Gt(sign.v, hn::Zero(Eight())), value.v)};
+}
+HWY_INLINE void store_rows(Lanes x, Lanes y, Lanes z, float* out) {
+  const Four d4;
+  store_rows(hn::LowerHalf(d4, x.v), hn::LowerHalf(d4, y.v), hn::LowerHalf(d4, z.v), out);
+  store_rows(hn::UpperHalf(d4, x.v), hn::UpperHalf(d4, y.v), hn::UpperHalf(d4, z.v), out + 16);
+}
+
 HWY_INLINE hn::Vec<Eight> two_points(const float* places, std::uint32_t low, std::uint32_t high) {
   const Four d4;
   return hn::Combine(Eight(), hn::LoadU(d4, places + std::size_t{4} * high),
                      hn::LoadU(d4, places + std::size_t{4} * low));
 }
-/// The places of eight vertices.
-HWY_INLINE void load_points(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
+/// The places of eight vertices, and their fourth numbers.
+HWY_INLINE void load_rows(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
   const Eight d;
   const hn::Repartition<double, Eight> d64;
   const auto r0 = two_points(places, i[0], i[4]), r1 = two_points(places, i[1], i[5]);
@@ -96,6 +147,11 @@ HWY_INLINE void load_points(const float* places, const std::uint32_t* i, Lanes& 
   x.v = hn::BitCast(d, hn::InterleaveLower(xy01, xy23));
   y.v = hn::BitCast(d, hn::InterleaveUpper(d64, xy01, xy23));
   z.v = hn::BitCast(d, hn::InterleaveLower(zw01, zw23));
+  w.v = hn::BitCast(d, hn::InterleaveUpper(d64, zw01, zw23));
+}
+HWY_INLINE void load_points(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
+  Lanes unused;
+  load_rows(places, i, x, y, z, unused);
 }
 /// Lanes 0 to 3 plus lanes 4 to 7.
 HWY_INLINE FourV halves(Lanes a) {
@@ -110,6 +166,10 @@ struct Lanes {
 HWY_INLINE Lanes load(const float* p) {
   return {hn::LoadU(Four(), p), hn::LoadU(Four(), p + 4)};
 }
+HWY_INLINE void store(Lanes a, float* p) {
+  hn::StoreU(a.low, Four(), p);
+  hn::StoreU(a.high, Four(), p + 4);
+}
 HWY_INLINE Lanes all(float x) {
   return {hn::Set(Four(), x), hn::Set(Four(), x)};
 }
@@ -123,12 +183,29 @@ HWY_INLINE Lanes operator*(Lanes a, Lanes b) {
   return {hn::Mul(a.low, b.low), hn::Mul(a.high, b.high)};
 }
 
+HWY_INLINE Lanes absolute(Lanes a) {
+  return {hn::Abs(a.low), hn::Abs(a.high)};
+}
+HWY_INLINE Lanes where_positive(Lanes sign, Lanes value) {
+  const auto zero = hn::Zero(Four());
+  return {hn::IfThenElseZero(hn::Gt(sign.low, zero), value.low),
+          hn::IfThenElseZero(hn::Gt(sign.high, zero), value.high)};
+}
+HWY_INLINE void store_rows(Lanes x, Lanes y, Lanes z, float* out) {
+  store_rows(x.low, y.low, z.low, out);
+  store_rows(x.high, y.high, z.high, out + 16);
+}
+
 HWY_INLINE FourV point(const float* places, std::uint32_t i) {
   return hn::LoadU(Four(), places + std::size_t{4} * i);
 }
-HWY_INLINE void load_points(const float* p, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
-  columns(point(p, i[0]), point(p, i[1]), point(p, i[2]), point(p, i[3]), x.low, y.low, z.low);
-  columns(point(p, i[4]), point(p, i[5]), point(p, i[6]), point(p, i[7]), x.high, y.high, z.high);
+HWY_INLINE void load_rows(const float* p, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
+  columns(point(p, i[0]), point(p, i[1]), point(p, i[2]), point(p, i[3]), x.low, y.low, z.low, w.low);
+  columns(point(p, i[4]), point(p, i[5]), point(p, i[6]), point(p, i[7]), x.high, y.high, z.high, w.high);
+}
+HWY_INLINE void load_points(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
+  Lanes unused;
+  load_rows(places, i, x, y, z, unused);
 }
 HWY_INLINE FourV halves(Lanes a) {
   return hn::Add(a.low, a.high);
@@ -155,6 +232,9 @@ inline Lanes each(const Each& value) {
 inline Lanes load(const float* p) {
   return each([&](unsigned i) { return p[i]; });
 }
+inline void store(const Lanes& a, float* p) {
+  for (unsigned i = 0; i < 8; ++i) p[i] = a.v[i];
+}
 inline Lanes all(float x) {
   return each([&](unsigned /*i*/) { return x; });
 }
@@ -167,13 +247,50 @@ inline Lanes operator-(const Lanes& a, const Lanes& b) {
 inline Lanes operator*(const Lanes& a, const Lanes& b) {
   return each([&](unsigned i) { return a.v[i] * b.v[i]; });
 }
-inline void load_points(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
+inline Lanes absolute(const Lanes& a) {
+  return each([&](unsigned i) { return a.v[i] < 0 ? -a.v[i] : a.v[i]; });
+}
+inline Lanes where_positive(const Lanes& sign, const Lanes& value) {
+  return each([&](unsigned i) { return sign.v[i] > 0 ? value.v[i] : 0.0F; });
+}
+inline void store_rows(const Lanes& x, const Lanes& y, const Lanes& z, float* out) {
+  for (unsigned i = 0; i < 8; ++i, out += 4) {
+    out[0] = x.v[i];
+    out[1] = y.v[i];
+    out[2] = z.v[i];
+    out[3] = 0;
+  }
+}
+struct Row {
+  float v[4];
+};
+inline Row load_row(const float* p) {
+  return {{p[0], p[1], p[2], p[3]}};
+}
+inline void store_row(const Row& r, float* p) {
+  for (unsigned i = 0; i < 4; ++i) p[i] = r.v[i];
+}
+inline Row row_of(float x) {
+  return {{x, x, x, x}};
+}
+inline Row operator+(const Row& a, const Row& b) {
+  return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}};
+}
+inline Row operator*(const Row& a, const Row& b) {
+  return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}};
+}
+inline void load_rows(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
   for (unsigned k = 0; k < 8; ++k) {
     const float* p = places + std::size_t{4} * i[k];
     x.v[k] = p[0];
     y.v[k] = p[1];
     z.v[k] = p[2];
+    w.v[k] = p[3];
   }
+}
+inline void load_points(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
+  Lanes unused;
+  load_rows(places, i, x, y, z, unused);
 }
 inline float sum_of(const Lanes& a) {
   const float* v = a.v;

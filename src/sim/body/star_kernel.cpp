@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #if INCISE_WITH_HIGHWAY
 // 8 lanes are all that a star fills: wider sets would only compile longer.
@@ -24,6 +25,20 @@ namespace INCISE_LANES_NAMESPACE {
 
 constexpr std::size_t kFetchAhead = 2;  // vertices
 
+/// What a visit wants of a star: the slope of the energy; its curvature, too; or both where volumes are averaged.
+enum class Wanted { kSlope, kSlopeAveraged, kBoth, kBothAveraged };
+
+constexpr bool with_curvature(Wanted wanted) {
+  return wanted == Wanted::kBoth || wanted == Wanted::kBothAveraged;
+}
+
+/// How six volumes change with a vertex: first those of its tets, row by row; then of its neighbours and of itself, by
+/// rows and by columns, with their stiffnesses and pressures. What no neighbour fills is 0.
+struct Around {
+  float *normals, *rows, *x, *y, *z, *stiffness, *pressure;
+};
+constexpr std::uint32_t kRows[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
+
 /// Slope and curvature of a star, summed lane by lane.
 struct StarSum {
   Lanes gx, gy, gz, xx, xy, xz, yy, yz, zz;
@@ -32,12 +47,22 @@ struct StarSum {
   inline explicit StarSum(const Lanes& zero)
       : gx(zero), gy(zero), gz(zero), xx(zero), xy(zero), xz(zero), yy(zero), yz(zero), zz(zero) {}
 
-  template <bool kWithCurvature>
-  inline void add(const StarBlock& block, const float* places, const Lanes& x, const Lanes& y, const Lanes& z) {
+  template <Wanted kWanted>
+  [[gnu::always_inline]] inline void add(const StarBlock& block, const Descent& d, const Lanes& x, const Lanes& y,
+                                         const Lanes& z, float own_pressure, float* normals) {
     Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
-    load_points(places, block.a.data(), ax, ay, az);
-    load_points(places, block.b.data(), bx, by, bz);
-    load_points(places, block.c.data(), cx, cy, cz);
+    Lanes of_nodes = all(own_pressure);
+    if constexpr (kWanted == Wanted::kSlopeAveraged) {
+      Lanes pa, pb, pc;
+      load_rows(d.places, block.a.data(), ax, ay, az, pa);
+      load_rows(d.places, block.b.data(), bx, by, bz, pb);
+      load_rows(d.places, block.c.data(), cx, cy, cz, pc);
+      of_nodes = (pa + pb) + (pc + of_nodes);
+    } else {
+      load_points(d.places, block.a.data(), ax, ay, az);
+      load_points(d.places, block.b.data(), bx, by, bz);
+      load_points(d.places, block.c.data(), cx, cy, cz);
+    }
     ax = ax - x, ay = ay - y, az = az - z;
     bx = bx - x, by = by - y, bz = bz - z;
     cx = cx - x, cy = cy - y, cz = cz - z;
@@ -45,31 +70,101 @@ struct StarSum {
     // The slope of six volumes in the vertex, and the volumes themselves.
     const Lanes nx = uz * wy - uy * wz, ny = ux * wz - uz * wx, nz = uy * wx - ux * wy;
     const Lanes volume6 = all(0) - (nx * ax + ny * ay + nz * az);
-    const Lanes bulk = load(block.bulk.data());
-    const Lanes swell = bulk * volume6 - load(block.pressure.data());
+    const Lanes bulk = load(block.bulk.data()), pressure = load(block.pressure.data());
+    Lanes swell = bulk * volume6 - absolute(pressure);
+    if constexpr (kWanted == Wanted::kSlopeAveraged) swell = swell + where_positive(pressure, of_nodes);
     const Lanes to_a = load(block.to_a.data()), to_b = load(block.to_b.data()), to_c = load(block.to_c.data());
     gx = gx + (swell * nx + (to_a * ax + (to_b * bx + to_c * cx)));
     gy = gy + (swell * ny + (to_a * ay + (to_b * by + to_c * cy)));
     gz = gz + (swell * nz + (to_a * az + (to_b * bz + to_c * cz)));
-    if constexpr (!kWithCurvature) return;
+    if constexpr (!with_curvature(kWanted)) return;
     const Lanes kx = bulk * nx, ky = bulk * ny, kz = bulk * nz;
     xx = xx + kx * nx, xy = xy + kx * ny, xz = xz + kx * nz;
     yy = yy + ky * ny, yz = yz + ky * nz, zz = zz + kz * nz;
+    if constexpr (kWanted == Wanted::kBothAveraged) store_rows(nx, ny, nz, normals);
+  }
+
+  /// What the volumes around the vertex add.
+  inline void add_around(const Around& around, unsigned begin) {
+    Lanes x, y, z;
+    load_points(around.rows + std::size_t{4} * begin, kRows, x, y, z);
+    store(x, around.x + begin);
+    store(y, around.y + begin);
+    store(z, around.z + begin);
+    const Lanes pressure = load(around.pressure + begin), stiffness = load(around.stiffness + begin);
+    gx = gx + pressure * x, gy = gy + pressure * y, gz = gz + pressure * z;
+    const Lanes kx = stiffness * x, ky = stiffness * y, kz = stiffness * z;
+    xx = xx + kx * x, xy = xy + kx * y, xz = xz + kx * z;
+    yy = yy + ky * y, yz = yz + ky * z, zz = zz + kz * z;
   }
 };
 
+/// Sums what the tets between a vertex and each neighbour do. Each tet has three other corners: its share in the
+/// vertex' own volume is a third of all.
+inline void find_around(const Descent& d, std::uint32_t vertex, const Around& around) {
+  const NeighbourList& list = d.neighbours[vertex];
+  const std::uint32_t* slots = d.neighbour_slots + list.first;
+  const std::uint16_t* ends = d.rings + list.first_ring;
+  const std::uint16_t* ring = ends + list.count;
+  for (unsigned i = 0; i <= list.count; ++i) {  // first: a machine waits where it reads at once what it wrote in parts
+    around.stiffness[i] = d.node_stiffnesses[slots[i]];
+    around.pressure[i] = d.pressures[slots[i]];
+  }
+  Row own = row_of(0);
+  const std::uint16_t* lane = ring;
+  const float* normals = around.normals;
+  for (unsigned i = 0; i < list.count; ++i) {
+    Row change = row_of(0), odd = row_of(0);
+    const std::uint16_t* end = ring + ends[i];
+    for (; lane + 1 < end; lane += 2) {
+      change = change + load_row(normals + lane[0]);
+      odd = odd + load_row(normals + lane[1]);
+    }
+    if (lane < end) change = change + load_row(normals + *lane++);
+    change = change + odd;
+    own = own + change;
+    store_row(change, around.rows + std::size_t{4} * i);
+  }
+  store_row(own * row_of(1.0F / 3), around.rows + std::size_t{4} * list.count);
+  for (unsigned i = list.count + 1U; i % kLanes != 0; ++i) {
+    around.stiffness[i] = around.pressure[i] = 0;
+    store_row(row_of(0), around.rows + std::size_t{4} * i);
+  }
+}
+
+/// Brings the pressures around a vertex up to date that has moved.
+inline void settle_pressures(const Descent& d, std::uint32_t vertex, const Around& around, const float* moved) {
+  const NeighbourList& list = d.neighbours[vertex];
+  const std::uint32_t* slots = d.neighbour_slots + list.first;
+  const Lanes x = all(moved[0]), y = all(moved[1]), z = all(moved[2]);
+  for (unsigned begin = 0; begin <= list.count; begin += kLanes) {
+    const Lanes way = (load(around.x + begin) * x + load(around.y + begin) * y) + load(around.z + begin) * z;
+    store(load(around.pressure + begin) + load(around.stiffness + begin) * way, around.pressure + begin);
+  }
+  for (unsigned i = 0; i <= list.count; ++i) d.pressures[slots[i]] = around.pressure[i];
+}
+
 /// Inlined wherever it is called: the sweep is too slow with a call for each vertex.
-template <bool kWithCurvature>
-[[gnu::always_inline]] inline Quadratic star_quadratic(const Descent& d, const Star& star, const float* place) {
+template <Wanted kWanted>
+[[gnu::always_inline]] inline Quadratic star_quadratic(const Descent& d, std::uint32_t vertex, const Around& around) {
+  const Star& star = d.stars[vertex];
+  const float* place = d.places + std::size_t{4} * vertex;
   const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
   StarSum sum(all(0));
   const StarBlock* block = d.blocks + star.first;
-  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block)
-    sum.template add<kWithCurvature>(*block, d.places, x, y, z);
+  float* normals = around.normals;
+  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) {
+    sum.template add<kWanted>(*block, d, x, y, z, place[3], normals);
+    if constexpr (kWanted == Wanted::kBothAveraged) normals += std::size_t{4} * kLanes;
+  }
+  if constexpr (kWanted == Wanted::kBothAveraged) {
+    find_around(d, vertex, around);
+    for (unsigned begin = 0; begin <= d.neighbours[vertex].count; begin += kLanes) sum.add_around(around, begin);
+  }
   float s[12];
   sum_lanes(sum.gx, sum.gy, sum.gz, sum.xx, s);
   const auto wide = [&](unsigned i) { return static_cast<double>(s[i]); };
-  if constexpr (!kWithCurvature) return {{wide(0), wide(1), wide(2)}, {}};
+  if constexpr (!with_curvature(kWanted)) return {{wide(0), wide(1), wide(2)}, {}};
   sum_lanes(sum.xy, sum.xz, sum.yy, sum.yz, s + 4);
   sum_lanes(sum.zz, sum.zz, sum.zz, sum.zz, s + 8);
   return {{wide(0), wide(1), wide(2)}, {wide(3), wide(4), wide(5), wide(6), wide(7), wide(8)}};
@@ -86,11 +181,12 @@ inline void add_inertia(const Motion& motion, const float* x, Quadratic& q) {
   q.curvature[5] += stiffness;
 }
 
-template <bool kWithCurvature = true>
-[[gnu::always_inline]] inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex) {
+template <Wanted kWanted>
+[[gnu::always_inline]] inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex,
+                                                        const Around& around = {}) {
   const Motion& motion = d.motions[vertex];
   const float* x = d.places + std::size_t{4} * vertex;
-  Quadratic q = star_quadratic<kWithCurvature>(d, d.stars[vertex], x);
+  Quadratic q = star_quadratic<kWanted>(d, vertex, around);
   add_inertia(motion, x, q);
   if (motion.pulls > 0) add_pulls(d, motion, q);
   if (motion.contacts > 0) add_contacts(d, motion, q);
@@ -113,9 +209,9 @@ inline bool least_of(const Quadratic& q, std::array<double, 3>& step) {
 }
 
 /// Writes a place at once: the next vertex reads it at once, and a machine cannot hand on what was stored in parts.
-inline void put(float x, float y, float z, float* place) {
-  using Row = float __attribute__((vector_size(16)));
-  const Row row = {x, y, z, 0};
+inline void put(float x, float y, float z, float pressure, float* place) {
+  using Four = float __attribute__((vector_size(16)));
+  const Four row = {x, y, z, pressure};
   std::memcpy(place, &row, sizeof row);
 }
 
@@ -126,7 +222,7 @@ inline void descend(const Quadratic& q, double reach, float* x) {
   const double length2 = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
   const double scale = length2 > reach * reach ? reach / std::sqrt(length2) : 1.0;
   const auto moved = [&](unsigned i) { return static_cast<float>(static_cast<double>(x[i]) + scale * step[i]); };
-  put(moved(0), moved(1), moved(2), x);
+  put(moved(0), moved(1), moved(2), x[3], x);
 }
 
 /// The quadratic's value at the start of the substep, against that where the vertex is.
@@ -147,31 +243,141 @@ inline void fetch(const Descent& d, std::uint32_t vertex) {
   for (; line < end; line += 64) __builtin_prefetch(line);
 }
 
-void sweep_all(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
+/// Hands the quadratic to `move`, which may move the vertex; pressures are kept up with it.
+template <class Move>
+[[gnu::always_inline]] inline void visit_averaged(const Descent& d, std::uint32_t v, const Around& around,
+                                                  const Move& move) {
+  float* x = d.places + std::size_t{4} * v;
+  const Quadratic q = whole_quadratic<Wanted::kBothAveraged>(d, v, around);
+  const float before[3] = {x[0], x[1], x[2]};
+  move(q, x);
+  const float moved[3] = {x[0] - before[0], x[1] - before[1], x[2] - before[2]};
+  settle_pressures(d, v, around, moved);
+}
+
+constexpr std::uint32_t kMostBlocks = 24;  // of stars whose scratch is not allocated
+constexpr std::size_t columns_of(std::uint32_t neighbours) {
+  return (neighbours / kLanes + 1) * kLanes;
+}
+constexpr std::size_t kMostColumns = columns_of(std::uint32_t{kMostBlocks} * kLanes / 2);
+
+inline Around lay_out(float* normals, float* columns, std::size_t count) {
+  return {normals,
+          columns,
+          columns + 4 * count,
+          columns + 5 * count,
+          columns + 6 * count,
+          columns + 7 * count,
+          columns + 8 * count};
+}
+
+template <class Move>
+void visit_large(const Descent& d, std::uint32_t v, const Move& move) {
+  const std::size_t count = columns_of(d.neighbours[v].count);
+  std::vector<float> normals(std::size_t{4} * kLanes * d.stars[v].used_blocks()), columns(9 * count);
+  visit_averaged(d, v, lay_out(normals.data(), columns.data(), count), move);
+}
+
+template <bool kAveraged, class Move>
+[[gnu::always_inline]] inline void visit(const Descent& d, std::uint32_t v, const Move& move) {
+  if constexpr (kAveraged) {
+    if (d.stars[v].used_blocks() > kMostBlocks || d.neighbours[v].count >= kMostColumns) {
+      visit_large(d, v, move);
+      return;
+    }
+    alignas(32) float normals[std::size_t{4} * kLanes * kMostBlocks];
+    alignas(32) float columns[9 * kMostColumns];
+    visit_averaged(d, v, lay_out(normals, columns, kMostColumns), move);
+  } else {
+    move(whole_quadratic<Wanted::kBoth>(d, v), d.places + std::size_t{4} * v);
+  }
+}
+
+template <bool kAveraged>
+inline void sweep_each(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
   const std::size_t count = order.size();
   const auto at = [&](std::size_t i) { return order[is_backward ? count - 1 - i : i]; };
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = at(i);
     if (i + kFetchAhead < count) fetch(d, at(i + kFetchAhead));
-    descend(whole_quadratic(d, v), static_cast<double>(d.motions[v].reach), d.places + std::size_t{4} * v);
+    visit<kAveraged>(d, v,
+                     [&](const Quadratic& q, float* x) { descend(q, static_cast<double>(d.motions[v].reach), x); });
+  }
+}
+
+void sweep_all(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
+  if (d.node_stiffnesses != nullptr) {
+    sweep_each<true>(d, order, is_backward);
+  } else {
+    sweep_each<false>(d, order, is_backward);
+  }
+}
+
+template <bool kAveraged>
+inline void pick_each(const Descent& d, std::span<const std::uint32_t> order) {
+  for (const std::uint32_t v : order) {
+    const Motion& motion = d.motions[v];
+    if (!motion.leaps) continue;
+    visit<kAveraged>(d, v, [&](const Quadratic& q, float* x) {
+      if (value_at_start(q, motion, x) < 0) put(motion.start[0], motion.start[1], motion.start[2], x[3], x);
+    });
   }
 }
 
 void pick_all(const Descent& d, std::span<const std::uint32_t> order) {
-  for (const std::uint32_t v : order) {
-    float* x = d.places + std::size_t{4} * v;
-    const Motion& motion = d.motions[v];
-    if (!motion.leaps || !(value_at_start(whole_quadratic(d, v), motion, x) < 0)) continue;
-    put(motion.start[0], motion.start[1], motion.start[2], x);
+  if (d.node_stiffnesses != nullptr) {
+    pick_each<true>(d, order);
+  } else {
+    pick_each<false>(d, order);
+  }
+}
+
+template <Wanted kWanted>
+inline void slopes_of_each(const Descent& d, std::span<const std::uint32_t> order, float* slopes) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
+    const std::array<double, 3> slope = whole_quadratic<kWanted>(d, order[i]).slope;
+    put(static_cast<float>(slope[0]), static_cast<float>(slope[1]), static_cast<float>(slope[2]), 0,
+        slopes + std::size_t{4} * order[i]);
   }
 }
 
 void slopes_of_all(const Descent& d, std::span<const std::uint32_t> order, float* slopes) {
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
-    const std::array<double, 3> slope = whole_quadratic<false>(d, order[i]).slope;
-    put(static_cast<float>(slope[0]), static_cast<float>(slope[1]), static_cast<float>(slope[2]),
-        slopes + std::size_t{4} * order[i]);
+  if (d.node_stiffnesses != nullptr) {
+    slopes_of_each<Wanted::kSlopeAveraged>(d, order, slopes);
+  } else {
+    slopes_of_each<Wanted::kSlope>(d, order, slopes);
+  }
+}
+
+/// Six volumes of the tets of a star that take part in its average.
+inline float star_volume(const Descent& d, const Star& star, const float* place) {
+  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+  Lanes volumes = all(0);
+  const StarBlock* block = d.blocks + star.first;
+  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) {
+    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+    load_points(d.places, block->a.data(), ax, ay, az);
+    load_points(d.places, block->b.data(), bx, by, bz);
+    load_points(d.places, block->c.data(), cx, cy, cz);
+    ax = ax - x, ay = ay - y, az = az - z;
+    bx = bx - x, by = by - y, bz = bz - z;
+    cx = cx - x, cy = cy - y, cz = cz - z;
+    const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+    volumes = volumes + where_positive(load(block->pressure.data()), volume6);
+  }
+  float s[4];
+  sum_lanes(volumes, volumes, volumes, volumes, s);
+  return s[0];
+}
+
+void pressures_of_all(const Descent& d, std::span<const std::uint32_t> vertices) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (i + kFetchAhead < vertices.size()) fetch(d, vertices[i + kFetchAhead]);
+    const std::uint32_t v = vertices[i];
+    const float* place = d.places + std::size_t{4} * v;
+    const float k = d.node_stiffnesses[v];
+    d.pressures[v] = k > 0 ? k * (star_volume(d, d.stars[v], place) - d.rest_volumes[v]) : 0.0F;
   }
 }
 
@@ -191,7 +397,7 @@ inline double star_energy(const Descent& d, const Star& star, const float* place
     cx = cx - x, cy = cy - y, cz = cz - z;
     const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
     const Lanes half = load(block->bulk.data()) * volume6 * all(0.5F);
-    swelling = swelling + (half - load(block->pressure.data())) * volume6;
+    swelling = swelling + (half - absolute(load(block->pressure.data()))) * volume6;
     stretch = stretch + (load(block->to_a.data()) * (ax * ax + ay * ay + az * az) +
                          (load(block->to_b.data()) * (bx * bx + by * by + bz * bz) +
                           load(block->to_c.data()) * (cx * cx + cy * cy + cz * cz)));
@@ -209,7 +415,12 @@ void add_energies(const Descent& d, std::span<const std::uint32_t> order, double
 }
 
 void find_quadratic(const Descent& d, std::uint32_t vertex, Quadratic& quadratic) {
-  quadratic = whole_quadratic(d, vertex);
+  const auto copy = [&](const Quadratic& q, float* /*x*/) { quadratic = q; };
+  if (d.node_stiffnesses != nullptr) {
+    visit<true>(d, vertex, copy);
+  } else {
+    visit<false>(d, vertex, copy);
+  }
 }
 
 }  // namespace INCISE_LANES_NAMESPACE
@@ -231,6 +442,7 @@ HWY_EXPORT(pick_all);
 HWY_EXPORT(slopes_of_all);
 HWY_EXPORT(add_energies);
 HWY_EXPORT(find_quadratic);
+HWY_EXPORT(pressures_of_all);
 #define INCISE_DISPATCH(function) HWY_DYNAMIC_DISPATCH(function)
 #else
 #define INCISE_DISPATCH(function) plain::function
@@ -296,6 +508,10 @@ void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q) {
     const std::array<double, 6> upper = {bend(0, 0), bend(0, 1), bend(0, 2), bend(1, 1), bend(1, 2), bend(2, 2)};
     for (unsigned k = 0; k < 6; ++k) q.curvature[k] += upper[k];
   }
+}
+
+void find_pressures(const Descent& descent, std::span<const std::uint32_t> vertices) {
+  INCISE_DISPATCH(pressures_of_all)(descent, vertices);
 }
 
 void sweep(const Descent& descent, std::span<const std::uint32_t> order, bool is_backward) {

@@ -9,6 +9,7 @@
 
 #include "incise/geom/vec.h"
 #include "sim/body/contact_terms.h"
+#include "sim/body/neighbours.h"
 #include "sim/body/stars.h"
 
 namespace incise {
@@ -49,7 +50,7 @@ struct PullUse {
 
 /// What visits read and write.
 struct Descent {
-  float* places = nullptr;  ///< 4 per vertex slot, the fourth unused
+  float* places = nullptr;  ///< 4 per vertex slot, the fourth its pressure for `find_slopes`
   const StarBlock* blocks = nullptr;
   const Star* stars = nullptr;
   const Motion* motions = nullptr;
@@ -57,6 +58,13 @@ struct Descent {
   const PullUse* uses = nullptr;
   const ContactTerm* contact_terms = nullptr;
   const ContactUse* contact_uses = nullptr;
+  // of `NodalVolumes`; null where no volume is averaged
+  float* pressures = nullptr;
+  const float* node_stiffnesses = nullptr;
+  const float* rest_volumes = nullptr;
+  const NeighbourList* neighbours = nullptr;
+  const std::uint32_t* neighbour_slots = nullptr;
+  const std::uint16_t* rings = nullptr;
 };
 
 /// The energy of one vertex as a quadratic: value 0 at its place, slope, and symmetric curvature (xx xy xz yy yz zz).
@@ -85,6 +93,9 @@ struct PullState {
 /// Adds what pulls a vertex to its quadratic.
 void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q);
 
+/// Writes the pressures of vertices as places are now. Whatever moves vertices but for the two below leaves them stale.
+/// `find_slopes` reads them from the places: a visit that wrote them there would make the next one wait.
+void find_pressures(const Descent& descent, std::span<const std::uint32_t> vertices);
 /// Visits vertices in order, or backwards. Vertices of one call are visited one after the other.
 void sweep(const Descent& descent, std::span<const std::uint32_t> order, bool is_backward);
 /// Puts vertices back to their start where they cost less there: light slivers would fly off where their velocity
@@ -92,7 +103,7 @@ void sweep(const Descent& descent, std::span<const std::uint32_t> order, bool is
 void pick_starts(const Descent& descent, std::span<const std::uint32_t> order);
 /// Writes the slopes of the energies of vertices, 4 numbers per vertex slot; moves nothing.
 void find_slopes(const Descent& descent, std::span<const std::uint32_t> order, float* slopes);
-/// The share of vertices in the elastic energy of their tets, not counted from rest.
+/// The share of vertices in the elastic energy of their tets, not counted from rest; without that of pressures.
 [[nodiscard]] double energy_share(const Descent& descent, std::span<const std::uint32_t> order);
 /// The quadratic of one vertex, its inertia and pulls included.
 [[nodiscard]] Quadratic quadratic_of(const Descent& descent, std::uint32_t vertex);

@@ -76,7 +76,7 @@ void Stars::add(TetId tet, const TetVertices& vertices, const Element& element) 
     block.b[slot] = vertices[b].value;
     block.c[slot] = vertices[c].value;
     block.bulk[slot] = static_cast<float>(element.bulk);
-    block.pressure[slot] = static_cast<float>(element.pressure);
+    block.pressure[slot] = static_cast<float>(element.give > 0 ? element.pressure : -element.pressure);
     block.to_a[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[i][a]]);
     block.to_b[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[i][b]]);
     block.to_c[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[i][c]]);

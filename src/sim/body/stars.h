@@ -20,7 +20,8 @@ inline constexpr std::uint32_t kLanes = 8;
 /// Eight tets of one star. Unused lanes name the vertex itself and weigh nothing.
 struct StarBlock {
   std::array<std::uint32_t, kLanes> a, b, c;   ///< the other corners, as `kSideCorners` orders them
-  std::array<float, kLanes> bulk, pressure;    ///< of `Element`
+  std::array<float, kLanes> bulk;              ///< of `Element`
+  std::array<float, kLanes> pressure;          ///< likewise; below 0 where the vertices share nothing of the tet
   std::array<float, kLanes> to_a, to_b, to_c;  ///< the row of its Laplacian
 };
 

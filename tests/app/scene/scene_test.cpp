@@ -56,6 +56,7 @@ TEST(Scene, reads_every_key) {
   EXPECT_EQ(scene.frames, 50U);
   EXPECT_EQ(scene.options.body.relaxation, Relaxation::kPositionBased);
   EXPECT_EQ(scene.options.body.substeps, 3U);
+  EXPECT_TRUE(scene.options.body.average_volumes);
   EXPECT_EQ(scene.options.materials.of(3).young, 2e4);
   EXPECT_EQ(scene.options.materials.of(0).toughness, 5);
   EXPECT_EQ(scene.options.contact_stiffness, 100);
@@ -181,6 +182,7 @@ TEST(Scene, refuses_numbers_out_of_range_and_says_where) {
   expect_refused("/tools/1/ball/radius", 0, "tools[1].ball.radius is 0");
   expect_refused("/hooks/0/path/1/t", 0.05, "hooks[0].path[1].t must be later");
   expect_refused("/solver/substeps", 0, "solver.substeps is 0; it must be from 1 to 1000");
+  expect_refused("/solver/average_volumes", 1, "solver.average_volumes");
   expect_refused("/solver/relaxation", "magic", "solver.relaxation must be \"block-descent\"");
   expect_refused("/solver", Json{{"relaxation", "magic"}}, "solver.relaxation must be");
   expect_refused("/cut/snap", 0.5, "cut.snap is 0.5");

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/body/nodal_volumes.h"
+
+namespace incise {
+inline namespace v0 {
+namespace detail {
+
+void NodalVolumes::ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots) {
+  neighbours_.ensure(vertex_slots);
+  if (vertex_slots > rest_volumes_.size()) {
+    stiffnesses_.resize(vertex_slots);
+    pressures_.resize(vertex_slots);
+    rest_volumes_.resize(vertex_slots);
+    gives_.resize(vertex_slots, 0);
+    is_taken_.resize(vertex_slots, 0);
+  }
+  if (tet_slots > tets_.size()) tets_.resize(tet_slots);
+}
+
+void NodalVolumes::put(TetId tet, double volume6, const Element& element) {
+  tets_[tet] = {volume6, element.give};
+}
+
+void NodalVolumes::update(VertexId vertex, const Stars& stars) {
+  neighbours_.update(vertex, stars, [&](TetId t) { return has(t); });
+  double volume6 = 0, give = 0;
+  stars.for_each_tet(vertex, [&](TetId t) {
+    const Share& share = tets_[t];
+    if (!(share.give > 0)) return;
+    volume6 += share.volume6;
+    give += share.give;
+  });
+  rest_volumes_[vertex.value] = static_cast<float>(volume6);
+  gives_[vertex] = give;
+  stiffnesses_[vertex.value] = static_cast<float>(stiffness(vertex));
+}
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace incise
