@@ -135,8 +135,8 @@ bool StrokeCut::bisect(const CutContext& context, const std::vector<BetweenCross
     const SplitEdgePlan plan =
         plan_split_edge(context.mesh, edge.a, edge.b, complex_.children(complex_[place.master])[0], place.t);
     const auto is_master = [&](TetId tet) { return complex_.find(tet) != Master::kNone; };
-    if (!plan || !std::all_of(plan.ring.begin(), plan.ring.end(), is_master))
-      continue;  // the blade has left the others
+    // What is no master has been left by the blade: it would stay whole beside divided ones.
+    if (!plan || !std::all_of(plan.ring.begin(), plan.ring.end(), is_master)) continue;
     for (const TetId tet : plan.ring) complex_.release(complex_.find(tet));
     apply(transaction, plan);
   }
