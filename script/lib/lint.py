@@ -74,6 +74,10 @@ def read(root, build, group, flags):
     matches = [m for m in map(COMPLAINT.match, output.splitlines()) if m and m[1].startswith(root + "/")]
     clashing = {m[1] for m in matches if m[2] == "error"} if len(group) > 1 else set()
     lines = {m.string[len(root) + 1:] for m in matches if m[2] == "warning" or not clashing}
+    if len(group) == 1 and group[0] not in flags and any("file not found" in line for line in lines):
+        name = os.path.relpath(group[0], root)
+        print(f"lint: {name} is left out: it is not built here, and a header that it needs is missing", file=sys.stderr)
+        return set(), set()
     # An error in a header may be anybody's.
     return lines, clashing if clashing <= set(group) else set(group)
 

@@ -210,8 +210,8 @@ inline bool least_of(const Quadratic& q, std::array<double, 3>& step) {
 
 /// Writes a place at once: the next vertex reads it at once, and a machine cannot hand on what was stored in parts.
 inline void put(float x, float y, float z, float pressure, float* place) {
-  using Four = float __attribute__((vector_size(16)));
-  const Four row = {x, y, z, pressure};
+  using FourFloats = float __attribute__((vector_size(16)));
+  const FourFloats row = {x, y, z, pressure};
   std::memcpy(place, &row, sizeof row);
 }
 
