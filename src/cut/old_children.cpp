@@ -2,6 +2,7 @@
 #include "cut/old_children.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "incise/geom/quality.h"
 
@@ -30,6 +31,12 @@ std::array<double, 4> weights_in(const std::array<Vec3, 4>& p, const Vec3& x) {
   return weights;
 }
 
+/// The least of them; that of a flat tet, which has no weights, is below all.
+double least_of(const std::array<double, 4>& weights) {
+  const bool is_flat = !std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
+  return is_flat ? MaterialPlace().inside : *std::min_element(weights.begin(), weights.end());
+}
+
 }  // namespace
 
 OldChildren::OldTet OldChildren::image_of(const TetMesh& mesh, TetId tet) {
@@ -49,8 +56,7 @@ std::uint32_t OldChildren::holding(const Vec3& rest, std::uint32_t first, std::u
   std::uint32_t best = first;
   double inside = -1e300;
   for (std::uint32_t i = first; last - first > 1 && i < last && inside < 0; ++i) {
-    const auto weights = weights_in(tets_[i].rest, rest);
-    const double least = *std::min_element(weights.begin(), weights.end());
+    const double least = least_of(weights_in(tets_[i].rest, rest));
     if (least > inside) {
       inside = least;
       best = i;
@@ -71,7 +77,7 @@ MaterialPlace OldChildren::place_in(const OldTet& tet, const Vec3& rest) {
   MaterialPlace place;
   place.basis = tet.vertices;
   place.weights = weights_in(tet.rest, rest);
-  place.inside = *std::min_element(place.weights.begin(), place.weights.end());
+  place.inside = least_of(place.weights);
   bool is_at_rest = true;
   for (unsigned c = 0; c < 4; ++c) {
     is_at_rest = is_at_rest && tet.current[c] == tet.rest[c];

@@ -15,7 +15,7 @@ struct MaterialPlace {
   TetVertices basis;
   std::array<double, 4> weights{};  ///< barycentric; below 0 where the place lies outside
   Vec3 current = Vec3::Zero();      ///< where the body stood there
-  double inside = -1e300;           ///< the least of the weights
+  double inside = -1e300;           ///< the least of the weights; so low in a flat tet, where they are no numbers
 };
 
 /// The tets that a rebuild replaces, as they were, at rest and as the body stood.

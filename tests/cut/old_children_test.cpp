@@ -54,6 +54,28 @@ TEST(OldChildren, give_corners_back_bit_for_bit) {
   }
 }
 
+TEST(OldChildren, flat_tets_hold_nothing) {
+  TetMesh mesh = build(kuhn_cube(2));
+  const TetId tet(0);
+  const TetVertices corners = mesh.vertices(tet);
+  Vec3 flat = mesh.rest(corners[0]);
+  for (unsigned axis = 0; axis < 3; ++axis) {  // the face across the first corner lies in a plane of the grid
+    const double at = mesh.rest(corners[1])[axis];
+    if (mesh.rest(corners[2])[axis] == at && mesh.rest(corners[3])[axis] == at) flat[axis] = at;
+  }
+  ASSERT_NE(flat, mesh.rest(corners[0]));
+  Transaction transaction(mesh);
+  transaction.move(corners[0], flat, corners, {0, 0.5, 0.25, 0.25});
+  for (const Vec3& place : {Vec3(0.3, 0.2, 0.1), Vec3(0.5, 0.5, 0.5), Vec3(0.25, 0.25, 0.25)}) {
+    if (place == mesh.rest(corners[1]) || place == mesh.rest(corners[2]) || place == mesh.rest(corners[3])) continue;
+    EXPECT_LT(place_in(mesh, tet, place).inside, -1e200);
+  }
+  OldChildren old;
+  mesh.for_each_tet([&](TetId t) { old.add(mesh, t); });
+  const Vec3 inside(0.8, 0.7, 0.6);
+  EXPECT_GE(old.place_in(old.holding(inside, 0, old.size()), inside).inside, -1e-12);
+}
+
 TEST(OldChildren, at_rest_give_the_place_itself) {
   const TetMesh mesh = build(jittered_cube(2, 1));
   Random random(3);
