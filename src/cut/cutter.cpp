@@ -154,7 +154,7 @@ bool Cutter::may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std:
     return stands;
   }
   const std::size_t end = journal.position();
-  if (!go_on(mesh, journal, pause, first_step, has_moved, paused.tag)) return false;
+  if (!resume(mesh, journal, pause, first_step, has_moved, paused.tag)) return false;
   const bool stands =
       stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row), kStands * stroke_.spacing);
   stroke_cut_.forget();
@@ -162,8 +162,19 @@ bool Cutter::may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std:
   return stands;
 }
 
-bool Cutter::go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
-                   std::uint32_t tag) {
+bool Cutter::go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
+                   std::span<const Vec3> row, bool has_moved, std::uint32_t tag) {
+  if (!resume(mesh, journal, pause, first_step, has_moved, tag)) return false;
+  if (stroke_.is_in_material) {  // it starts from where the tissue has taken it, not from where it stopped
+    stroke_.given_row.assign(row.begin(), row.end());
+    stroke_.last_row = stroke_.edge.divided(row);
+    stroke_.material.carry_to(stroke_.last_row);
+  }
+  return true;
+}
+
+bool Cutter::resume(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
+                    std::uint32_t tag) {
   const std::size_t end = journal.position();
   bool goes_on = false;
   try {

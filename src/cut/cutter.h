@@ -63,12 +63,12 @@ class Cutter {
   [[nodiscard]] bool may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
                                std::span<const Vec3> row, bool has_moved);
   /// Begins a stroke that goes on from a paused one: what the steps of the journal from `first_step` on did to end that
-  /// is taken back, by new steps. The journal must be as that stroke left it. From then on both are one cut;
-  /// walls get `tag`, the next one after those of the strokes before. Returns false, with nothing changed, where that
-  /// would join two pieces, and where memory runs out: there `begin`. Cost: O(those steps + band + strips), and that of
-  /// `PieceFinder`.
-  bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
-             std::uint32_t tag);
+  /// is taken back, by new steps. The journal must be as that stroke left it. `row`: where the blade stands now, as
+  /// `may_go_on` has allowed it. From then on both are one cut; walls get `tag`, the next one after those of the
+  /// strokes before. Returns false, with nothing changed, where that would join two pieces, and where memory runs out:
+  /// there `begin`. Cost: O(those steps + band + strips), and that of `PieceFinder`.
+  bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, std::span<const Vec3> row,
+             bool has_moved, std::uint32_t tag);
   /// Has `between_sheets` called within `step` and `end` wherever a sheet of the stroke is finished and another one
   /// starts, since the blade has come back to what it cut: the mesh may be maintained there. It must not throw. Empty:
   /// nothing is called.
@@ -101,6 +101,8 @@ class Cutter {
     std::uint32_t tag = 1;
   };
 
+  bool resume(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
+              std::uint32_t tag);
   bool take_end_back(TetMesh& mesh, Journal& journal, std::size_t first_step);
   void take_up(const TetMesh& mesh, const Journal& journal, const Pause& pause, bool has_moved, std::uint32_t tag);
   [[nodiscard]] std::uint32_t pieces_at(const TetMesh& mesh, const Journal& journal, std::size_t first,

@@ -541,6 +541,15 @@ bool MaterialBlade::stands_at(const TetMesh& mesh, const ClosedComplex& complex,
   return is_in_tissue;
 }
 
+void MaterialBlade::carry_to(std::span<const Vec3> row) {
+  const std::vector<Vec3> places = divided(row, shares_);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point& point = points_[i];
+    point.reached += places[i] - point.world;
+    point.world = point.before = places[i];
+  }
+}
+
 std::vector<Vec3> MaterialBlade::wanted() const {
   std::vector<Vec3> row = anchors_;
   for (std::size_t i = 0; i < points_.size(); ++i) {

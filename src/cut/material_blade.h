@@ -53,6 +53,9 @@ class MaterialBlade {
   /// points in tissue within `distance`, and there are some.
   [[nodiscard]] bool stands_at(const TetMesh& mesh, const ClosedComplex& complex, std::span<const Vec3> row,
                                double distance) const;
+  /// Puts the blade where it stands now, after the body has moved and has taken its front along: as if it had come
+  /// there with the tissue.
+  void carry_to(std::span<const Vec3> row);
   /// Holds a point of the blade in this step.
   void hold(std::size_t point) { points_[point].is_accepted = false; }
   [[nodiscard]] bool is_in_tissue(std::size_t point) const { return points_[point].tet.is_valid(); }

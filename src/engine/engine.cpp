@@ -344,8 +344,9 @@ Result<CutStatistics> Engine::Conductor::cut_step(const BladePose& pose, StepRep
 void Engine::Conductor::go_on_from_last_stroke() {
   if (!open_.from.pause) return;
   const Continuation from = std::exchange(open_.from, {});
-  if (!cutter_.go_on(mesh_, journal_, *from.pause, from.first_step, has_moved_, open_.report.stroke)) {
-    cutter_.begin(mesh_, journal_, open_.first_pose.edge, has_moved_, open_.report.stroke);
+  const std::vector<Vec3>& row = open_.first_pose.edge;
+  if (!cutter_.go_on(mesh_, journal_, *from.pause, from.first_step, row, has_moved_, open_.report.stroke)) {
+    cutter_.begin(mesh_, journal_, row, has_moved_, open_.report.stroke);
   }
 }
 

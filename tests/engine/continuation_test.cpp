@@ -154,6 +154,37 @@ TEST(Continuation, goes_on_in_a_body_that_moves_between_strokes) {
   }
 }
 
+/// A cut through a jittered cube in three strokes, in a body that stands still in each and far away in the next.
+TEST(Continuation, goes_on_where_the_tissue_has_taken_the_front) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const RandomPlane plane(seed);
+    TetSoup soup = kuhn_cube(5);
+    jitter(soup, 0.2, seed);
+    Engine engine = Engine::create(TetMesh::build(soup).value()).value();
+    unsigned moment = 0;
+    for (double way = -1.05; way < 1.0; way += 0.7) {
+      const double shear = moment++ % 2 == 0 ? 0.5 : -0.5;
+      const auto map = [&](const Vec3& x) { return Vec3(x + shear * Vec3(x.z(), 0.5 * x.x(), 0)); };
+      std::vector<Vec3> positions;
+      for (std::uint32_t v = 0; v < engine.mesh().vertex_slots(); ++v) {
+        positions.push_back(map(engine.mesh().rest(VertexId(v))));
+      }
+      ASSERT_TRUE(engine.set_positions(positions).ok());
+      const auto pose = [&](double at) {
+        BladePose now;
+        for (const Vec3& x : plane.at(at).edge) now.edge.push_back(map(x));
+        return now;
+      };
+      ASSERT_TRUE(engine.begin_stroke(pose(way)).ok());
+      for (const double share : {0.25, 0.5, 0.75, 1.0}) ASSERT_TRUE(engine.step(pose(way + share * 0.7)).ok());
+      ASSERT_TRUE(engine.end_stroke().ok());
+    }
+    EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
+    EXPECT_LE(measure_quality(engine.mesh()).lr_max, 25.0);
+  }
+}
+
 TEST(Continuation, is_told_to_followers_by_steps_like_any_other) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
