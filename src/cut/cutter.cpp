@@ -514,12 +514,12 @@ Status Cutter::follow(const CutContext& context, BladeMotion::Move move) {
   stroke_cut_.keep_pieces(stroke_.is_in_material);
   Status status = stroke_cut_.advance(context, std::move(move.strip), rules());
   if (!status) return status;
-  if (stroke_cut_.must_finish()) {
-    go_on_from_front(context);
-  } else {
+  const bool must_finish = stroke_cut_.must_finish();
+  if (!must_finish) {
     const auto pinned = stroke_.is_in_material ? stroke_.material.masters() : std::vector<std::uint32_t>();
     stroke_cut_.bake(context, rules(), pinned);
   }
+  if (must_finish || stroke_cut_.is_pinched(context.mesh)) go_on_from_front(context);
   return status;
 }
 

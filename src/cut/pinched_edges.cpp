@@ -2,6 +2,7 @@
 #include "cut/pinched_edges.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "incise/mesh/verbs.h"
 
@@ -13,31 +14,21 @@ namespace {
 /// Two fans of tets that touch along a whole edge.
 class PinchedEdges {
  public:
-  PinchedEdges(Transaction& transaction, const std::vector<IncisionFace>& opened, StarWalker& walker)
-      : transaction_(transaction), mesh_(transaction.mesh()), incision_(opened), walker_(walker) {}
+  PinchedEdges(const TetMesh& mesh, std::span<const Side> walls, StarWalker& walker)
+      : mesh_(mesh), walls_(walls), walker_(walker) {}
 
-  /// Each fan gets a midpoint of its own.
-  std::uint64_t part() {
-    std::uint64_t parted = 0;
+  /// Calls visit(a, b, fans), with one tet of each fan, for each such edge, until that returns false; it may divide the
+  /// edge.
+  template <class Visit>
+  void for_each(Visit&& visit) {
     std::vector<WallEdge> edges = edges_of_walls();
     std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0; i < edges.size();) {
-      const WallEdge edge = edges[i];
-      const std::vector<TetId> fans = fans_around(edge.a, edge.b);
-      for (const TetId fan : fans) {
-        if (fans.size() < 2) {
-          continue;
-        }
-        if (const SplitEdgePlan plan = plan_split_edge(mesh_, edge.a, edge.b, fan, 0.5)) {
-          apply(transaction_, plan);
-        }
-      }
-      parted += fans.size() > 1 ? 1U : 0U;
-      while (i < edges.size() && edges[i].a == edge.a && edges[i].b == edge.b) {
-        ++i;
-      }
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const auto [a, b, seed] = edges[i];
+      if (i > 0 && edges[i - 1].a == a && edges[i - 1].b == b) continue;
+      const std::vector<TetId> fans = fans_around(a, b);
+      if (fans.size() > 1 && !visit(a, b, fans)) return;
     }
-    return parted;
   }
 
  private:
@@ -51,15 +42,11 @@ class PinchedEdges {
   };
   std::vector<WallEdge> edges_of_walls() const {
     std::vector<WallEdge> edges;
-    for (const IncisionFace& face : incision_) {
-      if (!mesh_.link(face.a).is_boundary()) {
-        continue;
-      }
-      for (const Side side : {face.a, face.b}) {
-        const auto v = mesh_.vertices(side);
-        for (unsigned k = 0; k < 3; ++k) {
-          edges.push_back({std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3]), side.tet()});
-        }
+    for (const Side side : walls_) {
+      if (!mesh_.is_live(side.tet()) || !mesh_.link(side).is_boundary()) continue;
+      const auto v = mesh_.vertices(side);
+      for (unsigned k = 0; k < 3; ++k) {
+        edges.push_back({std::min(v[k], v[(k + 1) % 3]), std::max(v[k], v[(k + 1) % 3]), side.tet()});
       }
     }
     return edges;
@@ -79,17 +66,32 @@ class PinchedEdges {
     return fans;
   }
 
-  Transaction& transaction_;
   const TetMesh& mesh_;
-  const std::vector<IncisionFace>& incision_;
+  std::span<const Side> walls_;
   StarWalker& walker_;
 };
 
 }  // namespace
 
-std::uint64_t part_pinched_edges(Transaction& transaction, const std::vector<IncisionFace>& incision,
-                                 StarWalker& walker) {
-  return PinchedEdges(transaction, incision, walker).part();
+std::uint64_t part_pinched_edges(Transaction& transaction, std::span<const Side> walls, StarWalker& walker) {
+  std::uint64_t parted = 0;
+  PinchedEdges(transaction.mesh(), walls, walker).for_each([&](VertexId a, VertexId b, std::span<const TetId> fans) {
+    for (const TetId fan : fans) {
+      if (const SplitEdgePlan plan = plan_split_edge(transaction.mesh(), a, b, fan, 0.5)) apply(transaction, plan);
+    }
+    ++parted;
+    return true;
+  });
+  return parted;
+}
+
+bool has_pinched_edges(const TetMesh& mesh, std::span<const Side> walls, StarWalker& walker) {
+  bool has_some = false;
+  PinchedEdges(mesh, walls, walker).for_each([&](VertexId, VertexId, std::span<const TetId>) {
+    has_some = true;
+    return false;
+  });
+  return has_some;
 }
 
 }  // namespace v0

@@ -40,6 +40,9 @@ class Rebuild {
 
   /// The incision faces that the last run opened.
   [[nodiscard]] const std::vector<IncisionFace>& opened() const { return memory_.faces.faces; }
+  /// Boundary sides beside edges along which two fans of tets touch since the last run, which it could not close: the
+  /// fans may be of tets that it left as they are.
+  [[nodiscard]] const std::vector<Side>& left_pinched() const { return memory_.pinched.sides; }
   /// The corners that go by another name since the last run, in the order of time.
   [[nodiscard]] const std::vector<Renamed>& renamed() const { return memory_.stars.renamed; }
 

@@ -48,6 +48,7 @@ void StrokeCut::forget() {
   snapping_.coincident.clear();
   on_.clear();
   waiting_.clear();
+  pinched_.clear();
   must_finish_ = false;
 }
 
@@ -60,6 +61,7 @@ std::shared_ptr<const StrokeCut::Pause> StrokeCut::pause() const {
   pause->on_ = on_;
   pause->waiting_ = waiting_;
   pause->spacing_ = spacing_;
+  pause->pinched_ = pinched_;
   pause->must_finish_ = must_finish_;
   pause->keeps_pieces_ = keeps_pieces_;
   pause->first_tag_ = tags_.first;
@@ -74,6 +76,7 @@ void StrokeCut::go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag
   snapping_.coincident = pause.coincident_;
   on_ = pause.on_;
   waiting_ = pause.waiting_;
+  pinched_ = pause.pinched_;
   must_finish_ = pause.must_finish_;
   keeps_pieces_ = pause.keeps_pieces_;
   tags_.first = pause.first_tag_;
@@ -316,6 +319,9 @@ void StrokeCut::rebuild(const CutContext& context, bool closes_pinched) {
   context.statistics.incision_faces += static_cast<std::uint64_t>(opened / 2);
   context.statistics.crumbs_kept += done.crumbs_kept;
   context.statistics.latent_faces += done.latent_faces;
+  for (const Side side : rebuild_.left_pinched()) {
+    if (tags_.own(context.mesh.link(side))) pinched_.push_back(side);
+  }
   must_finish_ = done.left_pinched > 0;
   for (const auto& [from, to] : rebuild_.renamed()) {
     for (OnVertex& on : on_) on.vertex = on.vertex == from ? to : on.vertex;
@@ -552,6 +558,12 @@ void StrokeCut::bake_behind(const CutContext& context, const FrontRules& rules, 
   std::erase_if(snapping_.coincident, [&](VertexId v) { return !complex_.is_on(v); });
 }
 
+bool StrokeCut::is_pinched(const TetMesh& mesh) {
+  const bool is_pinched = has_pinched_edges(mesh, pinched_, walker_);
+  if (!is_pinched) pinched_.clear();
+  return is_pinched;
+}
+
 void StrokeCut::finish(const CutContext& context, const FrontRules& rules) {
   const StageZone zone(context.times, Stage::kSeparate);
   wake_.find(context.mesh, complex_, {}, 0.0, {});
@@ -562,8 +574,10 @@ void StrokeCut::finish(const CutContext& context, const FrontRules& rules) {
   }
   if (!complex_.dirty().empty()) {
     rebuild(context, false);
-    part_edges(context);
+    const std::vector<Side> opened = sides_of(rebuild_.opened());
+    pinched_.insert(pinched_.end(), opened.begin(), opened.end());
   }
+  if (!pinched_.empty()) part_edges(context);
   forget();
 }
 
@@ -615,7 +629,7 @@ void StrokeCut::land(const CutContext& context) {
 void StrokeCut::part_edges(const CutContext& context) {
   const std::size_t tets = context.mesh.tet_count(), vertices = context.mesh.vertex_count();
   Transaction transaction(context.mesh);
-  context.statistics.pinched_edges += part_pinched_edges(transaction, rebuild_.opened(), walker_);
+  context.statistics.pinched_edges += part_pinched_edges(transaction, pinched_, walker_);
   Step step = transaction.commit();
   context.statistics.created_tets += context.mesh.tet_count() - tets;
   context.statistics.new_vertices += context.mesh.vertex_count() - vertices;

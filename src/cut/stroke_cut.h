@@ -67,6 +67,9 @@ class StrokeCut {
   /// Whether two fans of tets touch along an edge beside which two pieces meet, so that no face may be left joined
   /// there: the sheet must be finished, which parts such edges.
   [[nodiscard]] bool must_finish() const { return must_finish_; }
+  /// Whether fans of tets touch along an edge of the cut: no blade may pass before `finish` has parted them. Cost: O(1)
+  /// where no step has left such edges.
+  [[nodiscard]] bool is_pinched(const TetMesh& mesh);
   /// The sheet and its band as they stand, so that a stroke may go on once they were finished.
   class Pause;
   [[nodiscard]] std::shared_ptr<const Pause> pause() const;
@@ -150,6 +153,7 @@ class StrokeCut {
   const std::vector<std::uint32_t>* met_ = nullptr;      // likewise
   std::vector<bool> reached_;     // by master: through faces, from where the current strip itself is
   std::vector<Crossed> waiting_;  // crossings of what reaches on that nothing has reached yet
+  std::vector<Side> pinched_;     // walls beside edges to be parted once the sheet is finished
   double spacing_ = 0.0;
   bool must_finish_ = false, keeps_pieces_ = false;
   StrokeTags tags_;
@@ -166,6 +170,7 @@ class StrokeCut::Pause {
   std::vector<VertexId> coincident_;
   std::vector<OnVertex> on_;
   std::vector<Crossed> waiting_;
+  std::vector<Side> pinched_;
   double spacing_ = 0.0;
   bool must_finish_ = false, keeps_pieces_ = false;
   std::uint32_t first_tag_ = 1;

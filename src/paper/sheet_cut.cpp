@@ -73,7 +73,7 @@ void SheetCut::separate(Transaction& transaction, const Subdivision& subdivision
 void SheetCut::part_edges(const CutContext& context, const Subdivision& subdivision) {
   const StageZone zone(context.times, Stage::kSeparate);
   Transaction transaction(context.mesh);
-  context.statistics.pinched_edges += part_pinched_edges(transaction, subdivision.incision, walker_);
+  context.statistics.pinched_edges += part_pinched_edges(transaction, sides_of(subdivision.incision), walker_);
   context.statistics.new_vertices += transaction.new_vertices().size();
   context.journal.append_if_changed(transaction.commit());
 }

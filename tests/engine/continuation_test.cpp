@@ -2,8 +2,12 @@
 // A stroke that starts where the last one ended is one cut with it: at rest, in a body that moves, after undo.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
+#include "compose/compose_rows.h"
 #include "incise/engine/engine.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/quality_stats.h"
@@ -264,6 +268,43 @@ TEST(Continuation, of_rings_in_a_swaying_body_keeps_it_valid_at_every_pose) {
        ++seed) {  // 162: a place was looked for in a tet that is flat for a moment
     SCOPED_TRACE(seed);
     SwayingRing(seed).cut();
+  }
+}
+
+/// Eight half planes around an axis, one stroke each, in a body that was moved and is back at rest. Where their walls
+/// meet a rebuild may join vertices so that fans of tets touch along an edge that it leaves as they are: with these
+/// angles the fourth did so.
+TEST(Continuation, of_half_planes_around_an_axis_parts_all_edges_that_they_pinch) {
+  const std::array<double, 3> angles = {4.8468901439150454, 2.3596380481733989, 3.6515593610266452};
+  const auto turned = [&](const Vec3& place) {
+    Vec3 p = place - Vec3(0.5, 0.5, 0.5);
+    for (const auto& [u, v, axis] : {std::array{1U, 2U, 0U}, std::array{0U, 2U, 1U}, std::array{0U, 1U, 2U}}) {
+      const double c = std::cos(angles[axis]), s = std::sin(angles[axis]), pu = p[u], pv = p[v];
+      p[u] = c * pu - s * pv;
+      p[v] = s * pu + c * pv;
+    }
+    return Vec3(p + Vec3(0.5, 0.5, 0.5));
+  };
+  const std::vector<ComposeRow> rows = compose_rows();
+  const auto star =
+      std::find_if(rows.begin(), rows.end(), [](const ComposeRow& row) { return row.name == "star of 8 half planes"; });
+  ASSERT_NE(star, rows.end());
+  TetSoup soup = kuhn_cube(5);
+  jitter(soup, 0.2, 162);
+  Engine engine = Engine::create(TetMesh::build(soup).value()).value();
+  for (const BladePath& path : star->strokes) {
+    std::vector<Vec3> rest;
+    for (std::uint32_t v = 0; v < engine.mesh().vertex_slots(); ++v) rest.push_back(engine.mesh().rest(VertexId(v)));
+    ASSERT_TRUE(engine.set_positions(rest).ok());
+    const auto pose = [&](const Row& row) {
+      BladePose now;
+      for (const Vec3& p : row) now.edge.push_back(turned(p));
+      return now;
+    };
+    ASSERT_TRUE(engine.begin_stroke(pose(path.front())).ok());
+    for (std::size_t i = 1; i < path.size(); ++i) ASSERT_TRUE(engine.step(pose(path[i])).ok());
+    ASSERT_TRUE(engine.end_stroke().ok());
+    ASSERT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
   }
 }
 

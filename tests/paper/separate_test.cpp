@@ -452,7 +452,7 @@ TEST(PaperSeparation, of_random_faces_never_copies_more_than_star_components_do)
     EXPECT_LE(separate_by_paper(mesh, faces).copied_vertices, most);
     Transaction transaction(mesh);  // the paper leaves pinched edges; with the repair nothing is left
     StarWalker walker;
-    part_pinched_edges(transaction, faces, walker);
+    part_pinched_edges(transaction, sides_of(faces), walker);
     transaction.commit();
     expect_valid(mesh, 1.0);
   }
