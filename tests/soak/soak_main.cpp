@@ -13,6 +13,7 @@
 //        incise_soak seeds FILE
 //        incise_soak describe|minimise strokes|models SEED...
 //        incise_soak simulate [--rounds N] [--frames N]
+//        incise_soak compose [--rounds N]
 //        incise_soak stability [--every N]
 //        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
 //        incise_soak attack [--meshes FILE|made|corpus...] [--kinds A,B] [--options A,B] [--cases N] [--case N]
@@ -40,6 +41,7 @@
 #include "incise/mesh/star.h"
 #include "incise/mesh/validate.h"
 #include "soak/attack_soak.h"
+#include "soak/compose_soak.h"
 #include "soak/models.h"
 #include "soak/motion_soak.h"
 #include "soak/simulation_run.h"
@@ -447,6 +449,7 @@ int usage() {
                "       incise_soak seeds FILE\n"
                "       incise_soak describe|minimise strokes|models SEED...\n"
                "       incise_soak simulate [--rounds N] [--frames N]\n"
+               "       incise_soak compose [--rounds N]\n"
                "       incise_soak stability [--every N]\n"
                "       incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n"
                "       incise_soak %s\n",
@@ -492,6 +495,7 @@ int run_campaign(const std::string& kind, Settings settings) {
   if (const char* seed = std::getenv("INCISE_SOAK_SEED")) settings.seed = std::strtoull(seed, nullptr, 10);
   if (kind == "cuts") return soak_made_meshes(settings);
   if (kind == "corpus") return soak_corpus(settings);
+  if (kind == "compose") return soak_compositions({settings.seed, settings.rounds, settings.seconds});
   if (kind == "stability") return soak_stability(settings.every);
   if (kind == "simulate") return soak_scenes(settings);
   if (kind != "strokes" && kind != "models") return usage();
