@@ -35,17 +35,20 @@ struct Tally {
   std::array<std::uint64_t, 3> of{}, other_pieces{}, bad{};  // by stance
 };
 
-TetSoup body_of(std::uint64_t seed) {
-  TetSoup soup = kuhn_cube(seed % 3 == 0 ? 5 : 6);
-  if (seed % 4 != 0) jitter(soup, 0.2, seed);
-  return soup;
+/// A cube, jittered unless that would turn a tet inside out.
+TetMesh body_of(std::uint64_t seed) {
+  const TetSoup even = kuhn_cube(seed % 3 == 0 ? 5 : 6);
+  TetSoup jittered = even;
+  if (seed % 4 != 0) jitter(jittered, 0.2, seed);
+  Result<TetMesh> mesh = TetMesh::build(jittered);
+  return mesh ? std::move(mesh).value() : TetMesh::build(even).value();
 }
 
 /// One row of the table in one body.
 class Composition {
  public:
   Composition(const ComposeRow& row, std::uint64_t seed, Tally& tally)
-      : row_(row), seed_(seed), tally_(tally), random_(seed), engine_(engine_of(seed)) {
+      : row_(row), seed_(seed), tally_(tally), random_(seed), engine_(Engine::create(body_of(seed)).value()) {
     stance_ = static_cast<Stance>(random_.integer(0, 2));
     amplitude_ = random_.real(0.3, 3);
     rate_ = random_.real(0.02, 0.5);
@@ -67,8 +70,6 @@ class Composition {
   }
 
  private:
-  static Engine engine_of(std::uint64_t seed) { return Engine::create(TetMesh::build(body_of(seed)).value()).value(); }
-
   [[nodiscard]] std::string name() const {
     return "seed " + std::to_string(seed_) + ", row '" + row_.name + "', stroke " + std::to_string(stroke_);
   }
