@@ -267,11 +267,16 @@ Status Cutter::step_in_material(const CutContext& context, const std::vector<Vec
   if (travel > kMostParts * stroke_.spacing || stroke_.material.is_graded()) {
     return step_from_far(context, before, direction);
   }
-  const double parts = std::clamp(std::ceil(travel / stroke_.spacing), 1.0, kMostParts);
+  // Where the blade was tells nothing in a body that has moved since: only what lies ahead of the front counts.
+  const std::vector<Vec3> from =
+      stroke_.material.front_of(context.mesh, stroke_cut_.complex(), before, stroke_.last_row);
+  double way = 0;
+  for (std::size_t c = 0; c < from.size(); ++c) way = std::max(way, (stroke_.last_row[c] - from[c]).norm());
+  const double parts = std::clamp(std::ceil(way / stroke_.spacing), 1.0, kMostParts);
   for (double part = 1; part <= parts; ++part) {
     std::vector<Vec3> row = stroke_.last_row;
     for (std::size_t c = 0; c < row.size() && part < parts; ++c) {
-      row[c] = before[c] + (part / parts) * (stroke_.last_row[c] - before[c]);
+      row[c] = from[c] + (part / parts) * (stroke_.last_row[c] - from[c]);
     }
     if (Status status = cut_to(context, row, direction); !status) return status;
   }

@@ -550,6 +550,26 @@ void MaterialBlade::carry_to(std::span<const Vec3> row) {
   }
 }
 
+std::vector<Vec3> MaterialBlade::front_of(const TetMesh& mesh, const ClosedComplex& complex,
+                                          std::span<const Vec3> before, std::span<const Vec3> row) const {
+  const std::vector<Vec3> places = divided(row, shares_);
+  std::vector<Vec3> front(before.begin(), before.end());
+  std::vector<std::size_t> apart(row.size(), points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point point = points_[i];
+    if (!is_in_master(complex, point)) continue;
+    find_tip(mesh, complex, point, anchors_[i]);
+    if (point.master == Master::kNone) continue;
+    for (std::size_t c = 0, corner = 0; c < row.size(); corner += c < shares_.size() ? shares_[c].size() : 0, ++c) {
+      const std::size_t distance = corner > i ? corner - i : i - corner;
+      if (distance >= apart[c]) continue;
+      apart[c] = distance;
+      front[c] = row[c] - (places[i] - point.tip);
+    }
+  }
+  return front;
+}
+
 std::vector<Vec3> MaterialBlade::wanted() const {
   std::vector<Vec3> row = anchors_;
   for (std::size_t i = 0; i < points_.size(); ++i) {

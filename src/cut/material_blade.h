@@ -56,6 +56,10 @@ class MaterialBlade {
   /// Puts the blade where it stands now, after the body has moved and has taken its front along: as if it had come
   /// there with the tissue.
   void carry_to(std::span<const Vec3> row);
+  /// Where a blade that stands at a row now would stand if it were as far back as the crack's tip is, each corner of
+  /// the row by its nearest point in tissue; `before` where there are no such points.
+  [[nodiscard]] std::vector<Vec3> front_of(const TetMesh& mesh, const ClosedComplex& complex,
+                                           std::span<const Vec3> before, std::span<const Vec3> row) const;
   /// Holds a point of the blade in this step.
   void hold(std::size_t point) { points_[point].is_accepted = false; }
   [[nodiscard]] bool is_in_tissue(std::size_t point) const { return points_[point].tet.is_valid(); }

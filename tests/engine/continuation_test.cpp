@@ -158,34 +158,76 @@ TEST(Continuation, goes_on_in_a_body_that_moves_between_strokes) {
   }
 }
 
-/// A cut through a jittered cube in three strokes, in a body that stands still in each and far away in the next.
+/// A jittered cube that is sheared, and a blade that goes with it.
+class ShearedCube {
+ public:
+  explicit ShearedCube(std::uint64_t seed) : plane_(seed), engine_(engine_of(seed)) {}
+
+  Engine& engine() { return engine_; }
+  void shear(double amount) {
+    amount_ = amount;
+    std::vector<Vec3> positions;
+    for (std::uint32_t v = 0; v < engine_.mesh().vertex_slots(); ++v) {
+      positions.push_back(map(engine_.mesh().rest(VertexId(v))));
+    }
+    ASSERT_TRUE(engine_.set_positions(positions).ok());
+  }
+  /// The blade some way through the cube as it stands.
+  [[nodiscard]] BladePose at(double way) const {
+    BladePose pose;
+    for (const Vec3& x : plane_.at(way).edge) pose.edge.push_back(map(x));
+    return pose;
+  }
+  void is_cut_in_two() {
+    EXPECT_EQ(find_components(engine_.mesh()).count(), 2U);
+    EXPECT_LE(measure_quality(engine_.mesh()).lr_max, 25.0);
+  }
+
+ private:
+  static Engine engine_of(std::uint64_t seed) {
+    TetSoup soup = kuhn_cube(5);
+    jitter(soup, 0.2, seed);
+    return Engine::create(TetMesh::build(soup).value()).value();
+  }
+  [[nodiscard]] Vec3 map(const Vec3& x) const { return x + amount_ * Vec3(x.z(), 0.5 * x.x(), 0); }
+
+  RandomPlane plane_;
+  Engine engine_;
+  double amount_ = 0;
+};
+
+/// Three strokes in a body that stands still in each and far away in the next.
 TEST(Continuation, goes_on_where_the_tissue_has_taken_the_front) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SCOPED_TRACE(seed);
-    const RandomPlane plane(seed);
-    TetSoup soup = kuhn_cube(5);
-    jitter(soup, 0.2, seed);
-    Engine engine = Engine::create(TetMesh::build(soup).value()).value();
-    unsigned moment = 0;
-    for (double way = -1.05; way < 1.0; way += 0.7) {
-      const double shear = moment++ % 2 == 0 ? 0.5 : -0.5;
-      const auto map = [&](const Vec3& x) { return Vec3(x + shear * Vec3(x.z(), 0.5 * x.x(), 0)); };
-      std::vector<Vec3> positions;
-      for (std::uint32_t v = 0; v < engine.mesh().vertex_slots(); ++v) {
-        positions.push_back(map(engine.mesh().rest(VertexId(v))));
-      }
-      ASSERT_TRUE(engine.set_positions(positions).ok());
-      const auto pose = [&](double at) {
-        BladePose now;
-        for (const Vec3& x : plane.at(at).edge) now.edge.push_back(map(x));
-        return now;
-      };
-      ASSERT_TRUE(engine.begin_stroke(pose(way)).ok());
-      for (const double share : {0.25, 0.5, 0.75, 1.0}) ASSERT_TRUE(engine.step(pose(way + share * 0.7)).ok());
-      ASSERT_TRUE(engine.end_stroke().ok());
+    ShearedCube cube(seed);
+    double shear = 0.5;
+    for (double way = -1.05; way < 1.0; way += 0.7, shear = -shear) {
+      cube.shear(shear);
+      ASSERT_TRUE(cube.engine().begin_stroke(cube.at(way)).ok());
+      for (const double share : {0.25, 0.5, 0.75, 1.0})
+        ASSERT_TRUE(cube.engine().step(cube.at(way + share * 0.7)).ok());
+      ASSERT_TRUE(cube.engine().end_stroke().ok());
     }
-    EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
-    EXPECT_LE(measure_quality(engine.mesh()).lr_max, 25.0);
+    cube.is_cut_in_two();
+  }
+}
+
+/// One stroke in a body that moves by up to an element and a half from pose to pose.
+TEST(Continuation, of_steps_in_a_body_that_moves_as_far_as_the_blade) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE(seed);
+    ShearedCube cube(seed);
+    unsigned moment = 0;
+    const auto move = [&] { cube.shear(0.4 * std::sin(0.9 * ++moment)); };
+    move();
+    ASSERT_TRUE(cube.engine().begin_stroke(cube.at(-1.05)).ok());
+    for (double pose = 1; pose <= 5; ++pose) {
+      move();
+      ASSERT_TRUE(cube.engine().step(cube.at(-1.05 + 2.1 * pose / 5)).ok());
+    }
+    ASSERT_TRUE(cube.engine().end_stroke().ok());
+    cube.is_cut_in_two();
   }
 }
 
