@@ -2,6 +2,7 @@
 #include "cut/blade_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace {
 
 /// A blade within this many spacings of what it swept before is in its own slit.
 constexpr double kSlitShare = 0.25;
+/// Where on its way it is asked for; the end first, which decides most often.
+constexpr std::array kSlitSamples = {1.0, 0.25, 0.5, 0.75};
 /// Points of a blade that moved less than this many spacings wait for more.
 constexpr double kLeastStep = 0.05;
 /// A strip whose middle lies this close to what was swept before lies on it.
@@ -39,10 +42,9 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   next_key_ = kFirstBladeKey;
   front_.clear();
   is_closed_ = row.size() > 2 && row.front() == row.back();
-  first_ = front_ = number(row);
+  front_ = number(row);
   is_swept_.assign(row.size() - 1, false);
   last_.assign(row.begin(), row.end());
-  reach_lo_ = reach_hi_ = row.front();
   is_first_strip_ = true;
   is_held_ = false;
   ways_.assign(row.size(), Vec3::Zero());
@@ -54,12 +56,9 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
 /// A row's points: one that stands where the front does is the front's.
 BladeMotion::Row BladeMotion::number(std::span<const Vec3> row) {
   Row points(row.size());
-  const bool returns = !is_first_strip_ && !front_.empty() && returns_to_start(row);
   const bool stays_closed = is_closed_ && row.front() == row.back();
   for (std::size_t c = 0; c < row.size(); ++c) {
-    if (returns) {
-      points[c] = first_[c];
-    } else if (stays_closed && c + 1 == row.size()) {
+    if (stays_closed && c + 1 == row.size()) {
       points[c] = points[0];
     } else if (!front_.empty() && row[c] == front_[c].position) {
       points[c] = front_[c];
@@ -72,16 +71,6 @@ BladeMotion::Row BladeMotion::number(std::span<const Vec3> row) {
   return points;
 }
 
-/// Whether the row is the first again, up to rounding, after a way around: not one that went out and back.
-bool BladeMotion::returns_to_start(std::span<const Vec3> row) const {
-  const double extent = (reach_hi_ - reach_lo_).norm();
-  if (first_.size() != row.size()) return false;
-  for (std::size_t c = 0; c < row.size(); ++c) {
-    if (!((row[c] - first_[c].position).norm() <= 1e-12 * extent)) return false;
-  }
-  return extent > 0 && front_.front().key != first_.front().key;
-}
-
 double BladeMotion::distance2_to_front(const Vec3& point) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c + 1 < front_.size(); ++c) {
@@ -89,6 +78,13 @@ double BladeMotion::distance2_to_front(const Vec3& point) const {
     least = std::min(least, closest_on_triangle(point, a, b, b).distance2);
   }
   return least;
+}
+
+/// Whether all of a point's way lies in the slit behind the front. A blade that comes to the sheet from elsewhere, as
+/// at the end of a ring, has cut up to there.
+bool BladeMotion::goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const {
+  return std::all_of(kSlitSamples.begin(), kSlitSamples.end(),
+                     [&](double share) { return is_on(from + share * (to - from), sheet, kSlitShare * spacing_); });
 }
 
 /// Within a distance of what the stroke has swept, and not ahead of its front.
@@ -141,17 +137,12 @@ bool BladeMotion::meets(const SweptSurface& surface, const OwnSheet& sheet) cons
   });
 }
 
-/// The segments of the front that the strip to `to` leaves behind, and those of the first row that it comes back to.
+/// The segments of the front that the strip to `to` leaves behind.
 std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row& to) const {
-  std::vector<std::array<std::uint64_t, 2>> inner;
-  const bool returns =
-      to.size() == first_.size() && to.front().key == first_.front().key && to.back().key == first_.back().key;
-  inner = seam_segments_;
+  std::vector<std::array<std::uint64_t, 2>> inner = seam_segments_;
   for (std::size_t c = 0; c + 1 < to.size(); ++c) {
     const bool stays = to[c].key == front_[c].key && to[c + 1].key == front_[c + 1].key;  // the cut still ends there
-    if (stays || !is_swept_[c]) continue;
-    inner.push_back(keys_of(front_[c], front_[c + 1]));
-    if (returns) inner.push_back(keys_of(first_[c], first_[c + 1]));
+    if (!stays && is_swept_[c]) inner.push_back(keys_of(front_[c], front_[c + 1]));
   }
   return inner;
 }
@@ -175,10 +166,6 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
   move.strip = std::make_unique<Strip>(std::move(surface), inner);
   move.strip->row = to;
   note_swept(to);
-  for (const SosPoint& p : to) {
-    reach_lo_ = reach_lo_.cwiseMin(p.position);
-    reach_hi_ = reach_hi_.cwiseMax(p.position);
-  }
   before_ = front_;
   front_ = to;
   is_first_strip_ = false;
@@ -189,10 +176,9 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
 
 /// The next strip is the first of a sheet that starts at a row.
 void BladeMotion::start_sheet(const Row& from) {
-  first_ = front_ = from;
+  front_ = from;
   is_swept_.assign(from.size() - 1, false);
   reaches_on_ = {};
-  reach_lo_ = reach_hi_ = from.front().position;
   is_first_strip_ = true;
   is_held_ = false;
 }
@@ -244,7 +230,6 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
   ways_.assign(front_.size(), Vec3::Zero());
   last_ = divided(last_, shares);
   if (is_first_strip_) {  // nothing was swept yet: there is no seam
-    first_ = front_;
     seams_ = {};
     seam_segments_.clear();
   }
@@ -376,16 +361,14 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnShe
   if (is_first_strip_ && around.has_older_cuts) {
     std::vector<Vec3> start = drawn_back(front(), around);
     stay_before_walls(row, start, around);  // a blade that starts at a wall, or a little behind it, spares that lip
-    for (std::size_t c = 0; c < start.size(); ++c) first_[c].position = front_[c].position = start[c];
+    for (std::size_t c = 0; c < start.size(); ++c) front_[c].position = start[c];
   }
   if (around.has_older_cuts) stay_before_walls(front(), row, around);
   const double least2 = flushes ? 0.0 : kLeastStep * spacing_ * kLeastStep * spacing_;
   std::vector<Vec3> wanted(row.begin(), row.end());
   std::size_t in_slit = 0;
-  // A blade that comes back to its start over fresh tissue closes the sheet: that is no way back in its slit.
-  const bool closes = !is_first_strip_ && returns_to_start(row) && !would_cover(first_, sheet);
   for (std::size_t c = 0; c < row.size(); ++c) {
-    const bool is_held = !closes && is_on(row[c], sheet, kSlitShare * spacing_);
+    const bool is_held = goes_in_slit(last_[c], row[c], sheet);
     in_slit += is_held ? 1U : 0U;
     if (is_held || (row[c] - front_[c].position).squaredNorm() <= least2) wanted[c] = front_[c].position;
   }

@@ -65,10 +65,10 @@ class BladeMotion {
   using Segments = std::vector<std::array<std::uint64_t, 2>>;
 
   [[nodiscard]] Row number(std::span<const Vec3> row);
+  [[nodiscard]] bool goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const;
   [[nodiscard]] bool is_on(const Vec3& point, const OwnSheet& sheet, double distance) const;
   [[nodiscard]] double distance2_to_front(const Vec3& point) const;
   [[nodiscard]] bool would_cover(const Row& to, const OwnSheet& sheet) const;
-  [[nodiscard]] bool returns_to_start(std::span<const Vec3> row) const;
   [[nodiscard]] SweptSurface lay(const Row& from, const Row& to) const;
   [[nodiscard]] bool meets(const SweptSurface& surface, const OwnSheet& sheet) const;
   [[nodiscard]] std::vector<std::array<std::uint64_t, 2>> inner_segments(const Row& to) const;
@@ -87,14 +87,13 @@ class BladeMotion {
 
   double spacing_ = 1.0;
   std::uint64_t next_key_ = kFirstBladeKey;
-  Row first_, front_, before_;        // of the sheet; now; before the last strip
+  Row front_, before_;                // now; before the last strip
   std::vector<bool> is_swept_;        // by column: the front there is the end of a strip
   std::vector<Vec3> last_;            // where the blade was last
   std::vector<Vec3> ways_;            // by point: how it moved last
   std::array<SosPoint, 2> ends_;      // where the ends of the front reach on to, into an older cut
   std::array<bool, 2> reaches_on_{};  // whether they do
-  Vec3 reach_lo_ = Vec3::Zero(), reach_hi_ = Vec3::Zero();
-  SweptSurface seams_;  // between the front as it was and as it is divided now
+  SweptSurface seams_;                // between the front as it was and as it is divided now
   std::vector<std::array<std::uint64_t, 2>> seam_segments_;
   bool is_first_strip_ = true;
   bool is_held_ = false;    // wholly, in its own slit

@@ -231,6 +231,30 @@ TEST(Continuation, of_steps_in_a_body_that_moves_as_far_as_the_blade) {
   }
 }
 
+/// A blade that goes round along any axis through a jittered cube: back to its start, or a little inside or outside
+/// of it.
+TEST(Continuation, of_one_stroke_back_to_its_start_cuts_a_core_out) {
+  for (const double off : {0.0, 0.004, -0.004}) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      SCOPED_TRACE(testing::Message() << "off by " << off << ", seed " << seed);
+      const RandomPlane plane(seed);
+      ShearedCube cube(seed);
+      Engine& engine = cube.engine();
+      const Vec3 axis = plane.along.cross(plane.forwards), middle(0.5, 0.52, 0.49);
+      for (unsigned i = 0; i <= 20; ++i) {
+        const double share = i / 20.0, angle = 6.2831853071795862 * share;
+        const Vec3 outwards = std::cos(angle) * plane.along + std::sin(angle) * plane.forwards;
+        const Vec3 x = middle + (0.31 + off * share) * outwards;
+        const BladePose pose{{x - 1.5 * axis, x + 1.5 * axis}, {}};
+        ASSERT_TRUE(i == 0 ? engine.begin_stroke(pose).ok() : engine.step(pose).ok());
+      }
+      ASSERT_TRUE(engine.end_stroke().ok());
+      EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
+      EXPECT_LE(measure_quality(engine.mesh()).lr_max, 60.0);
+    }
+  }
+}
+
 TEST(Continuation, is_told_to_followers_by_steps_like_any_other) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
