@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/blade_coupling.h"
+#include "engine/sutures.h"
 #include "engine/wall_area.h"
 #include "incise/core/hash.h"
 #include "incise/mesh/edge_length.h"
@@ -20,6 +21,9 @@ namespace {
 Error bad(std::string message) {
   return {ErrorCode::kBadArgument, std::move(message), {}};
 }
+
+/// Of the mean edge at load: as far outside of the tissue an end of a suture may be.
+constexpr double kSutureReach = 0.25;
 
 /// What a hook has hold of, and where from it.
 struct Grip {
@@ -81,13 +85,18 @@ std::vector<TetId> fresh_tets(const Journal& journal, std::size_t first_step) {
 
 struct Simulation::State {
   State(Engine taken, std::unique_ptr<Solver> made, SimulationOptions chosen)
-      : engine(std::move(taken)), solver(std::move(made)), options(std::move(chosen)) {}
+      : engine(std::move(taken)),
+        solver(std::move(made)),
+        options(std::move(chosen)),
+        spacing(mean_edge_length(engine.mesh())),
+        sutures(kSutureReach * spacing, options.body.length_unit) {}
 
   Engine engine;
   std::unique_ptr<Solver> solver;
   DeformableBody* body = nullptr;  // the same, where it is Incise's own
   SimulationOptions options;
-  double spacing = 1;
+  double spacing;
+  detail::Sutures sutures;
   double contact_stiffness = 0;  // N/m
   std::uint64_t frames = 0;
   bool is_in_stroke = false;
@@ -105,6 +114,11 @@ struct Simulation::State {
   Grip grab(const Hook& hook) const;
   void add_flat(const FrameInput& input, std::vector<Tool>& tools) const;
   std::vector<Vec3> hook_forces(const FrameInput& input) const;
+  template <class Add>
+  Result<std::uint32_t> add_suture(const Add& add);
+  Status tie();
+  Status tie_again();
+  Status tear(std::vector<std::uint32_t>& torn);
   Status relax(FrameReport& report);
   Status cut(const FrameInput& input, FrameReport& report);
   Status lift_blade(FrameReport& report);
@@ -121,9 +135,11 @@ Result<FrameReport> Simulation::frame(const FrameInput& input) {
   if (Status status = check(input); !status) return status.error();
   FrameReport report;
   if (Status status = s.start_blade(input); !status) return status.error();
+  if (Status status = s.tie(); !status) return status.error();
   if (Status status = s.press(input, report); !status) return status.error();
   if (Status status = s.relax(report); !status) return status.error();
   report.hook_forces = s.hook_forces(input);
+  if (Status status = s.tear(report.torn_sutures); !status) return status.error();
   if (Status status = s.cut(input, report); !status) return status.error();
   if (Status status = s.maintain(report); !status) return status.error();
   if (Status status = s.follow(report); !status) return status.error();
@@ -319,7 +335,61 @@ Status Simulation::State::follow_mesh() {
   const Result<FollowReport> followed = solver->follow(engine.journal(), engine.mesh());
   if (!followed) return followed.error();
   if (is_in_stroke && coupling.resists()) snapshot = coupling.snapshot(*solver, engine.mesh());
+  if (Status status = tie_again(); !status) return status;
   return followed->fresh_vertices > 0 ? hand_over() : Status{};
+}
+
+// --- sutures
+
+/// Those whose turn comes are tied.
+Status Simulation::State::tie() {
+  if (sutures.is_empty()) return {};
+  sutures.begin_frame(frames);
+  return solver->set_ties(sutures.ties());
+}
+
+/// Where the mesh has changed the ends are in other tets.
+Status Simulation::State::tie_again() {
+  if (sutures.is_empty()) return {};
+  sutures.follow(engine.mesh());
+  return solver->set_ties(sutures.ties());
+}
+
+Status Simulation::State::tear(std::vector<std::uint32_t>& torn) {
+  if (sutures.is_empty()) return {};
+  torn = sutures.tear(engine.mesh());
+  return torn.empty() ? Status{} : solver->set_ties(sutures.ties());
+}
+
+/// A solver that has no ties refuses: then there is no suture.
+template <class Add>
+Result<std::uint32_t> Simulation::State::add_suture(const Add& add) {
+  const Result<std::uint32_t> id = add();
+  if (!id) return id;
+  if (Status status = tie(); !status) {
+    (void)sutures.remove(*id);
+    return status.error();
+  }
+  return id;
+}
+
+Result<std::uint32_t> Simulation::add_suture(const std::array<TissuePoint, 2>& ends, const Suture& suture) {
+  State& s = *state_;
+  return s.add_suture([&] { return s.sutures.add(s.engine.mesh(), ends, suture); });
+}
+
+Result<std::uint32_t> Simulation::add_suture(const std::array<Vec3, 2>& rest_places, const Suture& suture) {
+  State& s = *state_;
+  return s.add_suture([&] { return s.sutures.add(s.engine.mesh(), rest_places, suture); });
+}
+
+Status Simulation::remove_suture(std::uint32_t id) {
+  if (Status status = state_->sutures.remove(id); !status) return status;
+  return state_->solver->set_ties(state_->sutures.ties());
+}
+
+std::vector<SutureState> Simulation::sutures() const {
+  return state_->sutures.states(state_->engine.mesh());
 }
 
 // --- the rest
@@ -341,14 +411,12 @@ Result<Simulation> Simulation::create(TetMesh mesh, SimulationOptions options, s
   if (!(options.body.length_unit > 0 && std::isfinite(options.body.length_unit))) {
     return bad("the length unit must be above 0 m");
   }
-  const double spacing = mean_edge_length(mesh);
   Result<Engine> engine = Engine::create(std::move(mesh), options.engine);
   if (!engine) return engine.error();
   auto state = std::make_unique<State>(std::move(engine).value(), std::move(solver), std::move(options));
-  state->spacing = spacing;
   const SimulationOptions& o = state->options;
   state->contact_stiffness =
-      o.contact_stiffness > 0 ? o.contact_stiffness : 10 * stiffest(o.materials) * spacing * o.body.length_unit;
+      o.contact_stiffness > 0 ? o.contact_stiffness : 10 * stiffest(o.materials) * state->spacing * o.body.length_unit;
   return Simulation(std::move(state));
 }
 
@@ -363,6 +431,8 @@ Result<unsigned> Simulation::settle(unsigned max_frames, double speed) {
     Result<AdvanceReport> advanced = s.solver->advance(s.options.frame_seconds);
     if (!advanced) return advanced.error();
     if (Status status = s.hand_over(); !status) return status.error();
+    std::vector<std::uint32_t> torn;
+    if (Status status = s.tear(torn); !status) return status.error();
     if (advanced->fastest < speed) return i + 1;
     s.solver->slow_down(0.5);
   }
@@ -373,13 +443,13 @@ bool Simulation::undo() {
   State& s = *state_;
   s.is_in_stroke = false;
   if (!s.engine.undo()) return false;
-  return s.solver->follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
+  return s.solver->follow(s.engine.journal(), s.engine.mesh()).ok() && s.tie_again().ok() && s.hand_over().ok();
 }
 
 bool Simulation::redo() {
   State& s = *state_;
   if (!s.engine.redo()) return false;
-  return s.solver->follow(s.engine.journal(), s.engine.mesh()).ok() && s.hand_over().ok();
+  return s.solver->follow(s.engine.journal(), s.engine.mesh()).ok() && s.tie_again().ok() && s.hand_over().ok();
 }
 
 Status Simulation::keep_undo(std::size_t operations) {
@@ -422,6 +492,7 @@ std::uint64_t Simulation::hash() const {
   hash.add(state_->engine.mesh().hash());
   hash.add(state_->solver->hash());
   state_->tool_contacts.add_to(hash);
+  state_->sutures.add_to(hash);
   return hash.value();
 }
 

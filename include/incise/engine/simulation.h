@@ -9,6 +9,7 @@
 
 #include "incise/core/result.h"
 #include "incise/engine/engine.h"
+#include "incise/engine/suture.h"
 #include "incise/sim/body.h"
 #include "incise/sim/contact.h"
 #include "incise/sim/haptic_snapshot.h"
@@ -72,6 +73,7 @@ struct FrameReport {
   std::vector<Vec3> hook_forces;  ///< of the tissue on each hook of the input, N
   std::uint32_t stroke = 0;       ///< the stroke under way, of this simulation's from 1; 0: none
   std::size_t contacts = 0;       ///< vertices that tools touch
+  std::vector<std::uint32_t> torn_sutures;  ///< ids of those that tore in this frame
 };
 
 /// A body that is cut while it deforms: the paper's whole pipeline (Figure 1), frame by frame.
@@ -111,6 +113,20 @@ class Simulation {
   /// Keeps no more than the last `operations` strokes for undo; see `Engine::keep_undo`. The body and the blade follow
   /// each frame and lose nothing. Errors: kBadArgument for 0.
   Status keep_undo(std::size_t operations);
+
+  /// Ties two places of the material to each other, of one piece or of two: a suture, a staple, a plate. It acts from
+  /// its first frame on, at once where that has come, and follows the material through cuts, maintenance, undo and redo.
+  /// The blade goes past it. Returns its id; no two of a simulation are the same.
+  /// @param ends  each in a live tet of `mesh()`, weights in [0, 1].
+  /// Errors: kBadArgument for such ends, for numbers out of range, or where the solver has no ties; nothing changes.
+  Result<std::uint32_t> add_suture(const std::array<TissuePoint, 2>& ends, const Suture& suture);
+  /// The same between two places of the rest shape, length unit: in the tissue, or no further from it than a quarter of
+  /// the mean edge. Cost: O(tets).
+  Result<std::uint32_t> add_suture(const std::array<Vec3, 2>& rest_places, const Suture& suture);
+  /// Takes a suture out, torn or not. Errors: kBadArgument where there is none of that id.
+  Status remove_suture(std::uint32_t id);
+  /// All sutures as they are now, in the order in which they were added.
+  [[nodiscard]] std::vector<SutureState> sutures() const;
 
   /// As given to `create`.
   [[nodiscard]] const SimulationOptions& options() const;

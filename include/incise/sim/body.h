@@ -51,7 +51,8 @@ struct BodyEnergy {
   double potential = 0;  ///< of gravity, against the origin of coordinates
   double held = 0;       ///< in the springs that hold vertices
   double pulled = 0;     ///< in the pulls, as they stand
-  [[nodiscard]] double total() const { return elastic + kinetic + potential + held + pulled; }  ///< the sum
+  double tied = 0;       ///< in the ties
+  [[nodiscard]] double total() const { return elastic + kinetic + potential + held + pulled + tied; }  ///< the sum
 };
 
 /// An elastic body that follows a tetrahedral mesh through its journal: the paper's relaxation.
@@ -108,6 +109,11 @@ class DeformableBody final : public Solver {
   Status set_pulls(std::vector<Pull> pulls) override;
   /// As set last; those whose vertices died pull no more.
   [[nodiscard]] const std::vector<Pull>& pulls() const;
+  /// Replaces all ties. Wakes the vertices of those that come, go or change. Errors: kBadArgument names the first
+  /// malformed tie; then nothing changes. Cost: O(ties²), a few ns each; O(vertices) where one goes.
+  Status set_ties(std::vector<Tie> ties) override;
+  /// As set last; those whose tets changed act no more.
+  [[nodiscard]] const std::vector<Tie>& ties() const;
   /// The force of a pull on the tissue as it stands, N.
   [[nodiscard]] Vec3 pull_force(std::size_t index) const override;
   /// What the tissue does to its rigid holds, N, at the last substep: elasticity, gravity and inertia. Cost: O(held).

@@ -12,6 +12,7 @@
 #include "incise/geom/vec.h"
 #include "incise/mesh/journal.h"
 #include "incise/mesh/tet_mesh.h"
+#include "incise/sim/tissue_point.h"
 
 namespace incise {
 inline namespace v0 {
@@ -35,6 +36,22 @@ struct Pull {
 
   /// Whether both are the same in all numbers.
   friend bool operator==(const Pull&, const Pull&) = default;
+};
+
+/// A spring between two points of the tissue: k/2 (|b − a| − L)². It pulls at both ends alike, so that it changes
+/// neither the momentum of the body nor its angular momentum.
+struct Tie {
+  std::array<TissuePoint, 2> ends;  ///< a and b, each in a live tet
+  double stiffness = 0;             ///< k: N/m, at least 0
+  double rest_length = 0;           ///< L: m, at least 0
+  bool pushes = true;               ///< below its rest length; a thread, which does not, hangs slack there
+
+  /// Its force on `a` towards `b` where these are `length` metres apart, N: below 0 where it pushes them apart.
+  [[nodiscard]] double tension(double length) const {
+    return length < rest_length && !pushes ? 0.0 : stiffness * (length - rest_length);
+  }
+  /// Whether both are the same in all numbers.
+  friend bool operator==(const Tie&, const Tie&) = default;
 };
 
 /// What following the journal changed.
@@ -68,6 +85,9 @@ class Solver {
   virtual Result<AdvanceReport> advance(double dt) = 0;
   /// Replaces all pulls: of hooks, tools, and the blade that presses on tissue. An error names what is malformed.
   virtual Status set_pulls(std::vector<Pull> pulls) = 0;
+  /// Replaces all ties: sutures and the like. To be given anew after each `follow`, whose steps may have taken the tets
+  /// that they are in. Errors: kBadArgument names the first malformed tie; a solver that has no ties refuses any.
+  virtual Status set_ties(std::vector<Tie> ties);
   /// The force of a pull on the tissue as it stands, N. `index` into what `set_pulls` got last.
   [[nodiscard]] virtual Vec3 pull_force(std::size_t index) const = 0;
   /// The place of every vertex slot, in the mesh's length unit, finite. Valid until the next call that changes it.

@@ -25,6 +25,9 @@ struct TissuePoint {
   [[nodiscard]] Vec3 place(const TetMesh& mesh, BodyShape shape = BodyShape::kCurrent) const;
   /// Whether the tet is as it was.
   [[nodiscard]] bool holds(const TetMesh& mesh) const;
+
+  /// Whether both are the same in all numbers.
+  friend bool operator==(const TissuePoint&, const TissuePoint&) = default;
 };
 
 /// Finds the tissue at a place, walking from tet to tet.
@@ -48,6 +51,12 @@ struct TissuePoint {
 /// are far from all places.
 [[nodiscard]] std::vector<std::optional<TissuePoint>> find_tissue(const TetMesh& mesh, BodyShape shape,
                                                                   std::span<const Vec3> places);
+
+/// Finds the tissue nearest to a place, or nothing where none is within `farthest` (length unit, at least 0). Where
+/// the place is inside, that is the first tet that holds it, in the order of ids; of tets equally near, the first.
+/// Cost: O(tets), about 5 ns each where they are far from the place.
+[[nodiscard]] std::optional<TissuePoint> find_nearest(const TetMesh& mesh, BodyShape shape, const Vec3& place,
+                                                      double farthest);
 
 }  // namespace v0
 }  // namespace incise

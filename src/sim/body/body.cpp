@@ -278,6 +278,7 @@ BodyEnergy DeformableBody::energy() const {
   for (const Pull& pull : s.pulls) {
     energy.pulled += to_joule * energy_of(s, pull);
   }
+  energy.tied = to_joule * s.tied_energy();
   return energy;
 }
 

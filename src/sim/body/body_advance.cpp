@@ -23,6 +23,8 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   const bool touches = s.options.self.on && s.options.relaxation == Relaxation::kBlockDescent;
   if (touches) s.contact.find(s, dt);
   s.find_groups();
+  s.wake_tied();
+  s.lend_to_seam();
   s.prepare_pulls();
   s.order.refresh();
   s.list_pressed();
@@ -160,10 +162,10 @@ void DeformableBody::State::wake_where_pulls_differ(const std::vector<Pull>& nex
   }
 }
 
-/// Lists what pulls at each vertex: springs that hold and pulls alike.
+/// Lists what pulls at each vertex: springs that hold, pulls and ties alike.
 void DeformableBody::State::prepare_pulls() {
   for (const detail::PullTerm& term : terms) {
-    for (unsigned i = 0; i < 4; ++i) {
+    for (unsigned i = 0; i < term.corners; ++i) {
       if (term.weights[i] != 0) motions[VertexId(term.vertices[i])].pulls = 0;
     }
   }
@@ -176,13 +178,14 @@ void DeformableBody::State::prepare_pulls() {
           detail::term_of({{VertexId(v)}, {1, 0, 0, 0}, hold.target, Vec3::Zero(), hold.stiffness}, middle, unit()));
     }
   }
+  for (const Tie& tie : ties) terms.push_back(detail::term_of(tie, unit()));
   list_uses();
 }
 
 void DeformableBody::State::list_uses() {
   const auto for_each_use = [&](const auto& visit) {
     for (std::uint32_t t = 0; t < terms.size(); ++t) {
-      for (unsigned i = 0; i < 4; ++i) {
+      for (unsigned i = 0; i < terms[t].corners; ++i) {
         if (terms[t].weights[i] != 0) visit(t, VertexId(terms[t].vertices[i]), terms[t].weights[i]);
       }
     }

@@ -75,18 +75,17 @@ class CarriedPieces {
   }
 
   void list_terms() {
-    const auto add = [&](auto list, const std::array<std::uint32_t, 4>& vertices, std::uint32_t term, unsigned count) {
-      std::uint32_t seen[4];
-      for (unsigned i = 0; i < count; ++i) {
-        seen[i] = number_at(vertices[i]);
-        if (seen[i] != kInvalidIndex && std::find(seen, seen + i, seen[i]) == seen + i)
-          (carried_[seen[i]].*list).push_back(term);
-      }
+    const auto add = [&](auto list, std::uint32_t term, std::uint32_t vertex, std::uint32_t other = kInvalidIndex) {
+      const std::uint32_t one = number_at(vertex), two = number_at(other);
+      if (one != kInvalidIndex) (carried_[one].*list).push_back(term);
+      if (two != kInvalidIndex && two != one) (carried_[two].*list).push_back(term);
     };
     const auto& contacts = s_.contact.terms();
-    for (std::uint32_t t = 0; t < contacts.size(); ++t) add(&Carried::contacts, contacts[t].vertices, t, 2);
+    for (std::uint32_t t = 0; t < contacts.size(); ++t)
+      add(&Carried::contacts, t, contacts[t].vertices[0], contacts[t].vertices[1]);
     for (std::uint32_t t = 0; t < s_.terms.size(); ++t) {
-      if (s_.terms[t].stiffness > 0) add(&Carried::pulls, s_.terms[t].vertices, t, 1);
+      const detail::PullTerm& term = s_.terms[t];
+      if (term.stiffness > 0) add(&Carried::pulls, t, term.vertices[0], term.is_tie() ? term.vertices[4] : kInvalidIndex);
     }
   }
 
@@ -166,14 +165,20 @@ class CarriedPieces {
   }
 
   void add_pull(std::uint32_t number, const detail::PullTerm& term, Vec6& g, Mat6& h) const {
-    Vec3 off = -term.target, point = Vec3::Zero();
-    for (unsigned i = 0; i < 4; ++i) {
+    Vec3 off = -term.target;
+    std::array<Vec3, 2> points = {Vec3::Zero(), Vec3::Zero()};  // of a tie: −a and b
+    for (unsigned i = 0; i < term.corners; ++i) {
       if (term.weights[i] == 0) continue;
       off += term.weights[i] * (place_of(term.vertices[i]) + moved_by(term.vertices[i]));
-      point += term.weights[i] * place_of(term.vertices[i]);
+      points[i / 4] += term.weights[i] * place_of(term.vertices[i]);
     }
     const detail::PullState pull = detail::pull_state(term, off);
-    add(1, point - carried_[number].centre, pull.slope, pull.curvature(term), g, h);
+    const Mat3 curvature = pull.curvature(term);
+    const Vec3& centre = carried_[number].centre;
+    if (!term.is_tie()) return add(1, points[0] - centre, pull.slope, curvature, g, h);
+    const bool has_a = number_at(term.vertices[0]) == number, has_b = number_at(term.vertices[4]) == number;
+    if (has_a == has_b) return;  // both of one piece: its motion changes nothing
+    add(has_a ? -1 : 1, (has_a ? Vec3(-points[0]) : points[1]) - centre, pull.slope, curvature, g, h);
   }
 
   void move(std::uint32_t number) {

@@ -355,6 +355,7 @@ Result<FollowReport> DeformableBody::follow(const Journal& journal, const TetMes
     for (std::size_t i = s.cursor.position(); i < journal.position(); ++i) follower.follow(journal.step(i));
   }
   s.drop_lost_pulls(mesh);
+  s.drop_lost_ties(mesh);
   s.cursor.move_to(journal);
   s.remove_touched(mesh, report);
   s.put_fresh(mesh);

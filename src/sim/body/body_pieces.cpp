@@ -71,6 +71,11 @@ void DeformableBody::State::gather_crumbs() {
   }
   for (std::size_t i = 0; i < pieces.size(); ++i) pieces[i].is_crumb = volume[i] < largest_crumb;
   for (const auto& [v, hold] : holds) pieces[piece_of[VertexId(v)]].is_crumb = false;
+  for (const Tie& tie : ties) {
+    for (const TissuePoint& end : tie.ends) {
+      if (tie.stiffness > 0) pieces[piece_of[end.vertices[0]]].is_crumb = false;
+    }
+  }
   for (std::size_t i = crumbs.size(); i-- > 0;) {
     const VertexId v(crumbs[i].vertices.front());
     if (!pieces[piece_of[v]].is_crumb) dissolve_crumb_at(v);
@@ -175,7 +180,7 @@ void DeformableBody::State::find_free_pieces() {
   }
 }
 
-/// Pieces that touch each other move as one where nothing holds any of them: contact hands momentum on between them.
+/// Pieces that touch or are tied to each other move as one where nothing holds any of them: they hand momentum on.
 void DeformableBody::State::find_groups() {
   group_of.resize(pieces.size());
   for (std::uint32_t i = 0; i < pieces.size(); ++i) {
@@ -185,11 +190,15 @@ void DeformableBody::State::find_groups() {
     while (group_of[piece] != piece) piece = group_of[piece] = group_of[group_of[piece]];
     return piece;
   };
-  for (const detail::ContactTerm& term : contact.terms()) {
-    const std::uint32_t a = piece_of[VertexId(term.vertices[0])], b = piece_of[VertexId(term.vertices[1])];
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
     if (a != b) pieces[a].is_carried = !pieces[a].is_held, pieces[b].is_carried = !pieces[b].is_held;
     const std::uint32_t p = root(a), q = root(b);
     group_of[std::max(p, q)] = std::min(p, q);
+  };
+  for (const detail::ContactTerm& term : contact.terms())
+    join(piece_of[VertexId(term.vertices[0])], piece_of[VertexId(term.vertices[1])]);
+  for (const Tie& tie : ties) {
+    if (tie.stiffness > 0) join(piece_of[tie.ends[0].vertices[0]], piece_of[tie.ends[1].vertices[0]]);
   }
   for (std::uint32_t i = 0; i < pieces.size(); ++i) group_of[i] = root(i);
   groups.assign(pieces.size(), {});

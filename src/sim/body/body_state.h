@@ -75,6 +75,8 @@ struct Crumb {
 
 /// A pull as the descent sees it, limits in kg L/s².
 [[nodiscard]] PullTerm term_of(const Pull& pull, const Vec3& middle, double unit);
+/// The same of a tie.
+[[nodiscard]] PullTerm term_of(const Tie& tie, double unit);
 
 /// What may stand otherwise than at the last `follow`, each once, in the order in which it was found.
 struct Touched {
@@ -110,6 +112,8 @@ struct DeformableBody::State {
   std::map<std::uint32_t, detail::Hold> lost_holds;  // of vertices that died: undo may bring them back
   IdArray<VertexId, detail::Held> held;              // what `holds` says
   std::vector<Pull> pulls;
+  std::vector<Tie> ties;
+  std::vector<Vec3> tie_spans;  // from a to b when its vertices were last woken
   Vec3 middle = Vec3::Zero();  // that single-precision places count from
   double extent = 0;           // of the body along its longest axis, when `middle` was found
   double drifted = 0;          // the most that anything has moved since
@@ -202,6 +206,16 @@ struct DeformableBody::State {
   void release_lost_holds();
   void drop_lost_pulls(const TetMesh& mesh);
   [[nodiscard]] bool differs(const TetMesh& mesh, TetId t) const;
+
+  // ties (body_ties.cpp)
+  [[nodiscard]] Vec3 span_of(const Tie& tie) const;
+  void wake_ends(const Tie& tie);
+  void let_go(const Tie& tie);
+  void wake_tied();
+  void lend_to_seam();
+  void drop_lost_ties(const TetMesh& mesh);
+  [[nodiscard]] double tied_energy() const;
+  [[nodiscard]] Status check(const Tie& tie, std::size_t index) const;
 
   // averaged volumes, in double precision (body_pressure.cpp)
   template <class Visit>

@@ -108,10 +108,15 @@ class Projection {
     Vec3 off = -term.target;
     double sum = 1 / (term.stiffness * h_ * h_);
     const double compliance = sum;
-    for (unsigned i = 0; i < 4; ++i) {
+    for (unsigned i = 0; i < term.corners; ++i) {
       if (term.weights[i] == 0) continue;
       off += term.weights[i] * x_[term.vertices[i]];
       sum += weights_[term.vertices[i]] * term.weights[i] * term.weights[i];
+    }
+    if (term.is_tie()) {
+      const double length = off.norm();
+      if (length > 0) off *= (length - term.rest_length) / length;
+      if (term.pulls_only && length <= term.rest_length) return;
     }
     if (term.has_axis) off = term.axis.dot(off) * term.axis;
     if (term.pushes_only && term.axis.dot(off) >= 0) return;
@@ -120,7 +125,7 @@ class Projection {
     const double most = term.limit * h_ * h_;  // multipliers are forces times h²
     if (term.has_axis && multiplier.norm() > most) multiplier *= most / multiplier.norm();
     const Vec3 more = multiplier - before;
-    for (unsigned i = 0; i < 4; ++i) {
+    for (unsigned i = 0; i < term.corners; ++i) {
       if (term.weights[i] != 0) x_[term.vertices[i]] += weights_[term.vertices[i]] * term.weights[i] * more;
     }
   }

@@ -387,7 +387,6 @@ void SelfContact::find(State& body, double dt) {
   contacts_.swap(next_);
   for (std::uint32_t i = 0; i < contacts_.size(); ++i) contact_of_[contacts_[i].vertex] = i + 1;
   list_terms(body);
-  lend_to_seam(body);
 }
 
 // --- what the descent sees
@@ -440,17 +439,14 @@ void SelfContact::list_uses(State& body) {
   for_each_use([&](ContactUse use, Motion& motion) { uses_[motion.first_contact + motion.contacts++] = use; });
 }
 
-/// No vertex of the first part may share a term with one of the second: a vertex before a face of the other part is
-/// visited with the seam in this step.
-void SelfContact::lend_to_seam(State& body) const {
-  std::vector<std::uint32_t> lent;
+/// A vertex before a face of the other part is visited with the seam in this step.
+void SelfContact::add_lent(const State& body, std::vector<std::uint32_t>& lent) const {
   for (const ContactTerm& term : terms_) {
     bool touches[SweepOrder::kParts + 1] = {};
     for (const std::uint32_t v : term.vertices)
       touches[static_cast<std::size_t>(body.order.part_of(VertexId(v)))] = true;
     if (touches[0] && touches[1]) lent.push_back(term.vertices[0]);
   }
-  body.order.lend_to_seam(lent);
 }
 
 void SelfContact::finish(const State& body, double dt, double fastest) {

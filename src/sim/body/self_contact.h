@@ -49,8 +49,8 @@ class SelfContact {
   /// To be told where something is put elsewhere between two steps: by how much at most.
   void note_jump(double distance) { jump_ = std::max(jump_, distance); }
 
-  /// Finds who touches whom, for a step of `dt` seconds; wakes whoever's partner has moved, lends vertices to the seam,
-  /// and lists terms and their uses.
+  /// Finds who touches whom, for a step of `dt` seconds; wakes whoever's partner has moved, and lists
+  /// terms and their uses.
   void find(DeformableBody::State& body, double dt);
   /// Takes in what the step left: forces, and how far has slipped. `fastest`: the greatest speed in it, length unit/s.
   void finish(const DeformableBody::State& body, double dt, double fastest);
@@ -59,6 +59,8 @@ class SelfContact {
   [[nodiscard]] std::span<const ContactTerm> terms() const { return terms_; }
   [[nodiscard]] const ContactUse* uses() const { return uses_.data(); }
   [[nodiscard]] const ContactSurface& surface() const { return surface_; }
+  /// Appends the vertices to be lent to the seam: no vertex of the first part may share a term with one of the second.
+  void add_lent(const DeformableBody::State& body, std::vector<std::uint32_t>& lent) const;
   /// How many are in force.
   [[nodiscard]] std::size_t count_pressing() const;
   void add_to(StateHash& hash) const;
@@ -107,7 +109,6 @@ class SelfContact {
   [[nodiscard]] Contact contact_of(const DeformableBody::State& body, const Query& query, const Found& found) const;
   void list_terms(DeformableBody::State& body);
   void list_uses(DeformableBody::State& body);
-  void lend_to_seam(DeformableBody::State& body) const;
 
   ContactSurface surface_;
   ContactGrid grid_;

@@ -469,7 +469,17 @@ Mat3 PullState::curvature(const PullTerm& term) const {
   return along;
 }
 
+/// Stiff in all directions, although across it is not: k/2 |x − y|², where y is the point nearest to x of those without
+/// force, lies above the tie's energy everywhere and touches it at x. So a visit never goes uphill.
+static PullState tie_state(const PullTerm& term, const Vec3& off) {
+  const double length = off.norm(), over = length - term.rest_length;
+  if (!(term.stiffness > 0) || (term.pulls_only && over <= 0)) return {};
+  const double force = term.stiffness * over;
+  return {length > 0 ? Vec3(force / length * off) : Vec3(Vec3::Zero()), term.stiffness, 0, 0.5 * force * over};
+}
+
 PullState pull_state(const PullTerm& term, const Vec3& off) {
+  if (term.is_tie()) return tie_state(term, off);
   if (!term.has_axis) {
     return {term.stiffness * off, term.stiffness, 0, 0.5 * term.stiffness * off.squaredNorm()};
   }
@@ -490,7 +500,7 @@ PullState pull_state(const PullTerm& term, const Vec3& off) {
 
 Vec3 off_target(const PullTerm& term, const float* places) {
   Vec3 off = -term.target;
-  for (unsigned i = 0; i < 4; ++i) {
+  for (unsigned i = 0; i < term.corners; ++i) {
     if (term.weights[i] == 0) continue;
     const float* p = places + std::size_t{4} * term.vertices[i];
     off += term.weights[i] * Vec3(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));

@@ -29,10 +29,11 @@ struct Motion {
   bool leaps = false;  ///< its velocity takes it far enough to do harm
 };
 
-/// A pull as the descent sees it; places against the body's middle.
+/// A pull or a tie as the descent sees it; places against the body's middle. Of a tie the point is b − a.
 struct PullTerm {
-  std::array<std::uint32_t, 4> vertices{};
-  std::array<double, 4> weights{};  ///< 0 where there is no vertex
+  std::array<std::uint32_t, 8> vertices{};  ///< of a tie: those of a, then those of b
+  std::array<double, 8> weights{};          ///< 0 where there is no vertex; of a tie below 0 for a
+  std::uint32_t corners = 4;                ///< of these there may be: 8 of a tie
   Vec3 target = Vec3::Zero();
   Vec3 axis = Vec3::Zero();
   double stiffness = 0;
@@ -40,6 +41,10 @@ struct PullTerm {
   double drag = 0;             ///< the same across it: 0: none
   Vec3 anchor = Vec3::Zero();  ///< with drag: where the point is held across the axis, against the target
   bool has_axis = false, pushes_only = false;
+  double rest_length = 0;   ///< of a tie
+  bool pulls_only = false;  ///< likewise
+
+  [[nodiscard]] bool is_tie() const { return corners == 8; }
 };
 
 /// One vertex' part in a pull.

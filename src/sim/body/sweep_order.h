@@ -38,7 +38,7 @@ class SweepOrder {
   /// The part that a vertex belongs to, lent or not.
   [[nodiscard]] Part part_of(VertexId vertex) const { return parts_[vertex]; }
   /// Until the next call these vertices, and no others, are visited with the seam, whatever their part: what they share
-  /// besides tets with the other part. Cost: O(lent).
+  /// besides tets with the other part. Ascending. Cost: O(lent).
   void lend_to_seam(std::span<const std::uint32_t> vertices);
 
   [[nodiscard]] bool moves(VertexId vertex) const { return parts_[vertex] != Part::kNone; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "incise/geom/box.h"
+#include "incise/geom/closest.h"
 #include "sim/body/element.h"
 
 namespace incise {
@@ -119,6 +120,35 @@ std::vector<std::optional<TissuePoint>> find_tissue(const TetMesh& mesh, BodySha
     }
   });
   return found;
+}
+
+std::optional<TissuePoint> find_nearest(const TetMesh& mesh, BodyShape shape, const Vec3& place, double farthest) {
+  std::optional<TissuePoint> nearest;
+  bool is_in = false;
+  double least = farthest * farthest;
+  mesh.for_each_tet([&](TetId tet) {
+    if (is_in) return;
+    const Corners p = corners(mesh, shape, tet);
+    Box box;
+    for (const Vec3& corner : p) box.extend(corner);
+    if (box.distance2(place) > least) return;
+    if (const auto inside = point_in(mesh, tet, shares(p, place))) {
+      nearest = inside;
+      is_in = true;
+      return;
+    }
+    for (unsigned side = 0; side < 4; ++side) {
+      const auto& [a, b, c] = kSideCorners[side];
+      const ClosestPoint close = closest_on_triangle(place, p[a], p[b], p[c]);
+      if (close.distance2 > least || (nearest && close.distance2 == least)) continue;
+      least = close.distance2;
+      nearest = TissuePoint{tet, mesh.vertices(tet), {}};
+      nearest->weights[a] = close.weights[0];
+      nearest->weights[b] = close.weights[1];
+      nearest->weights[c] = close.weights[2];
+    }
+  });
+  return nearest;
 }
 
 }  // namespace v0
