@@ -51,7 +51,11 @@ Result<std::uint32_t> Sutures::add(const TetMesh& mesh, const std::array<TissueP
     if (!std::all_of(point.weights.begin(), point.weights.end(), is_share) || !(std::abs(sum - 1) < 1e-9)) {
       return bad(name + "its weights must lie in [0, 1] and sum up to 1");
     }
-    entry.ends[i] = {point, point.place(mesh, BodyShape::kRest), rest_corners(mesh, point.vertices)};
+    End& end = entry.ends[i];
+    end.point = point;
+    end.rest = point.place(mesh, BodyShape::kRest);
+    end.corners.fill(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    (void)find(mesh, end);  // so that its weights are those that the place alone gives: undo comes back to them
   }
   return put(std::move(entry));
 }

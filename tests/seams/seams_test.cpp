@@ -67,6 +67,16 @@ TEST(OwnSolver, feels_hooks) {
   EXPECT_GT(report->hook_forces[0].z(), 0.1);  // it pulls back
 }
 
+TEST(OwnSolver, refuses_sutures_unless_it_has_ties) {
+  SpringSolver* solver = nullptr;
+  Simulation simulation = cube_on_springs(solver);
+  const auto id = simulation.add_suture({Vec3(0.5, 0.5, 0.2), Vec3(0.5, 0.5, 0.8)}, Suture());
+  ASSERT_FALSE(id.ok());
+  EXPECT_NE(id.error().message.find("override `set_ties`"), std::string::npos) << id.error().message;
+  EXPECT_TRUE(simulation.sutures().empty());
+  EXPECT_TRUE(simulation.frame({}).ok());
+}
+
 TEST(OwnSolver, is_asked_for) {
   EXPECT_FALSE(Simulation::create(*TetMesh::build(kuhn_cube(1)), {}, nullptr).ok());
 }
