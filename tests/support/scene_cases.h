@@ -56,6 +56,14 @@ inline Json full_scene() {
                      {"radius", 0.3},
                      {"stiffness", 50},
                      {"path", {{{"t", 0.05}, {"position", {1, 1, 1}}}, {{"t", 0.25}, {"position", {1, 1.2, 1.3}}}}}}};
+  scene["sutures"] = {{{"name", "suture"},
+                       {"from", {0.2, 0.3, 0.4}},
+                       {"to", {0.7, 0.3, 0.4}},
+                       {"stiffness", 30},
+                       {"rest_length", 0.3},
+                       {"pushes", false},
+                       {"strength", 50},
+                       {"start", 0.3}}};
   scene["strokes"] = {{{"blade", {blade_stroke(0, 0.4)}}, {"start", 0.1}, {"stretch", 0.5}, {"pause", 0.05}},
                       {{"blade",
                         {{{"name", "rigid"},

@@ -2,6 +2,7 @@
 #include "app/jobs/simulate_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -117,6 +118,9 @@ void SceneRunner::add(const FrameReport& frame, const FrameInput& input) {
   add(frame.blade);
   ForceFigures& forces = report_.forces;
   for (const Vec3& force : frame.hook_forces) forces.peak_hook_force = std::max(forces.peak_hook_force, force.norm());
+  for (const SutureState& suture : simulation().sutures())
+    forces.peak_suture_force = std::max(forces.peak_suture_force, std::abs(suture.force));
+  forces.torn_sutures += frame.torn_sutures.size();
   forces.contacts = std::max<std::uint64_t>(forces.contacts, frame.contacts);
 }
 

@@ -15,7 +15,8 @@ namespace {
 Json json_of(const BodyEnergy& energy) {
   return {{"elastic", encode(energy.elastic)},     {"kinetic", encode(energy.kinetic)},
           {"potential", encode(energy.potential)}, {"held", encode(energy.held)},
-          {"pulled", encode(energy.pulled)},       {"total", encode(energy.total())}};
+          {"pulled", encode(energy.pulled)},       {"tied", encode(energy.tied)},
+          {"total", encode(energy.total())}};
 }
 
 Json json_of(const ForceFigures& forces) {
@@ -27,6 +28,8 @@ Json json_of(const ForceFigures& forces) {
           {"touching_frames", forces.touching_frames},
           {"yielding_frames", forces.yielding_frames},
           {"peak_hook_force", encode(forces.peak_hook_force)},
+          {"peak_suture_force", encode(forces.peak_suture_force)},
+          {"torn_sutures", forces.torn_sutures},
           {"contacts", forces.contacts}};
 }
 
@@ -102,6 +105,9 @@ std::string to_text(const SimulationReport& report) {
         report.haptics.peak_force, report.haptics.sampled_minimum, report.haptics.compute_us.p999);
   }
   if (f.peak_hook_force > 0) text += fmt::format("hooks: at most {:.3g} N\n", f.peak_hook_force);
+  if (f.peak_suture_force > 0 || f.torn_sutures > 0) {
+    text += fmt::format("sutures: at most {:.3g} N, {} torn\n", f.peak_suture_force, f.torn_sutures);
+  }
   if (report.inverted_tets > 0) {
     text += fmt::format("inverted as the body stands: {}\n", counted(report.inverted_tets, "tet"));
   }

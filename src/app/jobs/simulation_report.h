@@ -25,6 +25,8 @@ struct ForceFigures {
   std::uint64_t touching_frames = 0;  ///< in which the edge pressed on tissue
   std::uint64_t yielding_frames = 0;  ///< in which tissue gave way
   double peak_hook_force = 0;         ///< of the tissue on one hook, N
+  double peak_suture_force = 0;       ///< with which one suture pulled or pushed, N
+  std::uint64_t torn_sutures = 0;     ///< how many tore
   std::uint64_t contacts = 0;         ///< vertices that tools touched at once, at most
 };
 

@@ -66,6 +66,17 @@ struct SceneHook {
   std::vector<Vec3> positions;  ///< one per time
 };
 
+/// A suture between two places of the body at rest; see `Suture`.
+struct SceneSuture {
+  std::string name;
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< length unit, apart from each other
+  double stiffness = 200;                       ///< N/m, above 0
+  double rest_length = 0;                       ///< length unit, at least 0
+  bool pushes = true;
+  double strength = std::numeric_limits<double>::infinity();  ///< N, above 0
+  double start = 0;                                           ///< s, at least 0: when it is put in
+};
+
 /// How long the body comes to rest before the first frame; see `Simulation::settle`.
 struct SceneSettle {
   std::uint32_t frames = 0;  ///< at most
@@ -80,6 +91,7 @@ struct Scene {
   std::vector<Attachment> attachments;
   std::vector<SceneTool> tools;
   std::vector<SceneHook> hooks;
+  std::vector<SceneSuture> sutures;
   std::vector<SceneStroke> strokes;  ///< in order of time, at least two frames between them
   std::uint64_t frames = 0;
   SceneSettle settle;
@@ -90,7 +102,7 @@ struct Scene {
 
 /// Bounds on what a scene may hold.
 inline constexpr std::uint64_t kMaxSceneFrames = 10'000'000;
-inline constexpr std::size_t kMaxSceneItems = 1000;  ///< attachments, tools, hooks, paintings, blades
+inline constexpr std::size_t kMaxSceneItems = 1000;  ///< attachments, tools, hooks, sutures, paintings, blades
 
 /// Parses a scene: JSON of format "incise-scene", version 1, whose keys `docs/scenes.md` lists.
 ///

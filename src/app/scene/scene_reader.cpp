@@ -28,6 +28,7 @@ constexpr double kMaxPoisson = 0.499;      // as `Material`
 constexpr double kMaxSnap = 0.4;           // as `CutOptions`
 constexpr double kMaxJitter = 0.15;        // as `jitter`
 constexpr double kMaxStretch = 1e6;
+constexpr double kLatestStart = 1e7;  // s, of a suture: beyond the last frame that there may be
 constexpr double kTail = 0.5;  // s, that a scene without frames and duration goes on after its last key time
 constexpr double kFramesBetweenStrokes = 2;
 constexpr double kSteepestAngle = 89;           // degrees, of an exercise: an edge along the surface cuts no depth
@@ -292,6 +293,7 @@ class SceneHandsReader : public SceneOptionsReader {
   bool read_hands(const JsonValue& root) {
     return read_list(*this, root, "tools", &SceneHandsReader::read_tool) &&
            read_list(*this, root, "hooks", &SceneHandsReader::read_hook) &&
+           read_list(*this, root, "sutures", &SceneHandsReader::read_suture) &&
            read_list(*this, root, "strokes", &SceneHandsReader::read_blade_entry);
   }
 
@@ -393,6 +395,19 @@ class SceneHandsReader : public SceneOptionsReader {
              return read_.is_object(key, where, {"t", "position"}) && read_time(key, where, hook.times) &&
                     read_.need_point(key, where, "position", hook.positions.emplace_back());
            });
+  }
+  bool read_suture(const JsonValue& value, const std::string& path) {
+    SceneSuture& suture = scene_.sutures.emplace_back();
+    return read_.is_object(value, path,
+                           {"name", "from", "to", "stiffness", "rest_length", "pushes", "strength", "start"}) &&
+           read_.optional_text(value, path, "name", suture.name) &&
+           read_.need_point(value, path, "from", suture.from) && read_.need_point(value, path, "to", suture.to) &&
+           (suture.from != suture.to || read_.fail(value, path, "has both ends in one place; move \"to\"")) &&
+           read_.optional_ranged(value, path, "stiffness", kAbove0, suture.stiffness) &&
+           read_.optional_ranged(value, path, "rest_length", kAtLeast0, suture.rest_length) &&
+           read_.optional_boolean(value, path, "pushes", suture.pushes) &&
+           read_.optional_ranged(value, path, "strength", kAbove0, suture.strength) &&
+           read_.optional_ranged(value, path, "start", {0, kLatestStart}, suture.start);
   }
   /// How the strokes of one blade lie in time.
   struct Timing {
@@ -596,7 +611,7 @@ class SceneReader : public SceneViewReader {
            read_.is_object(root, "", {"format",  "version",  "name",          "model",  "length_unit", "materials",
                                       "gravity", "damping",  "attachments",   "tools",  "hooks",       "strokes",
                                       "frames",  "duration", "frame_seconds", "settle", "seed",        "solver",
-                                      "cut",     "maintain", "contact",       "view",   "exercise"}) &&
+                                      "cut",     "maintain", "contact",       "view",   "exercise",    "sutures"}) &&
            read_.optional_text(root, "", "name", scene_.name) &&
            read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
   }
@@ -618,6 +633,7 @@ class SceneReader : public SceneViewReader {
     double last = 0;
     for (const SceneStroke& s : scene_.strokes) last = std::max(last, s.stroke.times.back());
     for (const SceneHook& hook : scene_.hooks) last = std::max(last, hook.times.back());
+    for (const SceneSuture& suture : scene_.sutures) last = std::max(last, suture.start);
     for (const SceneTool& tool : scene_.tools) last = std::max(last, tool.times.empty() ? 0 : tool.times.back());
     return last;
   }

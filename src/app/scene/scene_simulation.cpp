@@ -76,6 +76,28 @@ Status attach(const Scene& scene, Simulation& simulation) {
   return {};
 }
 
+/// The first frame whose end is later than a time.
+std::uint64_t first_frame_after(double seconds, double frame_seconds) {
+  auto frame = static_cast<std::uint64_t>(seconds / frame_seconds);
+  while (frame > 0 && static_cast<double>(frame) * frame_seconds > seconds) --frame;
+  while (!(static_cast<double>(frame + 1) * frame_seconds > seconds)) ++frame;
+  return frame;
+}
+
+Status put_sutures(const Scene& scene, Simulation& simulation) {
+  const SimulationOptions& options = scene.options;
+  for (std::size_t i = 0; i < scene.sutures.size(); ++i) {
+    const SceneSuture& suture = scene.sutures[i];
+    const std::uint64_t first_frame = first_frame_after(suture.start, options.frame_seconds);
+    const Result<std::uint32_t> id =
+        simulation.add_suture({suture.from, suture.to}, {suture.stiffness, options.body.length_unit * suture.rest_length,
+                                                         suture.pushes, suture.strength, first_frame});
+    if (id.ok()) continue;
+    return Error{ErrorCode::kBadFile, "sutures[" + std::to_string(i) + "]: " + id.error().message + "; move it", {}};
+  }
+  return {};
+}
+
 /// Whether every blade of the scene keeps within reach of the body.
 Status check_blades(const Scene& scene, const TetMesh& mesh) {
   const Box body = rest_bounds(mesh);
@@ -136,6 +158,7 @@ Result<Simulation> make_simulation(const Scene& scene, TetMesh mesh, unsigned th
   Result<Simulation> simulation = Simulation::create(std::move(mesh), std::move(options));
   if (!simulation.ok()) return simulation;
   if (const Status status = attach(scene, *simulation); !status.ok()) return status.error();
+  if (const Status status = put_sutures(scene, *simulation); !status.ok()) return status.error();
   return simulation;
 }
 

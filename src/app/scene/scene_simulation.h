@@ -23,12 +23,12 @@ namespace app {
 /// The vertices that an attachment holds, by their rest positions, in the order of their slots. Cost: O(tets).
 [[nodiscard]] std::vector<VertexId> find_attached(const TetMesh& mesh, const Attachment& attachment);
 
-/// Makes the simulation of a scene, with its attachments, before it settles.
+/// Makes the simulation of a scene, with its attachments and sutures, before it settles.
 ///
 /// @param mesh     as `load_model` gave it.
 /// @param threads  in [1, 256]; the result does not depend on them.
-/// Errors: as `Simulation::create`; kBadFile for an attachment that holds nothing, or for a blade out
-/// of reach (`check_reach`). Cost: O(tets).
+/// Errors: as `Simulation::create`; kBadFile for an attachment that holds nothing, for a suture with
+/// an end where there is no tissue, or for a blade out of reach (`check_reach`). Cost: O(tets).
 [[nodiscard]] Result<Simulation> make_simulation(const Scene& scene, TetMesh mesh, unsigned threads = 1,
                                                  LogSink log = {});
 

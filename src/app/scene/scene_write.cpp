@@ -102,6 +102,15 @@ Json json_of(const SceneHook& hook) {
   return root;
 }
 
+Json json_of(const SceneSuture& suture) {
+  Json root = {{"name", suture.name},           {"from", encode(suture.from)},
+               {"to", encode(suture.to)},       {"stiffness", suture.stiffness},
+               {"pushes", suture.pushes},       {"rest_length", suture.rest_length},
+               {"start", suture.start}};
+  if (std::isfinite(suture.strength)) root["strength"] = suture.strength;
+  return root;
+}
+
 Json json_of(const SceneStroke& s) {
   Json stroke = {{"name", s.stroke.name}};
   for (std::size_t i = 0; i < s.stroke.times.size(); ++i) {
@@ -192,6 +201,7 @@ Json scene_tree(const Scene& scene) {
   root["attachments"] = json_of_all(scene.attachments);
   root["tools"] = json_of_all(scene.tools);
   root["hooks"] = json_of_all(scene.hooks);
+  root["sutures"] = json_of_all(scene.sutures);
   root["strokes"] = json_of_all(scene.strokes);
   root["frames"] = scene.frames;
   root["settle"] = {{"frames", scene.settle.frames}, {"speed", scene.settle.speed}};

@@ -79,6 +79,31 @@ TEST_F(Simulate, reports_what_a_scene_came_to) {
   EXPECT_GT(report.energy_after.elastic, 0);
   EXPECT_GT(report.forces.contacts, 0U);
   EXPECT_GT(report.forces.peak_hook_force, 0);
+  EXPECT_GT(report.forces.peak_suture_force, 0);
+  EXPECT_EQ(report.forces.torn_sutures, 0U);
+}
+
+/// The wound of the shipped scene gapes until the sutures close it, which hold what pulls at it.
+TEST_F(Simulate, a_wound_is_closed_by_sutures) {
+  const app::Scene scene = app::read_scene(INCISE_SCENES "/sutured_wound.json").value();
+  Simulation simulation = make_simulation(scene, std::move(load_model(scene)->mesh)).value();
+  ASSERT_TRUE(simulation.settle(scene.settle.frames).ok());
+  const auto lip = [&](double x, double y) {
+    return find_nearest(simulation.mesh(), BodyShape::kRest, Vec3(x, y, 23.9), 1e-9)->place(simulation.mesh());
+  };
+  const auto gape = [&](double x) { return lip(x, 32).y() - lip(x, 30.6).y(); };
+  const double closed = gape(40);
+  double open = 0;
+  for (std::uint64_t i = 0; i < scene.frames; ++i) {
+    if (i == 239) open = gape(40);
+    ASSERT_TRUE(simulation.frame(scene_input(scene, i)).ok());
+  }
+  EXPECT_GT(open, closed + 5);
+  for (const double x : {30.0, 40.0, 50.0}) EXPECT_LT(gape(x), closed + 0.3 * (open - closed)) << x;
+  for (const SutureState& suture : simulation.sutures()) {
+    EXPECT_EQ(suture.status, SutureStatus::kHolds);
+    EXPECT_GT(suture.force, 0.02);
+  }
 }
 
 TEST_F(Simulate, gives_the_same_whatever_the_threads_the_recording_and_the_run) {

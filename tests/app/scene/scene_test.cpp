@@ -191,6 +191,53 @@ TEST(Scene, refuses_numbers_out_of_range_and_says_where) {
   expect_refused("/seed", -1, "seed must be a whole number");
 }
 
+TEST(Scene, refuses_sutures_that_hold_nothing) {
+  expect_refused("/sutures/0/stiffness", 0, "sutures[0].stiffness is 0; it must be above 0");
+  expect_refused("/sutures/0/rest_length", -1, "sutures[0].rest_length is -1; it must be at least 0");
+  expect_refused("/sutures/0/strength", 0, "sutures[0].strength is 0; it must be above 0");
+  expect_refused("/sutures/0/start", -1, "sutures[0].start is -1; it must be at least 0 and at most");
+  expect_refused("/sutures/0/pushes", 1, "sutures[0].pushes");
+  expect_refused("/sutures/0/from", {0, 0}, "sutures[0].from must be an array of 3");
+  expect_refused("/sutures/0/to", {0.2, 0.3, 0.4}, "sutures[0] has both ends in one place; move \"to\"");
+  expect_refused("/sutures/0/color", "blue", "has the unknown key \"color\"");
+  expect_refused("/sutures/0", Json{{"from", {0, 0, 0}}}, "sutures[0] lacks the key \"to\"");
+}
+
+/// Times are at the ends of frames; lengths in the model's unit become metres.
+TEST(Scene, puts_sutures_in_when_they_begin) {
+  Json json = full_scene();
+  const auto first_frame = [&](double start) {
+    json["sutures"][0]["start"] = start;
+    const app::Scene scene = parsed(json);
+    const Simulation simulation = make_simulation(scene, std::move(load_model(scene)->mesh)).value();
+    return simulation.sutures().at(0).suture.first_frame;
+  };
+  EXPECT_EQ(first_frame(0), 0U);
+  EXPECT_EQ(first_frame(0.3), 15U);  // the first whose end is later
+  EXPECT_EQ(first_frame(0.31), 15U);
+  EXPECT_EQ(first_frame(0.0199), 0U);
+  const app::Scene scene = parsed(json);
+  const Simulation simulation = make_simulation(scene, std::move(load_model(scene)->mesh)).value();
+  const SutureState state = simulation.sutures().at(0);
+  EXPECT_EQ(state.status, SutureStatus::kHolds);
+  EXPECT_EQ(state.suture.stiffness, 30);
+  EXPECT_DOUBLE_EQ(state.suture.rest_length, 0.03);
+  EXPECT_FALSE(state.suture.pushes);
+  EXPECT_EQ(state.suture.strength, 50);
+  EXPECT_LT((state.rest[1] - Vec3(0.7, 0.3, 0.4)).norm(), 1e-9);
+}
+
+TEST(Scene, refuses_a_suture_where_there_is_no_tissue) {
+  Json json = full_scene();
+  json["sutures"][0]["to"] = {0.7, 0.3, 1.9};
+  const app::Scene scene = parsed(json);
+  const auto made = make_simulation(scene, std::move(load_model(scene)->mesh));
+  ASSERT_FALSE(made.ok());
+  EXPECT_EQ(made.error().code, ErrorCode::kBadFile);
+  const std::string start = "sutures[0]: end 1 of a suture is at (0.7, 0.3, 1.9), where there is no tissue at rest; ";
+  EXPECT_EQ(made.error().message.rfind(start + "the nearest is at (", 0), 0U) << made.error().message;
+}
+
 TEST(Scene, refuses_views_that_cannot_be_seen) {
   expect_refused("/view/from", {0, 0, 0}, "view.from is zero; give a direction");
   expect_refused("/view/up", {0, 0}, "view.up must be an array of 3");
@@ -421,6 +468,7 @@ TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
       {"/tools/4/rod/path/0", "/properties/tools/items/properties/rod/properties/path/items"},
       {"/hooks/0", "/properties/hooks/items"},
       {"/hooks/0/path/0", "/properties/hooks/items/properties/path/items"},
+      {"/sutures/0", "/properties/sutures/items"},
       {"/strokes/0", "/$defs/scene_stroke"},
       {"/view", "/properties/view"},
       {"/exercise", "/properties/exercise"},
