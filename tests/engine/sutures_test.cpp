@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sutures of a simulation: they follow the material through cuts, undo and redo, and tear.
+#include "engine/sutures.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include "engine/sutures.h"
 #include "incise/engine/simulation.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/shapes.h"

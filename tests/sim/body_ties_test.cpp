@@ -20,7 +20,8 @@ class TwoBlocks {
  public:
   static constexpr double kGap = 0.01;
 
-  explicit TwoBlocks(const BodyOptions& options, double young = 30e3, bool is_held = true) : body_(make(options, young)) {
+  explicit TwoBlocks(const BodyOptions& options, double young = 30e3, bool is_held = true)
+      : body_(make(options, young)) {
     mesh_.for_each_vertex([&](VertexId v) {
       if (!is_held || mesh_.rest(v).z() < 0.05 - 1e-9) return;
       EXPECT_TRUE(body_.hold(v, kInfinity).ok());
@@ -62,7 +63,8 @@ class TwoBlocks {
     const TetSoup upper = kuhn_box({0, 0, 0.02 + kGap}, {0.04, 0.02, 0.04 + kGap}, {8, 4, 4});
     const auto first = static_cast<std::uint32_t>(both.points.size());
     both.points.insert(both.points.end(), upper.points.begin(), upper.points.end());
-    for (const auto& tet : upper.tets) both.tets.push_back({tet[0] + first, tet[1] + first, tet[2] + first, tet[3] + first});
+    for (const auto& tet : upper.tets)
+      both.tets.push_back({tet[0] + first, tet[1] + first, tet[2] + first, tet[3] + first});
     return both;
   }
   DeformableBody make(const BodyOptions& options, double young) const {

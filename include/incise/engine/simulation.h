@@ -64,15 +64,15 @@ struct BladeState {
 
 /// What one frame did.
 struct FrameReport {
-  CutStatistics cut;              ///< what the blade did
-  MaintainStatistics maintain;    ///< what maintenance did
-  StageTimes times;               ///< relax: solver and following; the others as the engine has them
-  double follow_ms = 0;           ///< of `times`' relax: what it took the solver to follow the mesh
-  AdvanceReport relax;            ///< what relaxation did
-  BladeState blade;               ///< forces and work at the edge
-  std::vector<Vec3> hook_forces;  ///< of the tissue on each hook of the input, N
-  std::uint32_t stroke = 0;       ///< the stroke under way, of this simulation's from 1; 0: none
-  std::size_t contacts = 0;       ///< vertices that tools touch
+  CutStatistics cut;                        ///< what the blade did
+  MaintainStatistics maintain;              ///< what maintenance did
+  StageTimes times;                         ///< relax: solver and following; the others as the engine has them
+  double follow_ms = 0;                     ///< of `times`' relax: what it took the solver to follow the mesh
+  AdvanceReport relax;                      ///< what relaxation did
+  BladeState blade;                         ///< forces and work at the edge
+  std::vector<Vec3> hook_forces;            ///< of the tissue on each hook of the input, N
+  std::uint32_t stroke = 0;                 ///< the stroke under way, of this simulation's from 1; 0: none
+  std::size_t contacts = 0;                 ///< vertices that tools touch
   std::vector<std::uint32_t> torn_sutures;  ///< ids of those that tore in this frame
 };
 
@@ -115,8 +115,8 @@ class Simulation {
   Status keep_undo(std::size_t operations);
 
   /// Ties two places of the material to each other, of one piece or of two: a suture, a staple, a plate. It acts from
-  /// its first frame on, at once where that has come, and follows the material through cuts, maintenance, undo and redo.
-  /// The blade goes past it. Returns its id; no two of a simulation are the same.
+  /// its first frame on, at once where that has come, and follows the material through cuts, maintenance, undo and
+  /// redo. The blade goes past it. Returns its id; no two of a simulation are the same.
   /// @param ends  each in a live tet of `mesh()`, weights in [0, 1].
   /// Errors: kBadArgument for such ends, for numbers out of range, or where the solver has no ties; nothing changes.
   Result<std::uint32_t> add_suture(const std::array<TissuePoint, 2>& ends, const Suture& suture);

@@ -89,9 +89,9 @@ Status put_sutures(const Scene& scene, Simulation& simulation) {
   for (std::size_t i = 0; i < scene.sutures.size(); ++i) {
     const SceneSuture& suture = scene.sutures[i];
     const std::uint64_t first_frame = first_frame_after(suture.start, options.frame_seconds);
-    const Result<std::uint32_t> id =
-        simulation.add_suture({suture.from, suture.to}, {suture.stiffness, options.body.length_unit * suture.rest_length,
-                                                         suture.pushes, suture.strength, first_frame});
+    const Result<std::uint32_t> id = simulation.add_suture(
+        {suture.from, suture.to},
+        {suture.stiffness, options.body.length_unit * suture.rest_length, suture.pushes, suture.strength, first_frame});
     if (id.ok()) continue;
     return Error{ErrorCode::kBadFile, "sutures[" + std::to_string(i) + "]: " + id.error().message + "; move it", {}};
   }

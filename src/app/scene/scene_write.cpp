@@ -103,9 +103,8 @@ Json json_of(const SceneHook& hook) {
 }
 
 Json json_of(const SceneSuture& suture) {
-  Json root = {{"name", suture.name},           {"from", encode(suture.from)},
-               {"to", encode(suture.to)},       {"stiffness", suture.stiffness},
-               {"pushes", suture.pushes},       {"rest_length", suture.rest_length},
+  Json root = {{"name", suture.name},           {"from", encode(suture.from)}, {"to", encode(suture.to)},
+               {"stiffness", suture.stiffness}, {"pushes", suture.pushes},     {"rest_length", suture.rest_length},
                {"start", suture.start}};
   if (std::isfinite(suture.strength)) root["strength"] = suture.strength;
   return root;

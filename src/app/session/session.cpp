@@ -275,6 +275,15 @@ std::optional<ExerciseScore> Session::score() const {
   return s.scorer->score(s.simulation->simulation());
 }
 
+static void draw_sutures(const Simulation& simulation, Marks& marks) {
+  for (const SutureState& suture : simulation.sutures()) {
+    if (suture.status != SutureStatus::kHolds) continue;
+    const Eigen::Vector3f from = to_float(suture.places[0]), to = to_float(suture.places[1]);
+    marks.lines.push_back({from, to, Ink::kPin, 3, true, false});
+    for (const Eigen::Vector3f& end : {from, to}) marks.balls.push_back({end, Ink::kPin, 4, true});
+  }
+}
+
 void Session::draw(Marks& marks, bool shows_ideal) const {
   const State& s = *state_;
   if (s.scene.exercise) draw_line(s.scene.exercise->target, Ink::kTarget, marks);
@@ -289,6 +298,7 @@ void Session::draw(Marks& marks, bool shows_ideal) const {
     if (hook.id < kFirstHandHook || s.is_replay) marks.balls.push_back({to_float(hook.position), Ink::kHook, 7, true});
   }
   for (const Tool& tool : s.last_input.tools) draw_tool(tool, marks);
+  if (simulation() != nullptr) draw_sutures(*simulation(), marks);
 }
 
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}

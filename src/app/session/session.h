@@ -128,7 +128,8 @@ class Session {
   [[nodiscard]] OperationLog& log();
   /// How well the exercise of the scene was done so far; nothing where it has none. Cost: O(tets).
   [[nodiscard]] std::optional<ExerciseScore> score() const;
-  /// Adds the marks of what the scene or the recording does: its blade, hooks and tools, and an exercise's target.
+  /// Adds the marks of what the scene or the recording does: its blade, hooks, tools and sutures, and an
+  /// exercise's target.
   /// @param shows_ideal  the ideal blade of the exercise as well, where it would be now.
   void draw(Marks& marks, bool shows_ideal = false) const;
 

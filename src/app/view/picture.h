@@ -35,7 +35,7 @@ enum class Ink : std::uint8_t {
   kTarget,      ///< of an exercise: where the cut shall go
   kIdeal,       ///< of an exercise: the ideal blade
   kHook,        ///< what is grasped
-  kPin,         ///< what is pinned
+  kPin,         ///< what is pinned, or sewn
   kPicked,      ///< the element that is probed
   kWorst,       ///< a tet of bad shape
   kTool,        ///< balls, rods and tables

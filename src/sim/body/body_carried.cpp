@@ -85,7 +85,8 @@ class CarriedPieces {
       add(&Carried::contacts, t, contacts[t].vertices[0], contacts[t].vertices[1]);
     for (std::uint32_t t = 0; t < s_.terms.size(); ++t) {
       const detail::PullTerm& term = s_.terms[t];
-      if (term.stiffness > 0) add(&Carried::pulls, t, term.vertices[0], term.is_tie() ? term.vertices[4] : kInvalidIndex);
+      if (term.stiffness > 0)
+        add(&Carried::pulls, t, term.vertices[0], term.is_tie() ? term.vertices[4] : kInvalidIndex);
     }
   }
 

@@ -114,9 +114,9 @@ struct DeformableBody::State {
   std::vector<Pull> pulls;
   std::vector<Tie> ties;
   std::vector<Vec3> tie_spans;  // from a to b when its vertices were last woken
-  Vec3 middle = Vec3::Zero();  // that single-precision places count from
-  double extent = 0;           // of the body along its longest axis, when `middle` was found
-  double drifted = 0;          // the most that anything has moved since
+  Vec3 middle = Vec3::Zero();   // that single-precision places count from
+  double extent = 0;            // of the body along its longest axis, when `middle` was found
+  double drifted = 0;           // the most that anything has moved since
 
   // the descent
   detail::Stars stars;

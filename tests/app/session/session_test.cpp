@@ -741,6 +741,15 @@ TEST(SessionLive, draws_what_the_scene_does_but_not_what_the_hand_does) {
   EXPECT_EQ(lines_of(session, app::Ink::kBlade), 0U);
 }
 
+TEST(SessionLive, draws_sutures_once_they_hold) {
+  Json scene = still_scene();
+  scene["sutures"] = {{{"from", {0.4, 0.5, 0.5}}, {"to", {0.6, 0.5, 0.5}}, {"start", 0.05}}};
+  Session session = opened(scene);
+  EXPECT_EQ(lines_of(session, app::Ink::kPin), 0U);
+  play(session, 8);
+  EXPECT_EQ(lines_of(session, app::Ink::kPin), 1U);
+}
+
 TEST_F(SessionFiles, draws_the_blade_of_a_recording) {
   Session session = open_file(write_simulation_recording(folder_));
   ASSERT_TRUE(session.seek(8).ok());
