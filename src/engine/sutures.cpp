@@ -150,7 +150,9 @@ SutureState Sutures::state_of(const TetMesh& mesh, const Entry& entry) const {
     state.ends[i] = entry.ends[i].point;
     state.rest[i] = entry.ends[i].rest;
   }
+  const auto is_there = [&](const TissuePoint& end) { return end.holds(mesh); };
   if (entry.status == SutureStatus::kTorn || entry.status == SutureStatus::kLost) return state;
+  if (!std::all_of(state.ends.begin(), state.ends.end(), is_there)) return state;  // a step failed: nobody followed it
   for (std::size_t i = 0; i < 2; ++i) state.places[i] = state.ends[i].place(mesh);
   state.length = unit_ * (state.places[1] - state.places[0]).norm();
   if (entry.status == SutureStatus::kHolds) state.force = tie_of(state.ends, entry.suture).tension(state.length);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "incise/geom/closest.h"
 #include "incise/mesh/shapes.h"
@@ -63,10 +65,14 @@ TEST(FindNearest, is_the_place_itself_inside_and_on_the_surface_outside) {
 
 TEST(FindNearest, looks_at_the_shape_that_is_asked_for) {
   TetMesh mesh = TetMesh::build(kuhn_cube(1)).value();
-  const Vec3 place(0.25, 0.5, 0.75);
+  std::vector<Vec3> places;
+  for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) places.push_back(mesh.rest(VertexId(v)) + Vec3(5, 0, 0));
+  mesh.set_current(places);
+  const Vec3 place(5.25, 0.5, 0.75);
   const auto found = find_nearest(mesh, BodyShape::kCurrent, place, 0);
   ASSERT_TRUE(found.has_value());
   EXPECT_LT((found->place(mesh, BodyShape::kCurrent) - place).norm(), 1e-12);
+  EXPECT_FALSE(find_nearest(mesh, BodyShape::kRest, place, 4).has_value());
 }
 
 }  // namespace
