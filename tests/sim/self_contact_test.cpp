@@ -347,6 +347,34 @@ TEST(SelfContact, TheSameBitsOnOneThreadAndTwo) {
   EXPECT_EQ(cut_and_undo(2), cut_and_undo(2));
 }
 
+/// Undo takes slots of tets back: what was in contact with their faces must not look at them any more.
+TEST(SelfContact, UndoLeavesNoContactWithWhatIsGone) {
+  MovingBody moving(jittered_cube(5, 3), {tissue(5e3), {}}, touching());
+  moving.hold_where(0);
+  Random random(3);
+  const Box box = rest_bounds(moving.mesh());
+  std::size_t contacts = 0;
+  for (int round = 0; round < 6; ++round) {
+    for (int i = 0; i < 2; ++i) {
+      moving.cut(random_stroke(random, box));
+      moving.advance(8);
+    }
+    contacts += moving.state().contact.contacts().size();
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(moving.engine().undo());
+      moving.follow();
+      for (const detail::Contact& contact : moving.state().contact.contacts()) {
+        ASSERT_TRUE(moving.mesh().is_live(VertexId(contact.vertex)));
+        if (contact.face.value == kInvalidIndex) continue;
+        ASSERT_LT(contact.face.tet().value, moving.state().tets.size());
+        ASSERT_TRUE(moving.mesh().is_live(contact.face.tet()));
+      }
+      moving.advance(2);
+    }
+  }
+  EXPECT_GT(contacts, 0U);
+}
+
 /// No vertex of the first part shares a contact with one of the second.
 TEST(SelfContact, ContactsAcrossThePartsAreVisitedWithTheSeam) {
   BodyOptions options = touching();

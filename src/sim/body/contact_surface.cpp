@@ -19,6 +19,12 @@ void ContactSurface::set(const TetMesh& mesh, TetId tet, bool is_part) {
   sides_[tet] = bits;
 }
 
+void ContactSurface::keep(std::uint32_t tet_slots) {
+  if (tet_slots >= sides_.size()) return;
+  sides_.resize(tet_slots);
+  is_stale_ = true;
+}
+
 bool ContactSurface::refresh(const TetMesh& mesh) {
   if (!is_stale_) return false;
   is_stale_ = false;

@@ -34,6 +34,8 @@ class ContactSurface {
   /// Reads a tet's sides anew. `is_part`: whether it is live and has a part in the body. To be called for whatever tet
   /// a step names. Cost: O(1).
   void set(const TetMesh& mesh, TetId tet, bool is_part);
+  /// Forgets the tets from a slot on: undo has taken their slots back.
+  void keep(std::uint32_t tet_slots);
   /// Lists faces and vertices anew where any side has changed; returns whether it did. Cost then: O(faces), and O(tet
   /// slots / 8) very cheap.
   bool refresh(const TetMesh& mesh);

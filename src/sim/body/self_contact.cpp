@@ -86,6 +86,7 @@ double SelfContact::beside(const Found& found) {
 // --- following the mesh
 
 void SelfContact::read_all(const State& body, const TetMesh& mesh) {
+  surface_.keep(static_cast<std::uint32_t>(body.tets.size()));
   for (std::uint32_t t = 0; t < body.tets.size(); ++t) {
     surface_.set(mesh, TetId(t), body.tets[TetId(t)][0].is_valid());
   }
