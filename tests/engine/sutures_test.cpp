@@ -10,9 +10,12 @@
 #include <string>
 
 #include "incise/engine/simulation.h"
+#include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/validate.h"
+#include "support/random.h"
+#include "support/random_strokes.h"
 
 namespace incise {
 namespace {
@@ -73,11 +76,11 @@ class Bar {
     return mass;
   }
   /// What must hold of sutures that are neither torn nor lost.
-  void expect_ends_hold() {
+  void expect_ends_hold(double tolerance = 1e-9) {  // m; maintenance smooths skin
     for (const SutureState& state : sim().sutures()) {
       for (std::size_t i = 0; i < 2; ++i) {
         ASSERT_TRUE(state.ends[i].holds(sim().mesh()));
-        EXPECT_LT((state.ends[i].place(sim().mesh(), BodyShape::kRest) - state.rest[i]).norm(), 1e-9);
+        EXPECT_LT((state.ends[i].place(sim().mesh(), BodyShape::kRest) - state.rest[i]).norm(), tolerance);
         for (const double weight : state.ends[i].weights) EXPECT_GE(weight, -1e-9);
       }
     }
@@ -176,6 +179,45 @@ TEST(Sutures, TwoThreadsGiveTheSameBits) {
     hashes[threads - 1] = bar.sim().hash();
   }
   EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+/// Random strokes through a body that sutures bend, undo and redo in between.
+TEST(Sutures, NoneIsLostWhateverIsDone) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Random random(seed);
+    Bar bar;
+    const Box box = rest_bounds(bar.sim().mesh());
+    for (unsigned i = 0; i < 5; ++i) {
+      const auto place = [&] {
+        return Vec3(random.real(0, 0.02), random.real(0, 0.02), i % 2 == 0 ? 0.0 : random.real(0, 0.06));
+      };
+      const std::array<Vec3, 2> places = {place(), place()};
+      const double rest_length = 0.8 * (places[1] - places[0]).norm();
+      ASSERT_TRUE(bar.sim().add_suture(places, {100, rest_length, i % 3 == 0, kInfinity, 0}).ok());
+    }
+    for (unsigned round = 0; round < 3; ++round) {
+      const Stroke stroke = test::random_stroke(random, box);
+      for (const auto& edge : stroke.edges) {
+        FrameInput input;
+        input.blade = BladePose{edge, Vec3::Zero()};
+        bar.frame(input);
+        bar.expect_ends_hold(1e-3);
+      }
+      bar.frames(3);
+      if (random.integer(0, 1) == 0) {
+        EXPECT_TRUE(bar.sim().undo());
+        bar.expect_ends_hold(1e-3);
+        if (random.integer(0, 1) == 0) {
+          EXPECT_TRUE(bar.sim().redo());
+        }
+      }
+      bar.frames(3);
+      bar.expect_ends_hold(1e-3);
+    }
+    ASSERT_EQ(bar.sim().body().ties().size(), 5U);
+    EXPECT_TRUE(bar.sim().body().is_finite());
+  }
 }
 
 TEST(Sutures, OneTearsAtItsStrengthAndTheNextFollow) {
