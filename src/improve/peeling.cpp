@@ -49,14 +49,25 @@ double longest_edge(const TetMesh& mesh, TetId tet) {
 
 bool Peeler::improve(Care& care, TetId tet) {
   tet_ = tet;
-  if (!find_sides(care) || !find_tag(care) || is_bound(care) || !opens_manifold(care) || !keeps_surface(care)) {
+  if (!find_sides(care) || is_bound(care)) {
     return false;
   }
-  const TetVertices vertices = care.mesh.vertices(tet);
+  is_spike_ = false;
+  if (find_tag(care) && opens_manifold(care) && keeps_surface(care) && peel(care)) {
+    return true;
+  }
+  is_spike_ = ends_in_spike(care);
+  return is_spike_ && peel(care);
+}
+
+/// Takes the tet away with the first move of a vertex that restores the volume.
+bool Peeler::peel(Care& care) {
+  const TetVertices vertices = care.mesh.vertices(tet_);
   for (const VertexId vertex : vertices) {
     Vec3 place;
     const bool stays = inner_.size() == 2 || vertex != vertices[inner_[0]];
-    if (stays && find_step(care, vertex, place)) {
+    const bool is_free = (care.mesh.shape_of(vertex) & shape::kFront) == 0;
+    if (stays && is_free && find_step(care, vertex, place)) {
       take_away(care);
       star_ = care.walker.star(care.mesh, vertex);
       move_vertex(care, vertex, place, star_);
@@ -85,12 +96,15 @@ bool Peeler::find_tag(const Care& care) {
   return a == b || (outer_.size() == 3 && (a == c || b == c));
 }
 
-/// Whether fronts, pinched vertices or borders between regions hold the tet in place.
+/// Whether fronts, pinched vertices or borders between regions hold the tet in place. A front stays where neither an
+/// end of its edges nor an edge between two of them goes.
 bool Peeler::is_bound(const Care& care) const {
   const TetVertices& v = care.mesh.vertices(tet_);
-  return std::any_of(v.begin(), v.end(),
-                     [&](VertexId id) { return (care.mesh.shape_of(id) & (shape::kFront | shape::kPinched)) != 0; }) ||
-         std::any_of(inner_.begin(), inner_.end(), [&](unsigned s) {
+  const auto is = [&](unsigned c, std::uint8_t bit) { return (care.mesh.shape_of(v[c]) & bit) != 0; };
+  const auto fronts = is(0, shape::kFront) + is(1, shape::kFront) + is(2, shape::kFront) + is(3, shape::kFront);
+  const bool holds_front = inner_.size() == 1 ? is(inner_[0], shape::kFront) : fronts > 1;
+  return holds_front || is(0, shape::kPinched) || is(1, shape::kPinched) || is(2, shape::kPinched) ||
+         is(3, shape::kPinched) || std::any_of(inner_.begin(), inner_.end(), [&](unsigned s) {
            return care.mesh.region(care.mesh.links(tet_)[s].side().tet()) != care.mesh.region(tet_);
          });
 }
@@ -121,13 +135,59 @@ bool Peeler::keeps_surface(const Care& care) {
   return care.references.allows(tag_, before_, after_, tolerance, reach, skin_share(care));
 }
 
-/// Where a vertex must go to restore the volume; false where that makes the worst tet no better.
-bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
-  const TetMesh& mesh = care.mesh;
-  star_ = care.walker.star(mesh, vertex);
-  if (!care.may_change(star_)) {
+/// Whether a spike that a cut made ends with the tet, so thin that its walls may give way to each other: its foot is
+/// short, and less high than both walls together may leave their place. What comes to light there continues the
+/// largest.
+bool Peeler::ends_in_spike(const Care& care) {
+  if (inner_.size() != 1) {
     return false;
   }
+  const TetMesh& mesh = care.mesh;
+  const auto area2_of = [&](unsigned s) { return vector_area2(mesh, {tet_, s}).squaredNorm(); };
+  const unsigned widest = *std::max_element(outer_.begin(), outer_.end(),
+                                            [&](unsigned a, unsigned b) { return area2_of(a) < area2_of(b); });
+  tag_ = mesh.links(tet_)[widest].tag();
+  if (tag_ == 0) {
+    return false;
+  }
+  const auto foot = mesh.vertices(Side(tet_, inner_[0]));
+  double longest2 = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    longest2 = std::max(longest2, (mesh.rest(foot[k]) - mesh.rest(foot[(k + 1) % 3])).squaredNorm());
+  }
+  const double edge = longest_edge(mesh, tet_), height2 = area2_of(inner_[0]) / longest2;
+  return longest2 <= kShort * kShort * edge * edge &&
+         height2 <= std::pow(2.0 * surface_tolerance(care, tag_, foot[0], edge), 2);
+}
+
+/// The step of a vertex that restores the volume: of the surface that is continued, or of all that is open around the
+/// foot of a spike.
+bool Peeler::find_volume_step(const Care& care, VertexId vertex, Vec3& step) const {
+  return is_spike_ ? find_step_at_foot(care, vertex, step) : find_step_of_surface(care.mesh, vertex, step);
+}
+
+bool Peeler::find_step_at_foot(const Care& care, VertexId vertex, Vec3& step) const {
+  const TetMesh& mesh = care.mesh;
+  Vec3 area2 = -vector_area2(mesh, {tet_, inner_[0]});
+  double scale = area2.norm();
+  for (const TetId tet : star_) {
+    for (unsigned s = 0; s < 4; ++s) {
+      if (tet == tet_ || mesh.vertices(tet)[s] == vertex || !mesh.links(tet)[s].is_boundary()) {
+        continue;
+      }
+      const Vec3 more = vector_area2(mesh, {tet, s});
+      area2 += more;
+      scale += more.norm();
+    }
+  }
+  if (!(area2.norm() > kLeastArea * scale)) {
+    return false;
+  }
+  step = (mesh.rest_volume6(tet_) / area2.squaredNorm()) * area2;
+  return step.norm() <= kSlack * surface_tolerance(care, tag_, vertex, longest_edge(mesh, tet_));
+}
+
+bool Peeler::find_step_of_surface(const TetMesh& mesh, VertexId vertex, Vec3& step) const {
   VertexSurfaces surfaces;
   for (const unsigned s : inner_) {
     if (mesh.vertices(tet_)[s] != vertex) {
@@ -142,8 +202,15 @@ bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
       }
     }
   }
+  return v0::find_volume_step(surfaces, {mesh.rest_volume6(tet_), 0.0}, step);
+}
+
+/// Where a vertex must go to restore the volume; false where that makes the worst tet no better.
+bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
+  const TetMesh& mesh = care.mesh;
+  star_ = care.walker.star(mesh, vertex);
   Vec3 step;
-  if (!find_volume_step(surfaces, {mesh.rest_volume6(tet_), 0.0}, step)) {
+  if (!care.may_change(star_) || !find_volume_step(care, vertex, step)) {
     return false;
   }
   place = mesh.rest(vertex) + step;

@@ -12,8 +12,9 @@ inline namespace v0 {
 /// Takes bad tets away that lie flat on a surface. Keeps scratch memory.
 class Peeler {
  public:
-  /// Tries to take away a tet with two boundary faces on one surface, or with three of which at least two are. Where it
-  /// was accepted `care.changed` holds the tets around the vertex that moved for it.
+  /// Tries to take away a tet with two boundary faces on one surface, or with three of which at least two are; or the
+  /// end of a spike between walls that is thinner than both together may leave their place. Where it was accepted
+  /// `care.changed` holds the tets around the vertex that moved for it.
   ///
   /// The faces that come to light continue the surface. One of their vertices moves by the little that restores the
   /// volume. Accepted where the worst tet around becomes better, the surface stays in place and no edge gets more than
@@ -27,12 +28,18 @@ class Peeler {
   [[nodiscard]] bool is_bound(const Care& care) const;
   [[nodiscard]] bool opens_manifold(Care& care);
   [[nodiscard]] bool keeps_surface(const Care& care);
+  [[nodiscard]] bool ends_in_spike(const Care& care);
+  bool peel(Care& care);
+  [[nodiscard]] bool find_volume_step(const Care& care, VertexId vertex, Vec3& step) const;
+  [[nodiscard]] bool find_step_at_foot(const Care& care, VertexId vertex, Vec3& step) const;
+  [[nodiscard]] bool find_step_of_surface(const TetMesh& mesh, VertexId vertex, Vec3& step) const;
   [[nodiscard]] bool find_step(Care& care, VertexId vertex, Vec3& place);
   void take_away(Care& care);
 
   TetId tet_;
   std::vector<unsigned> outer_, inner_;  // its boundary sides, and the others
   std::uint32_t tag_ = 0;                // of the faces that come to light
+  bool is_spike_ = false;                // rather than flat on a surface
   EdgeRing ring_;
   Piece before_, after_;
   std::vector<TetId> star_, produced_;

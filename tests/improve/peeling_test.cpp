@@ -2,6 +2,8 @@
 // Flat tets on a surface are taken away, and the volume comes back beside them.
 #include "improve/peeling.h"
 
+#include <algorithm>
+
 #include "improve/support.h"
 
 namespace incise::test {
@@ -40,6 +42,40 @@ TetSoup cube_with_filled_valley(double height) {
   return soup;
 }
 
+/// A cube with a spike on a small triangle of its top, of this width and of 0.6 in length; its sides have this tag.
+TetMesh cube_with_spike(double width, std::uint32_t tag) {
+  TetSoup soup = kuhn_cube(4);
+  const std::uint32_t a = point_of(1, 1, 4), b = point_of(2, 1, 4), c = point_of(2, 2, 4);
+  const auto holds = [](const std::array<std::uint32_t, 4>& t, std::uint32_t v) {
+    return std::find(t.begin(), t.end(), v) != t.end();
+  };
+  const auto below = std::find_if(soup.tets.begin(), soup.tets.end(),
+                                  [&](const auto& t) { return holds(t, a) && holds(t, b) && holds(t, c); });
+  const std::uint32_t d =
+      *std::find_if(below->begin(), below->end(), [&](std::uint32_t v) { return v != a && v != b && v != c; });
+  soup.tets.erase(below);
+  const Vec3 mid = (soup.points[a] + soup.points[b] + soup.points[c]) / 3.0;
+  const auto n = static_cast<std::uint32_t>(soup.points.size());
+  for (const std::uint32_t v : {a, b, c}) soup.points.push_back(mid + width * (soup.points[v] - mid).normalized());
+  soup.points.push_back(mid + Vec3(0, 0, 0.6));
+  const std::array<std::uint32_t, 3> outer = {a, b, c};
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t next = (k + 1) % 3;
+    add_positive(soup, {outer[k], outer[next], n + k, d});
+    add_positive(soup, {outer[next], n + next, n + k, d});
+  }
+  add_positive(soup, {n, n + 1, n + 2, d});
+  add_positive(soup, {n, n + 1, n + 2, n + 3});
+  TetMesh mesh = build(std::move(soup));
+  const TetId spike(static_cast<std::uint32_t>(mesh.tet_count() - 1));
+  Transaction transaction(mesh);
+  for (unsigned s = 0; s < 4; ++s) {
+    if (mesh.links(spike)[s].is_boundary()) transaction.set_link({spike, s}, Link::boundary(tag));
+  }
+  transaction.commit();
+  return mesh;
+}
+
 bool peel(TetMesh& mesh, TetId tet) {
   CareOf care(mesh);
   std::vector<std::pair<VertexId, double>> worst;
@@ -73,6 +109,25 @@ TEST(Peeling, takes_a_flat_tet_with_two_boundary_faces_away) {
   EXPECT_EQ(mesh.vertex_count(), vertices);
   EXPECT_EQ(mesh.tet_count(), tets - 1);
   expect_valid(mesh, volume, 1e-14);
+}
+
+TEST(Peeling, takes_the_end_of_a_thin_spike_between_walls_away) {
+  TetMesh mesh = cube_with_spike(0.003, 5);
+  const std::size_t vertices = mesh.vertex_count(), tets = mesh.tet_count();
+  const double volume = volume_of(mesh);
+  ASSERT_TRUE(peel(mesh, worst_tet(mesh)));
+  EXPECT_EQ(mesh.vertex_count(), vertices - 1);
+  EXPECT_EQ(mesh.tet_count(), tets - 1);
+  expect_valid(mesh, volume, 1e-14);
+}
+
+TEST(Peeling, leaves_thick_spikes_and_those_of_the_body) {
+  for (TetMesh mesh : {cube_with_spike(0.03, 5), cube_with_spike(0.003, 0)}) {
+    const std::uint64_t hash = mesh.hash();
+    EXPECT_FALSE(peel(mesh, TetId(static_cast<std::uint32_t>(mesh.tet_count() - 1))));
+    EXPECT_EQ(mesh.hash(), hash);
+    expect_valid(mesh, volume_of(mesh));
+  }
 }
 
 TEST(Peeling, leaves_tets_that_stand_out) {
