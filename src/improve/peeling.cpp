@@ -60,22 +60,36 @@ bool Peeler::improve(Care& care, TetId tet) {
   return is_spike_ && peel(care);
 }
 
-/// Takes the tet away with the first move of a vertex that restores the volume.
+/// Takes the tet away with the first move of a vertex that restores the volume: of one of its own, or behind a spike,
+/// whose foot may have two walls that cancel each other, of one beside it.
 bool Peeler::peel(Care& care) {
-  const TetVertices vertices = care.mesh.vertices(tet_);
-  for (const VertexId vertex : vertices) {
+  const TetMesh& mesh = care.mesh;
+  const TetVertices own = mesh.vertices(tet_);
+  candidates_.assign(own.begin(), own.end());
+  if (is_spike_) {
+    for (const VertexId v : mesh.vertices(Side(tet_, inner_[0]))) {
+      for (const TetId tet : care.walker.star(mesh, v)) add_candidates(mesh, tet);
+    }
+  }
+  const VertexId tip = inner_.size() == 1 ? own[inner_[0]] : VertexId();
+  for (const VertexId vertex : candidates_) {
     Vec3 place;
-    const bool stays = inner_.size() == 2 || vertex != vertices[inner_[0]];
-    const bool is_free = (care.mesh.shape_of(vertex) & shape::kFront) == 0;
-    if (stays && is_free && find_step(care, vertex, place)) {
+    if (vertex != tip && (mesh.shape_of(vertex) & shape::kFront) == 0 && find_step(care, vertex, place)) {
       take_away(care);
-      star_ = care.walker.star(care.mesh, vertex);
+      star_ = care.walker.star(mesh, vertex);
       move_vertex(care, vertex, place, star_);
       care.changed = star_;
       return true;
     }
   }
   return false;
+}
+
+void Peeler::add_candidates(const TetMesh& mesh, TetId tet) {
+  for (const VertexId v : mesh.vertices(tet)) {
+    const bool is_open = (mesh.shape_of(v) & (shape::kSkin | shape::kWall)) != 0;
+    if (is_open && std::find(candidates_.begin(), candidates_.end(), v) == candidates_.end()) candidates_.push_back(v);
+  }
 }
 
 bool Peeler::find_sides(const Care& care) {
@@ -160,15 +174,18 @@ bool Peeler::ends_in_spike(const Care& care) {
          height2 <= std::pow(2.0 * surface_tolerance(care, tag_, foot[0], edge), 2);
 }
 
-/// The step of a vertex that restores the volume: of the surface that is continued, or of all that is open around the
-/// foot of a spike.
+/// The step of a vertex that restores the volume: of the surface that is continued, or of all that is open around a
+/// vertex at a spike.
 bool Peeler::find_volume_step(const Care& care, VertexId vertex, Vec3& step) const {
-  return is_spike_ ? find_step_at_foot(care, vertex, step) : find_step_of_surface(care.mesh, vertex, step);
+  return is_spike_ ? find_step_at_spike(care, vertex, step) : find_step_of_surface(care.mesh, vertex, step);
 }
 
-bool Peeler::find_step_at_foot(const Care& care, VertexId vertex, Vec3& step) const {
+bool Peeler::find_step_at_spike(const Care& care, VertexId vertex, Vec3& step) const {
   const TetMesh& mesh = care.mesh;
-  Vec3 area2 = -vector_area2(mesh, {tet_, inner_[0]});
+  const Side foot(tet_, inner_[0]);
+  const auto corners = mesh.vertices(foot);
+  const bool is_at_foot = std::find(corners.begin(), corners.end(), vertex) != corners.end();
+  Vec3 area2 = is_at_foot ? Vec3(-vector_area2(mesh, foot)) : Vec3(Vec3::Zero());
   double scale = area2.norm();
   for (const TetId tet : star_) {
     for (unsigned s = 0; s < 4; ++s) {

@@ -30,8 +30,9 @@ class Peeler {
   [[nodiscard]] bool keeps_surface(const Care& care);
   [[nodiscard]] bool ends_in_spike(const Care& care);
   bool peel(Care& care);
+  void add_candidates(const TetMesh& mesh, TetId tet);
   [[nodiscard]] bool find_volume_step(const Care& care, VertexId vertex, Vec3& step) const;
-  [[nodiscard]] bool find_step_at_foot(const Care& care, VertexId vertex, Vec3& step) const;
+  [[nodiscard]] bool find_step_at_spike(const Care& care, VertexId vertex, Vec3& step) const;
   [[nodiscard]] bool find_step_of_surface(const TetMesh& mesh, VertexId vertex, Vec3& step) const;
   [[nodiscard]] bool find_step(Care& care, VertexId vertex, Vec3& place);
   void take_away(Care& care);
@@ -42,6 +43,7 @@ class Peeler {
   bool is_spike_ = false;                // rather than flat on a surface
   EdgeRing ring_;
   Piece before_, after_;
+  std::vector<VertexId> candidates_;  // for the move that restores the volume
   std::vector<TetId> star_, produced_;
   RemeshPlan plan_;
 };
