@@ -20,6 +20,7 @@ struct Suture {
   std::uint64_t first_frame = 0;  ///< the frame of the simulation, counted from 0, from which on it acts
 };
 
+/// What a suture does at present.
 enum class SutureStatus : std::uint8_t {
   kWaits,  ///< its first frame is to come
   kHolds,  ///< it acts
@@ -29,13 +30,13 @@ enum class SutureStatus : std::uint8_t {
 
 /// A suture as the body stands.
 struct SutureState {
-  std::uint32_t id = 0;
-  Suture suture;
-  SutureStatus status = SutureStatus::kHolds;
-  std::array<TissuePoint, 2> ends;  ///< while it waits or holds, of the mesh as it stands
-  std::array<Vec3, 2> rest;         ///< where its ends are in the rest shape, length unit
-  std::array<Vec3, 2> places;       ///< where they are now, length unit; zero where it is torn or lost
-  double length = 0;                ///< m, likewise
+  std::uint32_t id = 0;                        ///< what `add_suture` returned
+  Suture suture;                               ///< as it was given
+  SutureStatus status = SutureStatus::kHolds;  ///< whether it holds
+  std::array<TissuePoint, 2> ends;             ///< while it waits or holds, of the mesh as it stands
+  std::array<Vec3, 2> rest;                    ///< where its ends are in the rest shape, length unit
+  std::array<Vec3, 2> places;                  ///< where they are now, length unit; zero where it is torn or lost
+  double length = 0;                           ///< m, likewise
   double force = 0;  ///< N: with which it pulls its ends together; below 0: pushes them apart; 0 unless it holds
 };
 
