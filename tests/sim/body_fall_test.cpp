@@ -210,6 +210,44 @@ TEST(BodyFall, WhatHasFallenFarSleeps) {
   EXPECT_GT(lump.centre.z(), -9);
 }
 
+/// A cut elsewhere does not set what sleeps far away in motion again.
+TEST(BodyFall, WhatHasFallenFarSleepsThroughOtherCuts) {
+  MovingBody moving(kuhn_cube(4), {tissue(300e3), {}});
+  moving.hold_where(0);
+  moving.cut_plane(Vec3(1, 0, 0), 0.55);
+  moving.advance(150);
+  const auto is_free = [&](VertexId v) { return moving.state().pieces[moving.state().piece_of[v]].is_lost; };
+  const Lump before = lump_of(moving, is_free);
+  ASSERT_GT(before.mass, 0);
+  moving.cut_plane(Vec3(1, 0, 0), 0.3);
+  moving.advance(20);
+  const Lump after = lump_of(moving, is_free);
+  EXPECT_EQ(after.mass, before.mass);
+  EXPECT_EQ(after.centre, before.centre);
+}
+
+/// What sleeps in a falling piece holds the rest of it like a wall: taken for free, the piece gained energy.
+TEST(BodyFall, APieceOfWhichAPartSleepsGainsNoEnergy) {
+  MovingBody moving(kuhn_cube(4), {tissue(3e3), {}});
+  moving.hold_where(0);
+  moving.cut_plane(Vec3(1, 0, 0), 0.3);
+  moving.advance(20);
+  auto& state = const_cast<DeformableBody::State&>(moving.state());
+  for (std::uint32_t slot = 0; slot < state.places.size(); ++slot) {
+    const VertexId v(slot);
+    if (!state.is_live(v) || !state.pieces[state.piece_of[v]].is_free || state.rest[v].y() < 0.4) continue;
+    state.set_momentum(v, Vec3::Zero());
+    state.order.put_to_sleep(v);
+  }
+  double energy = moving.body().energy().total();
+  for (unsigned i = 0; i < 30; ++i) {
+    moving.advance();
+    const double now = moving.body().energy().total();
+    EXPECT_LE(now, energy + 1e-5 * std::abs(energy)) << i;
+    energy = now;
+  }
+}
+
 TEST(BodyFall, DampingSlowsAllPiecesAlike) {
   BodyOptions options;
   options.gravity = Vec3::Zero();

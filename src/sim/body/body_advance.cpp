@@ -33,9 +33,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   s.for_each_awake([&](std::uint32_t v) { s.travelled[VertexId(v)] = 0; });
   const double h = dt / s.options.substeps;
   if (s.options.coarse) s.lattice.prepare(s, h);
-  const bool is_watched = 2 * report.active_vertices > s.order.moving_count();  // what flies apart is awake
-  const detail::EnergyNow before = is_watched ? s.energy_now() : detail::EnergyNow();
-  if (is_watched) s.places_before = s.places;
+  const detail::EnergyNow before = s.watch_energy();
   for (unsigned i = 0; i < s.options.substeps; ++i) {
     s.expect_motion(h);
     s.begin_substep(h);
@@ -44,7 +42,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
     s.end_substep(h, report.fastest);
     s.correct_motion(h);
   }
-  if (is_watched) s.keep_energy(before, dt);
+  s.keep_energy(before, dt);
   s.move_crumbs(dt);
   s.drifted += report.fastest * dt;
   if (touches) {
@@ -330,13 +328,17 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
   }
 }
 
+/// Whether a vertex went further in the last `advance` than one that rests does.
+bool DeformableBody::State::has_moved(VertexId v) const {
+  const auto least = static_cast<float>(16 * options.sleep_below * options.sleep_below);
+  const float reach = motions[v].reach;  // a quarter of the local edge length
+  return travelled[v] * static_cast<float>(options.substeps) > least * reach * reach;
+}
+
 void DeformableBody::State::fall_asleep() {
   if (options.sleep_below <= 0) return;
-  const auto least = static_cast<float>(16 * options.sleep_below * options.sleep_below);
-  const auto moved = [&](VertexId v) {  // reach is a quarter of the local edge length
-    return travelled[v] * static_cast<float>(options.substeps) > least * motions[v].reach * motions[v].reach;
-  };
-  order.cool(stars, moved, [&](VertexId v) { set_momentum(v, Vec3::Zero()); });
+  order.cool(
+      stars, [&](VertexId v) { return has_moved(v); }, [&](VertexId v) { set_momentum(v, Vec3::Zero()); });
 }
 
 }  // namespace v0

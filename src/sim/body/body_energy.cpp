@@ -80,15 +80,39 @@ void DeformableBody::State::move_rigidly(std::vector<detail::Drift> moved) {
   });
 }
 
+/// What is held or asleep has a share in the energy of tets whose other corners move. Cost: O(awake), or O(body) where
+/// most of it is awake.
+void DeformableBody::State::find_resting() {
+  resting.clear();
+  if (2 * order.awake_count() > order.moving_count()) {
+    for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
+      const VertexId v(slot);
+      if (is_live(v) && in_crumb[v] == 0 && !order.is_awake(v)) resting.push_back(slot);
+    }
+    return;
+  }
+  is_resting.resize(places.size(), 0);
+  for_each_awake([&](std::uint32_t slot) {
+    detail::SweepOrder::for_each_neighbour(stars, VertexId(slot), [&](VertexId n) {
+      if (order.is_awake(n) || is_resting[n] != 0) return;
+      is_resting[n] = 1;
+      resting.push_back(n.value);
+    });
+  });
+  for (const std::uint32_t v : resting) is_resting[VertexId(v)] = 0;
+}
+
+/// The energy before an `advance`, and where all stood.
+detail::EnergyNow DeformableBody::State::watch_energy() {
+  find_resting();
+  places_before.resize(places.size());
+  for_each_awake([&](std::uint32_t v) { places_before[v] = places[v]; });
+  return energy_now();
+}
+
+/// Of what an `advance` may change: all but a constant.
 detail::EnergyNow DeformableBody::State::energy_now() {
   detail::EnergyNow now;
-  resting.clear();
-  for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
-    const VertexId v(slot);
-    if (!is_live(v) || in_crumb[v] != 0) continue;
-    if (!order.is_awake(v)) resting.push_back(slot);
-    now.total -= mass_of(v) / unit() * options.gravity.dot(places[slot] - middle);
-  }
   find_drifts(drifts);
   for_each_awake([&](std::uint32_t slot) {
     const VertexId v(slot);
@@ -97,6 +121,7 @@ detail::EnergyNow DeformableBody::State::energy_now() {
     const Vec3 relative = momentum - m * drifts[group_at(v)].velocity_at(places[slot] - middle);
     now.total += 0.5 * momentum.squaredNorm() / m;
     now.motion += 0.5 * relative.squaredNorm() / m;
+    now.total -= m / unit() * options.gravity.dot(places[slot] - middle);
   });
   const detail::Descent d = descent();
   find_pressures();

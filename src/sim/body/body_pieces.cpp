@@ -44,6 +44,12 @@ Vec3 detail::turn_for(const Vec3& missing, const Mat3& by_turn) {
 }
 
 void DeformableBody::State::label_pieces() {
+  const std::vector<Piece> old_pieces = std::move(pieces);
+  const IdArray<VertexId, std::uint32_t> old_piece_of = piece_of;
+  const auto was_lost = [&](std::uint32_t v) {
+    const std::uint32_t old = old_piece_of[VertexId(v)];
+    return old < old_pieces.size() && old_pieces[old].is_lost && !order.is_awake(VertexId(v));
+  };
   pieces.clear();
   stale_pieces = 0;
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -54,6 +60,7 @@ void DeformableBody::State::label_pieces() {
     const std::uint32_t count = flood(*this, VertexId(v), static_cast<std::uint32_t>(pieces.size()), stack);
     pieces.emplace_back();
     pieces.back().vertices = count;
+    pieces.back().is_lost = was_lost(v);
   }
   gather_crumbs();
 }
@@ -167,16 +174,46 @@ void DeformableBody::State::find_free_pieces() {
   for (Piece& piece : pieces) {
     piece.is_carried = !piece.is_free && !piece.is_held && !piece.is_crumb;
     piece.is_free = piece.is_free && !piece.is_held && !piece.is_crumb;
+    piece.is_lost = piece.is_lost && piece.is_free;
   }
-  bool came_off = false;
+  std::vector<bool> came_off(pieces.size(), false);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    came_off |= pieces[i].is_free && !was_free[i];
+    came_off[i] = pieces[i].is_free && !was_free[i] && !pieces[i].is_lost;
   }
-  if (!came_off) return;
+  wake_pieces(came_off);
+}
+
+void DeformableBody::State::wake_pieces(const std::vector<bool>& which) {
+  if (std::find(which.begin(), which.end(), true) == which.end()) return;
   for (std::uint32_t v = 0; v < places.size(); ++v) {
-    if (!is_live(VertexId(v))) continue;
-    const std::uint32_t i = piece_of[VertexId(v)];
-    if (pieces[i].is_free && !was_free[i]) order.wake(VertexId(v));
+    if (is_live(VertexId(v)) && which[piece_of[VertexId(v)]]) order.wake(VertexId(v));
+  }
+}
+
+/// A free group moves as a rigid body must only as a whole: what sleeps in it holds the rest like a wall. Where any of
+/// it is on its way, all of it wakes; where it comes to rest it is no longer taken for free.
+void DeformableBody::State::wake_free_groups() {
+  order.refresh();
+  std::vector<std::ptrdiff_t> asleep(pieces.size());  // below 0 where vertices were born since they were counted
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    asleep[group_of[i]] += static_cast<std::ptrdiff_t>(pieces[i].vertices);
+  }
+  std::vector<bool> moves(pieces.size(), false);
+  for_each_awake([&](std::uint32_t slot) {
+    const std::uint32_t group = group_at(VertexId(slot));
+    --asleep[group];
+    if (!moves[group]) moves[group] = has_moved(VertexId(slot));
+  });
+  std::vector<bool> is_woken(pieces.size(), false);
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    const std::uint32_t group = group_of[i];
+    if (!groups[group].is_free || asleep[group] <= 0) continue;
+    is_woken[i] = moves[group];
+    if (moves[group]) pieces[i].is_lost = false;
+  }
+  wake_pieces(is_woken);
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    if (groups[i].is_free && asleep[i] > 0 && !moves[i]) groups[i].is_free = false;
   }
 }
 
@@ -202,10 +239,13 @@ void DeformableBody::State::find_groups() {
   }
   for (std::uint32_t i = 0; i < pieces.size(); ++i) group_of[i] = root(i);
   groups.assign(pieces.size(), {});
+  has_free_group = false;
   for (std::uint32_t i = 0; i < pieces.size(); ++i) {
     Group& group = groups[group_of[i]];
     group.is_free = group.is_free && pieces[i].is_free;
+    has_free_group |= group.is_free;
   }
+  if (has_free_group) wake_free_groups();
   has_free_group = has_carried_piece = false;
   for (std::uint32_t i = 0; i < pieces.size(); ++i) {
     has_free_group |= groups[group_of[i]].is_free;
@@ -226,6 +266,7 @@ void DeformableBody::State::leave_lost_pieces() {
     const VertexId v(slot);
     const std::uint32_t piece = piece_of[v];
     if (!is_live(v) || !pieces[piece].is_free || !(nearest[piece] > detail::kLost * extent)) continue;
+    pieces[piece].is_lost = true;
     order.put_to_sleep(v);
     set_momentum(v, Vec3::Zero());
   }

@@ -44,6 +44,7 @@ struct Piece {
   bool is_crumb = false;    ///< it moves as a point, and is no part of the descent
   bool is_held = false;     ///< something holds it
   bool is_carried = false;  ///< contacts or pulls bear it, and nothing holds it
+  bool is_lost = false;     ///< it is free, has fallen far away and sleeps there: nothing touches it
   std::size_t vertices = 0;
 };
 
@@ -143,9 +144,10 @@ struct DeformableBody::State {
   double largest_crumb = 0;                  // volume at rest, length unit³: what is smaller is one
   unsigned stale_pieces = 0;                 // `advance`s since tets changed; 0: none did
 
-  // scratch of `energy_now`
-  std::vector<std::uint32_t> resting;  // live vertices that are held or asleep
-  std::vector<detail::Drift> drifts;   // by group: how the free ones move as rigid bodies
+  // of `energy_now`
+  std::vector<std::uint32_t> resting;  // vertices that are held or asleep and share tets with what is awake, or more
+  IdArray<VertexId, std::uint8_t> is_resting;  // scratch, zero between calls
+  std::vector<detail::Drift> drifts;           // by group: how the free ones move as rigid bodies
 
   JournalCursor cursor;
 
@@ -245,10 +247,13 @@ struct DeformableBody::State {
   void find_slopes(float* slopes);
   void end_substep(double h, double& fastest);
   void relax(std::span<const std::uint32_t> vertices, unsigned sweeps);
+  [[nodiscard]] bool has_moved(VertexId v) const;
   void fall_asleep();
 
   // energy (body_energy.cpp)
   void find_drifts(std::vector<detail::Drift>& found) const;
+  void find_resting();
+  [[nodiscard]] detail::EnergyNow watch_energy();
   [[nodiscard]] detail::EnergyNow energy_now();
   void keep_energy(const detail::EnergyNow& before, double dt);
   void step_back(double most, double dt);
@@ -259,6 +264,8 @@ struct DeformableBody::State {
   void label_pieces();
   void label_stale_pieces();
   void find_free_pieces();
+  void wake_pieces(const std::vector<bool>& which);
+  void wake_free_groups();
   void find_groups();
   void move_carried();  // body_carried.cpp
   [[nodiscard]] std::uint32_t group_at(VertexId v) const { return group_of[piece_of[v]]; }

@@ -69,7 +69,7 @@ Vec3 velocity_of(const State& body, std::uint32_t v) {
 
 /// Left out of contact: crumbs, and what fell far away.
 bool is_left_out(const State& body, std::uint32_t v) {
-  return body.in_crumb[VertexId(v)] != 0;
+  return body.in_crumb[VertexId(v)] != 0 || body.pieces[body.piece_of[VertexId(v)]].is_lost;
 }
 
 }  // namespace
@@ -372,11 +372,12 @@ void SelfContact::find(State& body, double dt) {
   for (const std::uint32_t v : surface_.vertices()) {
     Contact* old = known(v);
     if (old == nullptr && soon < clear_until_[v]) continue;
+    if (is_left_out(body, v)) continue;
     if (old != nullptr && rests(body, *old)) {
       next_.push_back(*old);
       continue;
     }
-    if (surface_.vertex(v).is_at_front || is_left_out(body, v)) continue;
+    if (surface_.vertex(v).is_at_front) continue;
     if (old == nullptr || !stays(body, *old, dt)) look(body, v, old, dt);
     if (next_.empty() || next_.back().vertex != v || old == nullptr) continue;
     const double least = body.options.sleep_below * edge_at(body, v, spacing);
