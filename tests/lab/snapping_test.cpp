@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/lab_support.h"
+#include "support/random_strokes.h"
 
 namespace incise::test {
 namespace {
@@ -14,11 +15,19 @@ TEST(Snapping, moves_a_layer_of_vertices_onto_the_plane_and_adds_no_tet) {
 }
 
 TEST(Snapping, turns_no_tet_over_and_leaves_walls_beside_the_plane_instead) {
-  const Vec3 normal = Vec3(3, 2, 1).normalized();
-  const LabCut body = cut_by(LabMethod::kSnapping, jittered_cube(5, 3), plane_through(normal, 0.83));
-  EXPECT_GT(body.statistics.bent_vertices, 0U);
-  EXPECT_GT(greatest_wall_distance(body.mesh, normal, 0.83), 1e-3);
-  expect_sound(body.mesh);
+  Random random(4);
+  std::uint64_t bent = 0;
+  double distance = 0;
+  for (unsigned k = 0; k < 6; ++k) {
+    const Vec3 normal = random_direction(random);
+    const double offset = normal.dot(Vec3(0.5, 0.55, 0.47));
+    const LabCut body = cut_by(LabMethod::kSnapping, kuhn_cube(5), plane_through(normal, offset));
+    expect_sound(body.mesh);
+    bent += body.statistics.bent_vertices;
+    distance = std::max(distance, greatest_wall_distance(body.mesh, normal, offset));
+  }
+  EXPECT_GT(bent, 0U);
+  EXPECT_GT(distance, 0.01);
 }
 
 }  // namespace
