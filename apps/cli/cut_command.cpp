@@ -14,6 +14,7 @@
 #include "command.h"
 #include "command_options.h"
 #include "command_support.h"
+#include "incise/lab/method.h"
 #include "incise/mesh/bounds.h"
 #include "input_kind.h"
 #include "job_output.h"
@@ -74,6 +75,11 @@ bool draws_over(const CutArguments& a) {
   return false;
 }
 
+/// The method that the paper cites, where one was asked for.
+std::optional<LabMethod> method_of(const CutArguments& a) {
+  return find_lab_method(a.profile);
+}
+
 /// What is wrong with the arguments, or nothing.
 std::string usage_problem(const CutArguments& a) {
   if (a.blade.empty() == a.plane.empty()) return "give either --blade B.json or --plane nx,ny,nz,d";
@@ -82,6 +88,9 @@ std::string usage_problem(const CutArguments& a) {
   }
   if (!std::isfinite(a.snap) || a.snap < 0 || a.snap > 0.4) return "--snap must lie between 0 and 0.4";
   if (a.mesh == "-" && a.blade == "-") return "mesh and blade cannot both come from stdin; name one of them";
+  if (method_of(a) && !a.record.empty()) {
+    return "--record does not go with --profile " + a.profile + ", which a replay does not know; leave one out";
+  }
   if (a.mesh == "-" && !a.record.empty()) return "--record needs the mesh as a file, which a replay can read again";
   if (a.record == "-" || a.picture == "-") return "recordings and pictures do not go to stdout; name a file";
   if (takes_a_place(a)) return "--record " + a.record + " is another file of this command; give it a name of its own";
@@ -92,8 +101,21 @@ std::string usage_problem(const CutArguments& a) {
   return {};
 }
 
+/// Of a method that neither snaps split points nor maintains.
+void note_idle_beside_method(const CutArguments& a, const Terminal& terminal) {
+  const auto note = [&](bool is_given, const std::string& flag) {
+    if (is_given) terminal.note(flag + " has no effect with --profile " + a.profile + ", which cuts and does no more");
+  };
+  note(a.has_snap, "--snap");
+  note(a.no_merge, "--no-merge");
+  note(a.no_improve, "--no-improve");
+  note(a.no_smooth_boundary, "--no-smooth-boundary");
+  note(a.budget_us > 0, "--budget-us");
+}
+
 /// Says which of the flags change nothing beside the others.
 void note_idle_flags(const CutArguments& a, const Terminal& terminal) {
+  if (method_of(a)) return note_idle_beside_method(a, terminal);
   const bool is_paper = a.profile == "paper";
   if (is_paper && a.has_snap) terminal.note("--snap has no effect with --profile paper, which never snaps");
   if (a.no_smooth_boundary && (!is_paper || a.no_improve)) {
@@ -124,14 +146,15 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
   job.strokes = std::move(strokes);
   job.by_steps = !a.blade.empty();
   job.record = a.record;
+  job.method = method_of(a);
   job.engine.cut.profile = profile_of(a.profile);
   job.engine.cut.snap = a.snap;
-  job.engine.maintain.merge = !a.no_merge;
-  job.engine.maintain.improve = !a.no_improve;
+  job.engine.maintain.merge = !a.no_merge && !job.method;
+  job.engine.maintain.improve = !a.no_improve && !job.method;
   job.engine.maintain.smooth_boundary = !a.no_smooth_boundary;
   job.engine.threads = a.threads;
   job.engine.log = terminal.log_sink();
-  job.budget_us = a.budget_us;
+  job.budget_us = job.method ? 0 : a.budget_us;
   job.options.seed = a.seed;
   job.options.blade = a.blade;
   job.options.plane = a.plane;
@@ -199,12 +222,26 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
 
 }  // namespace
 
+namespace {
+
+void add_cut_profile(CLI::App& command, std::string& profile) {
+  std::vector<std::string> names = {"incise", "paper"};
+  names.insert(names.end(), kLabMethodNames.begin(), kLabMethodNames.end());
+  command
+      .add_option("--profile", profile,
+                  "incise (default); paper: the published method; or a method that it cites, which is not maintained")
+      ->check(CLI::IsMember(names));
+}
+
+}  // namespace
+
 Command add_cut(CLI::App& root) {
   const auto arguments = std::make_shared<CutArguments>();
   CLI::App* cut = add_command(root, "cut", "Cut a mesh along a blade's path or a plane",
                               "  incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
                               "  incise cut bunny.node --blade scenes/bunny_stroke.json -o cut.vtu --report cut.json\n"
                               "  incise cut bunny.node --plane=-1,0,2,0.3 --profile paper --report -\n"
+                              "  incise cut bunny.node --plane=-1,0,2,0.3 --profile removal --report -\n"
                               "  incise cut cube.mesh --plane 1,0,0,0.5 --no-merge --no-improve -o raw.vtu\n"
                               "  incise cut bunny.node --blade scenes/bunny_stroke.json --budget-us 2000 -o cut.vtu\n"
                               "  incise cut bunny.node --blade scenes/bunny_stroke.json --record cut.jsonl\n"
@@ -213,7 +250,7 @@ Command add_cut(CLI::App& root) {
   cut->add_option("--blade", arguments->blade, "Blade file: JSON of format incise-blade; - for stdin");
   cut->add_option("--plane", arguments->plane, "nx,ny,nz,d: cut through everything along n.x = d, n of any length");
   add_output(*cut, arguments->output);
-  add_profile(*cut, arguments->profile);
+  add_cut_profile(*cut, arguments->profile);
   cut->add_option("--snap", arguments->snap,
                   "Snapping distance as a fraction of the mean incident edge, 0 to 0.4 (default 0.2)");
   cut->add_flag("--no-merge", arguments->no_merge, "Do not merge short edges after a stroke");

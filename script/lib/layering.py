@@ -12,16 +12,18 @@ MAY_INCLUDE = {
     "cut": LOWEST,
     "improve": LOWEST,
     "paper": LOWEST + ("cut", "improve"),
+    "lab": LOWEST + ("cut", "paper"),
     "sim": LOWEST,
     "io": LOWEST,
     "image": LOWEST + ("improve", "io"),
     "engine": LOWEST + ("cut", "improve", "paper", "sim", "io"),
-    "app": LOWEST + ("cut", "improve", "paper", "sim", "io", "image", "engine"),
+    "app": LOWEST + ("cut", "improve", "paper", "lab", "sim", "io", "image", "engine"),
     "render": LOWEST + ("app",),
     "c": (),  # include/incise/c: C, and self-contained; bindings/c is a front end
 }
-# Modules that may use what is private to others: the paper's profile shares sweeps, templates and journal steps.
-MAY_LOOK_INTO = {"paper": ("cut", "improve")}
+# Modules that may use what is private to others: the paper's profile shares sweeps, templates and journal steps; the
+# cited methods share the paper's search for crossings besides.
+MAY_LOOK_INTO = {"paper": ("cut", "improve"), "lab": ("cut", "paper")}
 # What a module is to those above it, though it is not installed: the parts that the engine calls in order.
 PARTS = ("cut/cutter.h", "improve/maintainer.h", "paper/paper_cut.h", "paper/paper_maintenance.h")
 # Folders of a module, lowest first: each may include those before it, unless they are named as parts side by side.

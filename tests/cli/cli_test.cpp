@@ -21,6 +21,40 @@ Outcome run_plain_cut(std::vector<std::string> arguments) {
   return run(arguments);
 }
 
+TEST(Cli, cuts_by_the_methods_that_the_paper_cites) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  const std::vector<std::pair<std::string, int>> tets = {{"removal", 600}, {"snapping", 750}, {"minimal", 1300}};
+  for (const auto& [method, count] : tets) {
+    const std::string out = folder / (method + ".vtu");
+    const Outcome outcome = run({"cut", cube, "--plane", "1,0,0,0.5", "--profile", method, "-o", out, "--report", "-"});
+    ASSERT_EQ(outcome.code, 0) << method << outcome.err;
+    const json figures = json::parse(outcome.out);
+    EXPECT_EQ(figures["options"]["profile"], method);
+    EXPECT_EQ(figures["options"]["merge"], false);
+    EXPECT_EQ(figures["mesh"]["after"]["tets"], count) << method;
+    EXPECT_EQ(figures["mesh"]["after"]["components"], 2) << method;
+    EXPECT_TRUE(figures["validity"]["ok"]) << method;
+    EXPECT_EQ(run({"check", out}).code, 0) << method;
+  }
+}
+
+TEST(Cli, cuts_by_a_cited_method_along_every_stroke_of_a_blade_file) {
+  const Folder folder;
+  const std::string cube = folder.write("cube.mesh", cube_mesh(5));
+  for (const std::string method : {"removal", "snapping", "minimal"}) {
+    const Outcome cut =
+        run({"cut", cube, "--blade", INCISE_SCENES "/cube_cross.json", "--profile", method, "--report", "-"});
+    ASSERT_EQ(cut.code, 0) << method << cut.err;
+    const json figures = json::parse(cut.out);
+    EXPECT_EQ(figures["mesh"]["after"]["components"], 4) << method;
+  }
+  const std::string err =
+      run({"cut", cube, "--plane", "1,0,0,0.5", "--profile", "removal", "--snap", "0.1", "--budget-us", "9"}).err;
+  EXPECT_NE(err.find("--snap has no effect with --profile removal"), std::string::npos) << err;
+  EXPECT_NE(err.find("--budget-us has no effect with --profile removal"), std::string::npos) << err;
+}
+
 TEST(Cli, cuts_the_papers_cube_with_both_profiles) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(5));

@@ -46,6 +46,8 @@ TEST_F(CliErrors, usage) {
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--snap", "nan"}, 2, "snap");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--snap=-0.1"}, 2, "snap");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--profile", "best"}, 2, "profile");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--profile", "removal", "--record", folder_ / "r.jsonl"}, 2,
+                 "--record does not go with --profile removal");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--threads", "0"}, 2, "threads");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--threads", "257"}, 2, "threads");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--unknown"}, 2, "not expected");

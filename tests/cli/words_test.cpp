@@ -77,7 +77,7 @@ TEST(Completion, of_bash_knows_commands_options_and_values) {
   if (!has_program("bash")) GTEST_SKIP() << "there is no bash";
   EXPECT_EQ(completed("incise c"), "check cut convert completion\n");
   EXPECT_EQ(completed("incise cut --re"), "--report --record\n");
-  EXPECT_EQ(completed("incise cut --profile ''"), "incise paper\n");
+  EXPECT_EQ(completed("incise cut --profile ''"), "incise paper removal snapping minimal\n");
   EXPECT_EQ(completed("incise -q cut --pla"), "--plane\n");
   EXPECT_EQ(completed("incise cut cube.m"), "\n") << "files are the shell's own";
   EXPECT_EQ(completed("incise convert a.vtu b.msh --format msh2"), "msh22\n");

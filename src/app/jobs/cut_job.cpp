@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/jobs/job_internal.h"
+#include "app/jobs/lab_cut.h"
 #include "app/recording/recorded_engine.h"
 #include "incise/io/mesh_export.h"
 #include "incise/mesh/bounds.h"
@@ -13,11 +14,7 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-Error in_stroke(Error error, const CutJob& job, std::size_t index) {
-  const std::string& name = job.strokes[index].name;
-  error.message = "stroke " + std::to_string(index) + (name.empty() ? "" : " \"" + name + "\"") + ": " + error.message;
-  return error;
-}
+using detail::in_stroke;
 
 /// What a stroke took beyond its steps.
 StageTimes rest_of(const StageTimes& whole, const std::vector<StageTimes>& steps) {
@@ -141,9 +138,11 @@ Result<JobResult> run_cut(io::LoadedMesh loaded, const CutJob& job, bool wants_m
   JobResult result;
   JobReport& report = result.report;
   report.options = job.options;
+  report.options.method = job.method;
   detail::describe_job(loaded, job.engine, job.budget_us, report);
   report.strokes = job.strokes.size();
   if (const Status status = check_blades(job, rest_bounds(loaded.mesh)); !status.ok()) return status.error();
+  if (job.method) return detail::run_lab_cut(std::move(loaded), job, wants_mesh, std::move(report));
   detail::measure_before(loaded.mesh, report);
   Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), engine_options(job),
                                                          {job.record, loaded.source.file, job.options.seed});

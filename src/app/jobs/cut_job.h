@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/jobs/report.h"
 #include "incise/engine/engine.h"
 #include "incise/io/mesh_data.h"
 #include "incise/io/mesh_loader.h"
+#include "incise/lab/method.h"
 
 namespace incise {
 inline namespace v0 {
@@ -23,6 +25,9 @@ struct CutJob {
   /// The blade goes from time to time, each pair of times one step of the engine, instead of cutting once a stroke is
   /// complete. The profile paper always does the latter.
   bool by_steps = false;
+  /// A method that the paper cites cuts instead of the engine: each stroke as a whole, nothing is maintained, and
+  /// `budget_us` and `record` play no part. Of `engine` it takes the threads.
+  std::optional<LabMethod> method = {};
   EngineOptions engine;
   /// Microseconds for the maintenance that follows each stroke, at most `kMaxBudgetUs`; what one stroke leaves over the
   /// next may spend. 0: no clock, `engine.maintain.work_units` are the budget of each stroke. Cutting is never bounded,
@@ -57,8 +62,9 @@ struct JobResult {
 /// too. Measuring counts in no time of the report. With `budget_us` the result depends on the clock; the report has the
 /// work that was done after each stroke.
 /// @param wants_mesh  whether `JobResult::mesh` is filled.
-/// Errors: as `Engine::create` and `Engine::cut`, naming the stroke, and before anything is cut where a blade is too
-/// far from the body (`check_reach`); kIo where the recording fails. Cost: the cuts, plus about 3 µs per tet.
+/// Errors: as `Engine::create` and `Engine::cut`, or `cut_by`, naming the stroke, and before anything is cut where a
+/// blade is too far from the body (`check_reach`); kIo where the recording fails. Cost: the cuts, plus about 3 µs per
+/// tet.
 [[nodiscard]] Result<JobResult> run_cut(io::LoadedMesh loaded, const CutJob& job, bool wants_mesh);
 
 }  // namespace app

@@ -109,6 +109,12 @@ void StepSamples::extend(double more_ms, const StageTimes& times) {
   stages.back() += times;
 }
 
+Error in_stroke(Error error, const CutJob& job, std::size_t index) {
+  const std::string& name = job.strokes[index].name;
+  error.message = "stroke " + std::to_string(index) + (name.empty() ? "" : " \"" + name + "\"") + ": " + error.message;
+  return error;
+}
+
 void add_operation(const MaintainStatistics& maintained, const StepSamples& samples, JobReport& report) {
   report.maintain += maintained;
   report.units_per_stroke.push_back(maintained.work_units);

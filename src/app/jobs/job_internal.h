@@ -61,6 +61,9 @@ struct StepSamples {
   void extend(double more_ms, const StageTimes& times);
 };
 
+/// Says in which stroke of a job an error came up.
+[[nodiscard]] Error in_stroke(Error error, const CutJob& job, std::size_t index);
+
 /// Adds one operation, a stroke or an improvement.
 void add_operation(const MaintainStatistics& maintained, const StepSamples& samples, JobReport& report);
 

@@ -22,9 +22,14 @@ Json json_of(const MeshCounts& counts) {
   return {{"vertices", counts.vertices}, {"tets", counts.tets}, {"components", counts.components}};
 }
 
+std::string profile_name(const ReportOptions& options) {
+  if (options.method) return std::string(name_of(*options.method));
+  return options.profile == Profile::kPaper ? "paper" : "incise";
+}
+
 Json options_json(const JobReport& report) {
   const ReportOptions& options = report.options;
-  Json root = {{"profile", options.profile == Profile::kPaper ? "paper" : "incise"},
+  Json root = {{"profile", profile_name(options)},
                {"merge", options.merge},
                {"improve", options.improve},
                {"budget_us", options.budget_us > 0 ? Json(options.budget_us) : Json()}};

@@ -9,6 +9,7 @@
 #include "incise/core/profile.h"
 #include "incise/cut/options.h"
 #include "incise/improve/options.h"
+#include "incise/lab/method.h"
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/validate.h"
 
@@ -34,6 +35,7 @@ struct Percentiles {
 /// What was asked for, as the report repeats it.
 struct ReportOptions {
   Profile profile = Profile::kIncise;
+  std::optional<LabMethod> method = {};  ///< a method that the paper cites, instead of the profile
   double snap = 0.2;
   bool merge = true;
   bool improve = true;

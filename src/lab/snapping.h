@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "cut/cut_context.h"
+#include "cut/sweep.h"
+
+namespace incise {
+inline namespace v0 {
+namespace lab {
+
+/// Moves vertices onto the sheet instead of dividing tets: of each crossed edge the nearer end, to the nearest point of
+/// the sheet, the nearest vertex first, where no tet turns over; then opens the faces between tets whose centres lie on
+/// either side of the sheet. The number of tets stays; walls get `tag`.
+///
+/// **Source:** the paper's [9]: H.-W. Nienhuys, A. F. van der Stappen, "A surgery simulation supporting cuts and finite
+/// element deformation", MICCAI 2001. Reading: the path is known in advance, so that faces are chosen by the tets'
+/// centres; there the blade's path within each step chooses them. Vertices of the skin move like all others. Cost: one
+/// pass over the mesh, then O(cut tets · stars).
+Status snap_nodes(const CutContext& context, const Sheet& sheet, std::uint32_t tag, unsigned threads);
+
+}  // namespace lab
+}  // namespace v0
+}  // namespace incise
