@@ -126,7 +126,7 @@ bool is_same(const PaperScene& scene, const std::vector<SceneRun>& runs) {
 void measure(const PaperScene& paper, Profile profile, const Settings& settings, Tables& tables,
              std::vector<Acceptance>& lines) {
   Result<app::Scene> scene = app::read_scene(settings.root / "scenes" / (std::string(paper.file) + ".json"));
-  const Result<io::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<io::LoadedMesh>(scene.error());
+  const Result<io::LoadedMesh> loaded = scene.ok() ? app::take_model(*scene) : Result<io::LoadedMesh>(scene.error());
   if (!loaded) {
     std::fprintf(stderr, "%s is left out: %s\n", paper.name, loaded.error().message.c_str());
     return;

@@ -4,7 +4,7 @@ if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
 endif()
 
 # incise_fuzzer(NAME MODULES module... SOURCES file...): one libFuzzer program `NAME`, its seeds in tests/fuzz/corpus.
-# script/soak runs them: `fuzz_mesh`, `fuzz_labels`, `fuzz_blade`, `fuzz_recording`.
+# script/soak runs them: `fuzz_mesh`, `fuzz_labels`, `fuzz_blade`, `fuzz_recording`, `fuzz_plan`.
 function(incise_fuzzer name)
   cmake_parse_arguments(ARG "" "" "MODULES;LIBRARIES;SOURCES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})

@@ -24,7 +24,7 @@ foreach(module IN LISTS incise_built)
   endif()
 endforeach()
 install(FILES include/incise/incise.h ${PROJECT_BINARY_DIR}/generated/incise/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/incise)
-install(FILES LICENSE THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(TARGETS ${incise_targets} EXPORT inciseTargets)
 install(EXPORT inciseTargets NAMESPACE incise:: DESTINATION ${incise_config_dir})
 

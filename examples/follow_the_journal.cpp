@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "incise/engine/engine.h"
+#include "incise/mesh/journal_mirror.h"
 #include "incise/mesh/shapes.h"
-#include "journal_mirror.h"
 
 namespace {
 
+using incise::JournalMirror;
 using incise::Vec3;
-using incise::examples::JournalMirror;
 
 constexpr unsigned kSteps = 24;
 constexpr double kStep = 1.0 / kSteps;  // seconds

@@ -12,6 +12,7 @@ Command add_cut(CLI::App& root);
 Command add_improve(CLI::App& root);
 Command add_simulate(CLI::App& root);
 Command add_replay(CLI::App& root);
+Command add_batch(CLI::App& root);
 Command add_convert(CLI::App& root);
 Command add_mesh(CLI::App& root);
 Command add_completion(CLI::App& root);
@@ -20,8 +21,9 @@ Command add_man(CLI::App& root);
 namespace {
 
 /// In the order of the help.
-constexpr std::array<AddCommand, 10> kCommands = {add_info,   add_check,   add_cut,  add_improve,    add_simulate,
-                                                  add_replay, add_convert, add_mesh, add_completion, add_man};
+constexpr std::array<AddCommand, 11> kCommands = {add_info,     add_check,      add_cut,   add_improve,
+                                                  add_simulate, add_replay,     add_batch, add_convert,
+                                                  add_mesh,     add_completion, add_man};
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 failure, 2 usage, 3 bad input, 4 a check failed, 5 no display, 130 interrupted.\n"

@@ -10,10 +10,14 @@
 #include <utility>
 
 #include "app/jobs/cut_job.h"
+#include "app/model/fine_file.h"
 #include "app/scene/blade_file.h"
+#include "app/scene/scene_simulation.h"
 #include "command.h"
 #include "command_options.h"
 #include "command_support.h"
+#include "fine_output.h"
+#include "incise/cut/region_guard.h"
 #include "incise/lab/method.h"
 #include "incise/mesh/bounds.h"
 #include "input_kind.h"
@@ -29,8 +33,10 @@ using namespace incise;
 struct CutArguments {
   std::string mesh, blade, plane, report, record, picture;
   MeshOutput output;
+  FineArguments fine;
   bool as_json = false;
   std::string profile = "incise";
+  std::vector<std::string> stop_at;
   double snap = 0.2;
   bool has_snap = false;
   bool no_merge = false, no_improve = false, no_smooth_boundary = false;
@@ -88,6 +94,7 @@ std::string usage_problem(const CutArguments& a) {
   }
   if (!std::isfinite(a.snap) || a.snap < 0 || a.snap > 0.4) return "--snap must lie between 0 and 0.4";
   if (a.mesh == "-" && a.blade == "-") return "mesh and blade cannot both come from stdin; name one of them";
+  if (!a.stop_at.empty() && a.blade.empty()) return "--stop-at holds a blade back; give it by --blade";
   if (method_of(a) && !a.record.empty()) {
     return "--record does not go with --profile " + a.profile + ", which a replay does not know; leave one out";
   }
@@ -95,6 +102,7 @@ std::string usage_problem(const CutArguments& a) {
   if (a.record == "-" || a.picture == "-") return "recordings and pictures do not go to stdout; name a file";
   if (takes_a_place(a)) return "--record " + a.record + " is another file of this command; give it a name of its own";
   if (draws_over(a)) return "--picture " + a.picture + " is another file of this command; give it a name of its own";
+  if (const std::string problem = fine_problem(a.fine); !problem.empty()) return problem;
   if (!a.picture.empty() && fs::path(a.picture).extension() != ".png") {
     return "--picture " + a.picture + ": unknown extension; pictures are .png";
   }
@@ -129,14 +137,32 @@ void note_idle_flags(const CutArguments& a, const Terminal& terminal) {
   }
 }
 
-Result<std::vector<Stroke>> strokes_of(const CutArguments& a, const TetMesh& mesh) {
+/// The strokes of the blade file, all of which stop at --stop-at as well, by name or number.
+Result<std::vector<app::BladeStroke>> blade_of(const CutArguments& a) {
+  Result<std::vector<app::BladeStroke>> blade = app::read_blade_file(input_of(a.blade));
+  if (!blade.ok()) return explain_kind(blade.error(), a.blade, FileKind::kBlade);
+  for (const std::string& stop : a.stop_at) {
+    std::int32_t number = 0;
+    const bool is_number = CLI::detail::lexical_cast(stop, number);
+    for (app::BladeStroke& stroke : *blade) {
+      if (is_number) stroke.stop_at.push_back(number);
+      if (!is_number) stroke.stop_names.push_back(stop);
+    }
+  }
+  return blade;
+}
+
+/// The strokes as the blade may go.
+Result<std::vector<Stroke>> held_strokes_of(const CutArguments& a, const io::LoadedMesh& loaded) {
   if (!a.blade.empty()) {
-    Result<std::vector<Stroke>> strokes = app::read_blade(input_of(a.blade));
-    if (!strokes.ok()) return explain_kind(strokes.error(), a.blade, FileKind::kBlade);
-    return strokes;
+    const Result<std::vector<app::BladeStroke>> blade = blade_of(a);
+    if (!blade.ok()) return blade.error();
+    Result<std::vector<Stroke>> held = app::held_strokes(*blade, loaded.mesh, loaded.region_names);
+    if (!held.ok()) return Error{held.error().code, a.blade + ": " + held.error().message, held.error().ids};
+    return held;
   }
   const Plane plane = *parse_plane(a.plane);
-  Result<Stroke> stroke = plane_stroke(rest_bounds(mesh), plane.normal, plane.offset);
+  Result<Stroke> stroke = plane_stroke(rest_bounds(loaded.mesh), plane.normal, plane.offset);
   if (!stroke.ok()) return stroke.error();
   return std::vector<Stroke>{std::move(stroke).value()};
 }
@@ -188,11 +214,22 @@ void warn_of_misses(const CutArguments& a, const app::CutJob& job, const app::Jo
                    " cut nothing; does the blade meet the mesh? incise info tells its bounds");
 }
 
+/// The picture and the surface that were asked for.
+Status draw_end(const CutArguments& a, const Engine& end, app::FineView* fine) {
+  if (!a.picture.empty()) {
+    if (Status status = draw_cut(end, fine, a.picture); !status.ok()) return status;
+  }
+  if (a.fine.drawn.empty()) return {};
+  const Result<app::GltfBody> body = body_of(*fine, end.mesh(), end.journal(), 1);
+  return body.ok() ? app::write_drawn(a.fine.drawn, *body) : Status(body.error());
+}
+
 int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   const ReportOutput report{arguments.report, arguments.as_json};
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(terminal, problem, kUsage);
-  if (const auto code = refuse_outputs(arguments.output, report.is_on_stdout(),
-                                       {arguments.report, arguments.record, arguments.picture}, terminal)) {
+  if (const auto code =
+          refuse_outputs(arguments.output, report.is_on_stdout(),
+                         {arguments.report, arguments.record, arguments.picture, arguments.fine.drawn}, terminal)) {
     return *code;
   }
   if (!arguments.picture.empty()) {  // before anything is written
@@ -201,13 +238,15 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   note_idle_flags(arguments, terminal);
   Result<io::LoadedMesh> loaded = load(arguments.mesh, terminal);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
-  Result<std::vector<Stroke>> strokes = strokes_of(arguments, loaded->mesh);
+  Result<std::vector<Stroke>> strokes = held_strokes_of(arguments, *loaded);
   if (!strokes.ok()) return fail(terminal, strokes.error(), kBadInput);
+  Result<std::optional<app::FineView>> fine = bind_fine(arguments.fine, loaded->mesh);
+  if (!fine.ok()) return fail(terminal, fine.error(), kBadInput);
   const Box body = rest_bounds(loaded->mesh);
   std::optional<ProgressBar> bar(std::in_place, terminal, arguments.blade.empty() ? "cuts" : "steps");
   app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal, *bar);
   Status drawn;
-  if (!arguments.picture.empty()) job.look = [&](const Engine& end) { drawn = draw_cut(end, arguments.picture); };
+  job.look = [&](const Engine& end) { drawn = draw_end(arguments, end, *fine ? &**fine : nullptr); };
   const Result<app::JobResult> result = app::run_cut(std::move(loaded).value(), job, arguments.output.is_wanted());
   bar.reset();
   if (!drawn.ok()) return fail(terminal, drawn.error(), kFailure);
@@ -216,6 +255,7 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   }
   warn_of_misses(arguments, job, result->report, body, terminal);
   if (!arguments.picture.empty()) terminal.wrote(arguments.picture, "picture");
+  if (!arguments.fine.drawn.empty()) terminal.wrote(arguments.fine.drawn, "surface");
   if (!arguments.record.empty()) terminal.wrote(arguments.record, "recording");
   return finish_job(arguments.output, report, "cut", *result, terminal);
 }
@@ -245,9 +285,13 @@ Command add_cut(CLI::App& root) {
                               "  incise cut cube.mesh --plane 1,0,0,0.5 --no-merge --no-improve -o raw.vtu\n"
                               "  incise cut bunny.node --blade scenes/bunny_stroke.json --budget-us 2000 -o cut.vtu\n"
                               "  incise cut bunny.node --blade scenes/bunny_stroke.json --record cut.jsonl\n"
-                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --picture cut.png");
+                              "  incise cut bunny.node --blade scenes/bunny_stroke.json --picture cut.png\n"
+                              "  incise cut organ.mesh --plane 1,0,0,40 --surface scan.obj --drawn cut.glb");
   cut->add_option("MESH", arguments->mesh, kMeshHelp)->required();
   cut->add_option("--blade", arguments->blade, "Blade file: JSON of format incise-blade; - for stdin");
+  cut->add_option("--stop-at", arguments->stop_at,
+                  "Regions that the blade's edge is held outside of, by number or name: muscle,3")
+      ->delimiter(',');
   cut->add_option("--plane", arguments->plane, "nx,ny,nz,d: cut through everything along n.x = d, n of any length");
   add_output(*cut, arguments->output);
   add_cut_profile(*cut, arguments->profile);
@@ -261,6 +305,7 @@ Command add_cut(CLI::App& root) {
   cut->add_option("--seed", arguments->seed, "Seed, repeated in the report");
   add_threads(*cut, arguments->threads);
   cut->add_option("--record", arguments->record, "Record every step as JSON lines, for incise replay");
+  add_fine(*cut, arguments->fine);
   cut->add_option("--picture", arguments->picture, "Draw the result to this PNG; needs OpenGL, but no display");
   add_budget(
       *cut, arguments->budget_us,

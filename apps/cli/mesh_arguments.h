@@ -15,7 +15,8 @@ struct MeshArguments {
   bool as_json = false;
   double size = 0, smooth = 0.7, grade = 0.5;
   std::vector<int> labels;
-  std::vector<std::string> merges;
+  std::vector<std::string> merges, layers;
+  std::vector<int> layers_in;
   int halvings = 2;
   unsigned threads = 1;
 

@@ -6,20 +6,17 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "app/model/organ.h"
 #include "app/text/text_file.h"
 #include "command.h"
 #include "command_options.h"
 #include "command_support.h"
-#include "incise/image/image_file.h"
-#include "incise/image/mesh_labels.h"
-#include "incise/image/surface_labels.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
-#include "incise/io/surface_file.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
-#include "label_names.h"
 #include "mesh_arguments.h"
 #include "mesh_report.h"
 #include "picture.h"
@@ -30,25 +27,17 @@ namespace {
 using namespace incise;
 namespace fs = std::filesystem;
 
-struct Merge {
-  int from = 0, to = 0;
-};
-
-/// "2=1": label 2 becomes label 1.
-std::optional<Merge> parse_merge(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) return std::nullopt;
-  Merge merge;
-  const bool is_good = CLI::detail::lexical_cast(text.substr(0, equals), merge.from) &&
-                       CLI::detail::lexical_cast(text.substr(equals + 1), merge.to);
-  return is_good ? std::optional<Merge>(merge) : std::nullopt;
-}
-
 /// What is wrong with the arguments, or nothing.
 std::string usage_problem(const MeshArguments& a) {
   for (const std::string& merge : a.merges) {
-    if (!parse_merge(merge)) return "--merge " + merge + ": two labels are needed, as in --merge 2=1";
+    if (!app::parse_merge(merge)) return "--merge " + merge + ": two labels are needed, as in --merge 2=1";
   }
+  for (const std::string& layer : a.layers) {
+    if (!app::parse_layer(layer)) {
+      return "--layers " + layer + ": a name and a thickness in mm are needed, as in --layers skin=1.5,fat=8";
+    }
+  }
+  if (!a.layers_in.empty() && a.layers.empty()) return "--layers-in says where layers grow; give them by --layers";
   if (!a.picture.empty() && fs::path(a.picture).extension() != ".png") {
     return "--picture " + a.picture + ": unknown extension; pictures are .png";
   }
@@ -73,86 +62,26 @@ std::optional<OutputProblem> output_problem(const MeshArguments& a) {
   return std::nullopt;
 }
 
-bool is_surface(const std::string& file) {
-  std::string name = CLI::detail::to_lower(file);
-  if (name.size() > 3 && name.compare(name.size() - 3, 3, ".gz") == 0) name.resize(name.size() - 3);
-  const std::string extension = fs::path(name).extension().string();
-  return extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off";
+app::OrganJob job_of(const MeshArguments& a) {
+  app::OrganJob job;
+  job.input = a.input;
+  job.names = a.names;
+  job.size = a.size;
+  job.smooth = a.smooth;
+  job.grade = a.grade;
+  job.halvings = a.halvings;
+  job.threads = a.threads;
+  job.labels.assign(a.labels.begin(), a.labels.end());
+  job.layers_in.assign(a.layers_in.begin(), a.layers_in.end());
+  for (const std::string& merge : a.merges) job.merges.push_back(*app::parse_merge(merge));
+  for (const std::string& layer : a.layers) job.layers.push_back(*app::parse_layer(layer));
+  return job;
 }
 
-/// What a surface encloses, as labels, and the volumes of these.
-Result<image::ImageFile> read_surface_labels(const MeshArguments& a, std::vector<double>& volumes) {
-  constexpr double kVoxelShare = 1.0 / 3;  // of the tets' size
-  Result<io::SurfaceSoup> surface = io::read_surface(a.input);
-  if (!surface.ok()) return surface.error();
-  const std::size_t triangles = surface->triangles.size();
-  Result<image::SurfaceLabels> labels =
-      image::label_surface(std::move(surface).value(), kVoxelShare * a.size, a.threads);
-  if (!labels.ok()) return Error{labels.error().code, a.input + ": " + labels.error().message};
-  image::ImageFile file;
-  file.image = std::move(labels->image);
-  file.format_name = "surface of " + std::to_string(triangles) + " triangles, sampled by winding numbers";
-  file.placed_by = "its own coordinates";
-  file.notes = std::move(labels->notes);
-  if (a.merges.empty() && a.labels.empty()) volumes = std::move(labels->volumes);
-  return file;
-}
-
-Result<image::ImageFile> read_input(const MeshArguments& a, std::vector<double>& volumes) {
-  return is_surface(a.input) ? read_surface_labels(a, volumes) : image::read_labels(a.input);
-}
-
-/// Merges labels, then keeps those that are asked for. Says which is not there.
-Status choose_labels(const MeshArguments& a, image::LabelImage& image) {
-  const auto is_missing = [&](int label) { return label == 0 || image.find_label(label) == image.labels.size(); };
-  const auto missing = [&](int label) {
-    std::string there;
-    for (const std::int32_t l : image.labels) there += l != 0 && there.size() < 60 ? " " + std::to_string(l) : "";
-    return Error{ErrorCode::kBadArgument, a.input + ": has no label " + std::to_string(label) + "; there are" +
-                                              (there.empty() ? " none" : there)};
-  };
-  for (const std::string& text : a.merges) {
-    const Merge merge = *parse_merge(text);
-    if (is_missing(merge.from)) return missing(merge.from);
-    image::merge_label(image, merge.from, merge.to);
-  }
-  for (const int label : a.labels) {
-    if (is_missing(label)) return missing(label);
-  }
-  if (!a.labels.empty()) image::keep_labels(image, {a.labels.begin(), a.labels.end()});
-  return {};
-}
-
-image::MeshLabelsOptions options_of(const MeshArguments& a, ProgressBar& bar) {
-  image::MeshLabelsOptions options;
-  options.size = a.size;
-  options.smooth = a.smooth;
-  options.grade = a.grade;
-  options.most_halvings = a.halvings;
-  options.threads = a.threads;
-  options.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
-  return options;
-}
-
-Result<image::LabelMesh> make_mesh(const MeshArguments& a, const image::LabelImage& image, std::vector<double> volumes,
-                                   const Terminal& terminal) {
+Result<app::Organ> make_organ(app::OrganJob& job, app::OrganInput& input, const Terminal& terminal) {
   ProgressBar bar(terminal, "stages");
-  image::MeshLabelsOptions options = options_of(a, bar);
-  options.volumes = std::move(volumes);
-  return image::mesh_labels(image, options);
-}
-
-/// Says what the user may want to know before the figures.
-void note_what_changed(const MeshArguments& a, const MeshReport& report, const Terminal& terminal) {
-  const image::LabelMesh& made = *report.made;
-  if (made.island_voxels > 0) {
-    terminal.note(a.input + ": " + std::to_string(made.island_voxels) +
-                  " voxels of islands too small for this size joined what is around them");
-  }
-  if (made.pinched_points > 0) {
-    terminal.note(a.input + ": a label touches itself in " + std::to_string(made.pinched_points) +
-                  " points; use a smaller --size, or merge labels");
-  }
+  job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
+  return app::mesh_organ(job, input);
 }
 
 Status write_report(const MeshArguments& a, const MeshReport& report, const Terminal& terminal) {
@@ -166,16 +95,16 @@ Status write_report(const MeshArguments& a, const MeshReport& report, const Term
 Status write_picture(const TetMesh& mesh, const std::string& file, const Terminal& terminal) {
   Result<Engine> engine = Engine::create(mesh);
   if (!engine.ok()) return engine.error();
-  if (Status status = draw_cut(*engine, file); !status.ok()) return status;
+  if (Status status = draw_labels(*engine, file); !status.ok()) return status;
   terminal.wrote(file, "picture");
   return {};
 }
 
 Status write_outputs(const MeshArguments& a, const MeshReport& report, const Terminal& terminal) {
-  const TetMesh& mesh = report.made->mesh;
-  if (Status status = write_output(a.output, io::to_mesh_data(mesh, find_components(mesh)), terminal); !status.ok()) {
-    return status;
-  }
+  const TetMesh& mesh = report.organ->made.mesh;
+  io::MeshData data = io::to_mesh_data(mesh, find_components(mesh));
+  data.region_names = report.organ->names;
+  if (Status status = write_output(a.output, data, terminal); !status.ok()) return status;
   if (!a.picture.empty()) {
     if (Status status = write_picture(mesh, a.picture, terminal); !status.ok()) return status;
   }
@@ -202,32 +131,27 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   }
   MeshReport report;
   report.arguments = &arguments;
-  Result<LabelNames> names = arguments.names.empty() ? LabelNames() : read_label_names(arguments.names);
-  if (!names.ok()) return fail(terminal, names.error(), kBadInput);
-  report.names = std::move(names).value();
+  app::OrganJob job = job_of(arguments);
   Watch watch;
-  std::vector<double> volumes;
-  Result<image::ImageFile> file = read_input(arguments, volumes);
-  if (!file.ok()) return fail(terminal, file.error(), kBadInput);
-  report.file = &*file;
-  report.is_scan = !is_surface(arguments.input);
+  Result<app::OrganInput> input = app::read_organ(job);
+  if (!input.ok()) return fail(terminal, input.error(), kBadInput);
+  report.input = &*input;
+  report.layers = job.layers;
   report.read_ms = watch.lap();
-  print_notes(file->notes, arguments.input, terminal);
-  if (const Status status = choose_labels(arguments, file->image); !status.ok()) {
-    return fail(terminal, status.error(), kBadInput);
+  print_notes(input->file.notes, arguments.input, terminal);
+  const Result<app::Organ> organ = make_organ(job, *input, terminal);
+  if (!organ.ok()) {
+    const bool is_usage = organ.error().code == ErrorCode::kBadArgument;
+    return fail(terminal, organ.error(), is_usage ? kUsage : exit_of(organ.error()));
   }
-  const Result<image::LabelMesh> made = make_mesh(arguments, file->image, std::move(volumes), terminal);
-  if (!made.ok()) {
-    return fail(terminal, made.error(), made.error().code == ErrorCode::kBadArgument ? kUsage : exit_of(made.error()));
-  }
-  report.made = &*made;
+  report.organ = &*organ;
   report.mesh_ms = watch.lap();
-  report.is_valid = validate(made->mesh, ValidateLevel::kGeometry).ok;
+  report.is_valid = validate(organ->made.mesh, ValidateLevel::kGeometry).ok;
   if (!report.is_valid) {
     return fail(terminal, arguments.input + ": the mesh broke the validity contract and was not written; report this",
                 kCheckFailed);
   }
-  note_what_changed(arguments, report, terminal);
+  for (const std::string& note : organ->notes) terminal.note(note);
   const WritingZone zone;
   if (const Status status = write_outputs(arguments, report, terminal); !status.ok()) {
     return fail(terminal, status.error(), status.error().code == ErrorCode::kBadArgument ? kUsage : kFailure);
@@ -247,6 +171,7 @@ Command add_mesh(CLI::App& root) {
                   "  incise mesh liver.nii.gz -o liver.mesh --size 4\n"
                   "  incise mesh spine.nrrd -o spine.vtu --size 2 --labels 20,21 --report spine.json\n"
                   "  incise mesh organ.mha -o organ.msh --size 3 --merge 2=1 --names names.txt --picture organ.png\n"
+                  "  incise mesh body.nii.gz -o body.vtu --size 4 --layers skin=2,fat=8\n"
                   "  incise mesh femur.stl -o femur.mesh --size 5");
   mesh->add_option("LABELS", a.input,
                    "Label image: NIfTI (.nii, .nii.gz, .hdr/.img), NRRD, MetaImage or INRIMAGE; or a triangle surface: "
@@ -260,6 +185,10 @@ Command add_mesh(CLI::App& root) {
   mesh->add_option("--labels", a.labels, "Mesh these labels alone: 1,3")->delimiter(',');
   mesh->add_option("--merge", a.merges, "A=B: give label A's voxels to label B first; 2=1,3=1 for several")
       ->delimiter(',');
+  mesh->add_option("--layers", a.layers,
+                   "NAME=MM: layers from the surface inwards, as regions of their own: skin=1.5,fat=8")
+      ->delimiter(',');
+  mesh->add_option("--layers-in", a.layers_in, "Labels that layers may take from (default: all): 1,3")->delimiter(',');
   mesh->add_option("--names", a.names, "Text file: a label and its name on each line");
   mesh->add_option("--smooth", a.smooth, "Smoothing of the voxels' steps, voxels, 0.4 to 10 (default 0.7)");
   mesh->add_option("--grade", a.grade,
@@ -267,7 +196,10 @@ Command add_mesh(CLI::App& root) {
   mesh->add_option("--halvings", a.halvings,
                    "How often the size may be halved where a label is thin, 0 to 4 (default 2); never below a voxel");
   add_report(*mesh, a.report, a.as_json);
-  mesh->add_option("--picture", a.picture, "Draw the mesh to this PNG; needs OpenGL, but no display");
+  mesh->add_option(
+      "--picture", a.picture,
+      "Draw the mesh to this PNG, each region in its colour, cut open where there are several; needs OpenGL, but no "
+      "display");
   add_threads(*mesh, a.threads);
   return {mesh, [arguments](const Terminal& terminal) { return run_mesh(*arguments, terminal); }};
 }

@@ -21,8 +21,9 @@ Json to_json(const Vec3& v) {
 }
 
 std::string name_of(const MeshReport& report, std::int32_t label) {
-  const auto found = report.names.find(label);
-  return found == report.names.end() ? "" : found->second;
+  const io::RegionNames& names = report.organ->names;
+  const auto found = names.find(label);
+  return found == names.end() ? "" : found->second;
 }
 
 double relative_error(const image::LabelOutcome& label) {
@@ -30,15 +31,16 @@ double relative_error(const image::LabelOutcome& label) {
 }
 
 Json input_of(const MeshReport& report) {
-  const image::LabelImage& image = report.file->image;
-  return {{"file", report.arguments->input},        {"format", report.file->format_name},
-          {"placed_by", report.file->placed_by},    {"voxels", {image.size[0], image.size[1], image.size[2]}},
-          {"spacing_mm", to_json(image.spacing())}, {"notes", report.file->notes}};
+  const image::LabelImage& image = report.input->file.image;
+  return {{"file", report.arguments->input},           {"format", report.input->file.format_name},
+          {"placed_by", report.input->file.placed_by}, {"voxels", {image.size[0], image.size[1], image.size[2]}},
+          {"spacing_mm", to_json(image.spacing())},    {"finer", report.organ->finer},
+          {"notes", report.input->file.notes}};
 }
 
 Json labels_of(const MeshReport& report) {
   Json labels = Json::array();
-  for (const image::LabelOutcome& l : report.made->labels) {
+  for (const image::LabelOutcome& l : report.organ->made.labels) {
     labels.push_back({{"label", l.label},
                       {"name", name_of(report, l.label)},
                       {"voxels", l.voxels},
@@ -48,6 +50,15 @@ Json labels_of(const MeshReport& report) {
                       {"relative_error", relative_error(l)}});
   }
   return labels;
+}
+
+Json layers_of(const MeshReport& report) {
+  Json layers = Json::array();
+  for (std::size_t l = 0; l < report.organ->layers.size(); ++l) {
+    const std::int32_t label = report.organ->layers[l];
+    layers.push_back({{"label", label}, {"name", name_of(report, label)}, {"thickness", report.layers[l].thickness}});
+  }
+  return layers;
 }
 
 Json quality_of(const QualityStats& q) {
@@ -63,7 +74,7 @@ Json quality_of(const QualityStats& q) {
 
 std::string to_json(const MeshReport& report) {
   const MeshArguments& a = *report.arguments;
-  const image::LabelMesh& made = *report.made;
+  const image::LabelMesh& made = report.organ->made;
   const TetMesh& mesh = made.mesh;
   const Box box = rest_bounds(mesh);
   Json json = {{"format", "incise-mesh-report"},
@@ -77,14 +88,17 @@ std::string to_json(const MeshReport& report) {
                  {"halvings", a.halvings},
                  {"labels", a.labels},
                  {"merge", a.merges},
+                 {"layers", a.layers},
+                 {"layers_in", a.layers_in},
                  {"threads", a.threads}}},
-               {"coordinates", report.is_scan ? "RAS, mm" : "of the surface"},
+               {"coordinates", report.input->is_scan ? "RAS, mm" : "of the surface"},
                {"mesh",
                 {{"vertices", mesh.vertex_count()},
                  {"tets", mesh.tet_count()},
                  {"components", find_components(mesh).count()},
                  {"bounds", {to_json(box.lo), to_json(box.hi)}}}},
                {"labels", labels_of(report)},
+               {"layers", layers_of(report)},
                {"island_voxels", made.island_voxels},
                {"relabelled_tets", made.relabelled_tets},
                {"pinched_points", made.pinched_points},
@@ -96,21 +110,22 @@ std::string to_json(const MeshReport& report) {
 }
 
 std::string to_text(const MeshReport& report) {
-  const image::LabelMesh& made = *report.made;
+  const image::LabelMesh& made = report.organ->made;
   const QualityStats q = measure_quality(made.mesh);
-  const image::LabelImage& image = report.file->image;
+  const image::LabelImage& image = report.input->file.image;
   const MeshOutput& output = report.arguments->output;
   const Vec3 spacing = image.spacing();
-  std::string out = fmt::format("{}: {} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g}{}, placed by {}\n",
-                                report.file->format_name, image.size[0], image.size[1], image.size[2], spacing.x(),
-                                spacing.y(), spacing.z(), report.is_scan ? " mm" : "", report.file->placed_by);
+  std::string out =
+      fmt::format("{}: {} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g}{}, placed by {}\n",
+                  report.input->file.format_name, image.size[0], image.size[1], image.size[2], spacing.x(), spacing.y(),
+                  spacing.z(), report.input->is_scan ? " mm" : "", report.input->file.placed_by);
   out += fmt::format("{}: {} tets, {} vertices{}; dihedral angles {:.1f} to {:.1f} degrees, worst L/r {:.1f}\n",
                      output.is_stdout() ? "stdout" : output.file, made.mesh.tet_count(), made.mesh.vertex_count(),
-                     report.is_scan ? ", in RAS mm" : "", q.dihedral_min_deg, q.dihedral_max_deg, q.lr_max);
+                     report.input->is_scan ? ", in RAS mm" : "", q.dihedral_min_deg, q.dihedral_max_deg, q.lr_max);
   for (const image::LabelOutcome& l : made.labels) {
     const std::string name = name_of(report, l.label);
     out += fmt::format("  {}{}{}: {} tets, volume {:.5g}{}, {:+.2f} % off\n", l.label, name.empty() ? "" : " ", name,
-                       l.tets, l.volume, report.is_scan ? " mm3" : "", 100 * relative_error(l));
+                       l.tets, l.volume, report.input->is_scan ? " mm3" : "", 100 * relative_error(l));
   }
   return out;
 }

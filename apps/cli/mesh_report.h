@@ -2,21 +2,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "incise/image/image_file.h"
-#include "incise/image/mesh_labels.h"
-#include "label_names.h"
+#include "app/model/organ.h"
 #include "mesh_arguments.h"
 
 namespace incise_cli {
 
-/// What `incise mesh` did. Nothing is owned but the names.
+/// What `incise mesh` did. Nothing is owned but the layers.
 struct MeshReport {
   const MeshArguments* arguments = nullptr;
-  const incise::image::ImageFile* file = nullptr;
-  const incise::image::LabelMesh* made = nullptr;
-  LabelNames names;
-  bool is_scan = true;  ///< not a surface
+  const incise::app::OrganInput* input = nullptr;
+  const incise::app::Organ* organ = nullptr;
+  std::vector<incise::image::Layer> layers;  ///< as asked for
   bool is_valid = false;
   double read_ms = 0, mesh_ms = 0;
 };

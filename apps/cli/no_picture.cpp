@@ -17,7 +17,12 @@ incise::Status check_drawing() {
   return not_built();
 }
 
-incise::Status draw_cut(const incise::Engine& /*engine*/, const std::filesystem::path& /*file*/) {
+incise::Status draw_cut(const incise::Engine& /*engine*/, incise::app::FineView* /*fine*/,
+                        const std::filesystem::path& /*file*/) {
+  return not_built();
+}
+
+incise::Status draw_labels(const incise::Engine& /*engine*/, const std::filesystem::path& /*file*/) {
   return not_built();
 }
 

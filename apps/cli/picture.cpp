@@ -2,6 +2,7 @@
 #include "picture.h"
 
 #include "app/view/cut_picture.h"
+#include "app/view/label_picture.h"
 #include "render/headless_context.h"
 #include "render/image.h"
 #include "render/render_picture.h"
@@ -15,11 +16,24 @@ Status check_drawing() {
   return context.ok() ? Status() : Status(context.error());
 }
 
-Status draw_cut(const Engine& engine, const std::filesystem::path& file) {
-  const app::Viewport viewport;
-  const app::Picture picture = app::picture_of_cut(engine.mesh(), engine.journal(), viewport);
+namespace {
+
+Status draw(const app::Picture& picture, const app::Viewport& viewport, const std::filesystem::path& file) {
   const Result<render::Image> image = render::render_picture(picture, viewport);
   return image.ok() ? write_png(*image, file) : Status(image.error());
+}
+
+}  // namespace
+
+Status draw_cut(const Engine& engine, app::FineView* fine, const std::filesystem::path& file) {
+  const app::Viewport viewport;
+  const Result<app::Picture> picture = app::picture_of_cut(engine.mesh(), engine.journal(), viewport, fine);
+  return picture.ok() ? draw(*picture, viewport, file) : Status(picture.error());
+}
+
+Status draw_labels(const Engine& engine, const std::filesystem::path& file) {
+  const app::Viewport viewport;
+  return draw(app::picture_of_labels(engine.mesh(), engine.journal(), viewport), viewport, file);
 }
 
 }  // namespace incise_cli

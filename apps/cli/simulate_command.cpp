@@ -5,12 +5,15 @@
 #include <utility>
 
 #include "app/jobs/simulate_job.h"
+#include "app/model/fine_file.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/text_file.h"
 #include "command.h"
 #include "command_options.h"
 #include "command_support.h"
+#include "fine_output.h"
 #include "input_kind.h"
+#include "shared/device_arguments.h"
 
 namespace incise_cli {
 namespace {
@@ -25,7 +28,10 @@ struct SimulateArguments {
   std::uint64_t budget_us = 0;        // 0: the scene's work units
   std::optional<std::uint64_t> seed;  // unset: the scene's
   unsigned threads = 1;
+  std::string device;  // empty: the scene's strokes
+  incise_apps::DeviceArguments haptic;
   bool as_json = false;
+  FineArguments fine;
   bool is_ideal = false;  // the exercise's ideal strokes instead of the scene's
 };
 
@@ -45,7 +51,14 @@ std::string usage_problem(const SimulateArguments& a) {
     return a.output + ": unknown extension; a simulation is written as .pvd, with a folder of .vtu files beside";
   }
   if (a.record == "-") return "--record needs a file, not stdout";
-  if (a.every > 0 && a.output.empty()) return "--every is about the files of -o OUT.pvd; give both";
+  if (!a.device.empty() && !incise_apps::is_haply(a.device)) {
+    return "--device " + a.device + ": haply or haply=HOST:PORT is needed; in the window there are others";
+  }
+  if (!a.device.empty() && a.is_ideal) return "--ideal and --device both move the blade; give one";
+  if (const Status status = check_device(a.device, a.haptic); !status.ok()) return status.error().message;
+  if (a.every > 0 && a.output.empty() && a.fine.drawn.empty()) {
+    return "--every is about the files of -o OUT.pvd or the moments of --drawn OUT.glb; give one of them";
+  }
   return {};
 }
 
@@ -64,6 +77,7 @@ Result<app::Scene> read_scene(const SimulateArguments& a) {
 /// The scene with what the arguments ask for instead.
 app::Scene overridden(app::Scene scene, const SimulateArguments& a) {
   if (a.is_ideal) scene = app::with_ideal(scene);
+  if (!a.fine.surface.empty()) scene.model.surface = std::filesystem::absolute(a.fine.surface).string();
   EngineOptions& engine = scene.options.engine;
   if (a.frames > 0) scene.frames = a.frames;
   if (a.seed) scene.seed = *a.seed;
@@ -96,6 +110,57 @@ Status write_report(const SimulateArguments& a, const app::SimulationReport& rep
   return {};
 }
 
+/// The fine surface of a scene over time. Which points are drawn is known at the end alone, so that the mesh is kept as
+/// it was at each moment.
+class FineFilm {
+ public:
+  FineFilm(const app::Scene& scene, const SimulateArguments& arguments)
+      : scene_(scene),
+        file_(arguments.fine.drawn),
+        every_(arguments.every > 0 ? arguments.every : (scene.frames + kMoments - 1) / kMoments) {}
+
+  /// Has the job tell it what it needs, and write the surface at the end. To outlive the job.
+  void join(app::SimulateJob& job) {
+    job.watch = [this](std::size_t done, const Simulation& body) { return watch(done, body); };
+    job.look = [this](const Simulation& end) { status_ = write(end); };
+  }
+  /// How writing went.
+  [[nodiscard]] const Status& status() const { return status_; }
+
+ private:
+  static constexpr std::uint64_t kMoments = 24;  // about as many where nobody says otherwise
+
+  Status watch(std::size_t done, const Simulation& body) {
+    if (done == 0) {  // what is wrong with the surface is said at once
+      const auto fine = app::fine_view_of(scene_, body.mesh(), body.engine().journal());
+      if (!fine.ok()) return fine.error();
+    }
+    if (done % every_ == 0 || done == scene_.frames) {
+      moments_.emplace_back(static_cast<double>(done) * scene_.options.frame_seconds, body.mesh());
+    }
+    return {};
+  }
+
+  Status write(const Simulation& end) {
+    Result<std::optional<app::FineView>> fine = app::fine_view_of(scene_, end.mesh(), end.engine().journal());
+    if (!fine.ok()) return fine.error();
+    Result<app::GltfBody> body = body_of(**fine, end.mesh(), end.engine().journal(), scene_.options.body.length_unit);
+    if (!body.ok()) return body.error();
+    if (std::filesystem::path(file_).extension() == ".glb") {
+      for (const auto& [seconds, mesh] : moments_) {
+        body->moments.push_back({seconds, earlier_places(body->surface, mesh)});
+      }
+    }
+    return app::write_drawn(file_, *body);
+  }
+
+  const app::Scene& scene_;
+  std::string file_;
+  std::uint64_t every_;
+  std::vector<std::pair<double, TetMesh>> moments_;
+  Status status_;
+};
+
 int finish_run(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
   print_notes(report.job.notes, report.job.input, terminal);
   if (!a.output.empty() && report.job.change.ok) terminal.wrote(a.output, "series, with its folder");
@@ -112,7 +177,7 @@ int finish_run(const SimulateArguments& a, const app::SimulationReport& report, 
 
 /// Says why outputs cannot be written, as far as their names tell; nothing where they can.
 std::string output_problem(const SimulateArguments& a) {
-  for (const std::string& file : {a.output, a.report, a.record}) {
+  for (const std::string& file : {a.output, a.report, a.record, a.fine.drawn}) {
     if (!has_folder(file)) return file + ": its folder does not exist; create it first";
   }
   return {};
@@ -128,21 +193,37 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
                 kBadInput);
   }
   const app::Scene scene = overridden(std::move(read).value(), arguments);
+  if (const std::string problem = fine_problem(arguments.fine, !scene.model.surface.empty()); !problem.empty()) {
+    return fail(terminal, problem, kUsage);
+  }
   const Result<std::filesystem::path> model = app::find_model(scene);
   if (!scene.model.file.empty() && !model.ok()) return fail(terminal, model.error(), kBadInput);
   if (takes_a_place(arguments, scene.model.file.empty() ? "" : model->string())) {
     return fail(terminal,
                 "--record " + arguments.record + " is another file of this command; give it a name of its own", kUsage);
   }
+  std::unique_ptr<app::DeviceHand> hand;
+  if (!arguments.device.empty()) {
+    Result<std::unique_ptr<app::DeviceHand>> opened = incise_apps::open_device(arguments.device, arguments.haptic);
+    if (!opened.ok()) return fail(terminal, opened.error(), kFailure);
+    hand = std::move(opened).value();
+  }
   const WritingZone zone;  // an interrupt ends the run between two frames, and leaves no part of a series
   std::optional<ProgressBar> bar(std::in_place, terminal, "frames");
-  const Result<app::SimulateResult> result = app::run_simulate(scene, job_of(arguments, terminal, *bar));
+  app::SimulateJob job = job_of(arguments, terminal, *bar);
+  job.hand = hand.get();
+  FineFilm film(scene, arguments);
+  if (!arguments.fine.drawn.empty()) film.join(job);
+  const Result<app::SimulateResult> result = app::run_simulate(scene, job);
   bar.reset();
   if (!result.ok()) {
     const bool is_bad = result.error().code == ErrorCode::kBadArgument;
     return fail(terminal, result.error(), is_bad ? kBadInput : exit_of(result.error()));
   }
-  return result->was_stopped ? int{kInterrupted} : finish_run(arguments, result->report, terminal);
+  if (result->was_stopped) return kInterrupted;
+  if (!film.status().ok()) return fail(terminal, film.status().error(), exit_of(film.status().error()));
+  if (!arguments.fine.drawn.empty()) terminal.wrote(arguments.fine.drawn, "surface");
+  return finish_run(arguments, result->report, terminal);
 }
 
 }  // namespace
@@ -154,6 +235,7 @@ Command add_simulate(CLI::App& root) {
       "  incise simulate scenes/sim_cube.json\n"
       "  incise simulate scenes/sim_cube.json -o cube.pvd --report cube.json\n"
       "  incise simulate scenes/sim_skin.json --frames 60 --report -\n"
+      "  incise simulate scenes/sim_cube.json --surface cube.obj --drawn cube.glb\n"
       "  incise simulate scenes/sim_cube.json --profile paper --threads 2\n"
       "  incise simulate scenes/sim_cube.json --record cube.jsonl && incise replay cube.jsonl --verify");
   SimulateArguments& s = *arguments;
@@ -161,8 +243,11 @@ Command add_simulate(CLI::App& root) {
   simulate->add_option("--frames", s.frames, "Frames to run, instead of the scene's")
       ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
   simulate->add_option("-o,--output", s.output, "Write the body over time: NAME.pvd with the folder NAME_frames");
-  simulate->add_option("--every", s.every, "Frames between two files of -o (default: about 100 files)")
+  simulate
+      ->add_option("--every", s.every,
+                   "Frames between two files of -o, or moments of --drawn (default: about 100, or 24)")
       ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
+  add_fine(*simulate, s.fine);
   add_report(*simulate, s.report, s.as_json);
   simulate->add_option("--record", s.record, "Record every frame as JSON lines, for incise replay");
   simulate->add_option("--profile", s.profile, "incise, or paper: the published method; instead of the scene's")
@@ -171,6 +256,10 @@ Command add_simulate(CLI::App& root) {
              "Microseconds for maintenance per frame, 1 to 3600000000, taken as 10 work units each: no clock is read");
   simulate->add_option("--seed", s.seed, "Seed, instead of the scene's");
   simulate->add_flag("--ideal", s.is_ideal, "Show and score an exercise's ideal strokes, instead of the scene's");
+  simulate->add_option("--device", s.device,
+                       "Who has the blade instead of the scene: haply or haply=HOST:PORT, a hand at a haptic device; "
+                       "frames then keep the pace of the clock");
+  incise_apps::add_device(*simulate, s.haptic);
   add_threads(*simulate, s.threads);
   return {simulate, [arguments](const Terminal& terminal) { return run_simulate(*arguments, terminal); }};
 }

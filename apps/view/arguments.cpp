@@ -3,15 +3,22 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <map>
 
 #include "app/scene/blade_file.h"
 #include "app/scene/scene_simulation.h"
+#include "app/session/scan_scene.h"
+#include "app/session/starting_body.h"
 #include "app/viewer/key_bindings.h"
 #include "exit_code.h"
+#include "incise/io/numbers.h"
 #include "incise/mesh/bounds.h"
 #include "incise/version.h"
 #include "shared/command_words.h"
+#include "shared/manual.h"
 
 namespace incise_view {
 namespace {
@@ -22,42 +29,46 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  incise-view scenes/sim_skin.json\n"
     "  incise-view models/bunny.mesh --up y\n"
+    "  incise-view liver.nii.gz --size 5 --names names.txt        (a segmented scan, meshed first)\n"
     "  incise-view session.jsonl                                  (a recording, played)\n"
     "  incise-view --headless --replay session.jsonl --frame 120 --screenshot out.png\n"
     "  incise-view --headless scenes/sim_cube.json --frame 200 --color quality --wireframe --screenshot out.png\n";
 
-/// A cube to cut at once: what is shown where no file is named.
-app::Scene cube_scene() {
-  app::Scene scene;
-  scene.name = "A soft cube";
-  scene.model.box.cells = {10, 10, 10};
-  scene.options.body.length_unit = 0.1;
-  scene.options.body.damping = 2;
-  scene.options.materials.fallback.young = 10e3;
-  scene.options.engine.maintain.work_units = 100'000;
-  scene.attachments.push_back({app::HalfSpace{Vec3::UnitZ(), 0.001}});
-  scene.tools.push_back({"table", {}, {PlaneTool{Vec3::UnitZ(), 0}}});
-  scene.settle.frames = 120;
-  scene.frames = app::kMaxSceneFrames;
-  return scene;
-}
-
 void add_input(CLI::App& root, Arguments& a) {
-  root.add_option("FILE", a.file, "A scene, a mesh, or a recording of incise simulate, incise cut or this window");
+  root.add_option(
+      "FILE", a.file,
+      "A scene, a mesh, or a recording of incise simulate, incise cut or this window; a segmented scan or a "
+      "surface with --size MM");
   root.add_option_function<std::string>(
       "--replay", [&a](const std::string& file) { a.file = file; }, "The recording to play: the same as FILE");
   root.add_option("--record", a.record, "Record the session from its start to this file (JSON lines)");
   root.add_option("--keep-undo", a.keep_undo,
                   "Strokes that undo can take back, so that memory does not grow for ever (default 100); 0: all");
   root.add_option("--device", a.device,
-                  "What moves the blade: mouse (pens are mice), none, or a blade file that is the hand");
-  root.add_option("--up", a.up, "Of a mesh without a scene: the axis against gravity")
+                  "What moves the blade: mouse (pens are mice), none, haply or haply=HOST:PORT (a haptic device, by "
+                  "Haply's service), or a blade file that is the hand");
+  incise_apps::add_device(root, a.haptic);
+  root.add_option("--up", a.up, "Of a mesh without a scene: the axis against gravity (default z; of a scan y: front)")
       ->check(CLI::IsMember({"x", "y", "z"}));
+  root.add_option("--surface", a.surface,
+                  "A fine triangle surface that is shown in the place of the mesh's skin (.obj .stl .ply .off)");
   root.add_option("--threads", a.threads, "Worker threads, 1 to 256; the result does not depend on it")
       ->check(CLI::Range(1, 256));
   root.add_flag("--paused", a.is_paused, "Wait for the space bar");
   root.add_option("--speed", a.speed, "Of the simulation against the clock; 0: as fast as it can")
       ->check(CLI::Range(0.0, 100.0));
+}
+
+/// Of scans and surfaces: as `incise mesh` has them.
+void add_scan(CLI::App& root, Arguments& a) {
+  root.add_option("--layers", a.layers, "Scan: NAME=MM, layers from the surface inwards: skin=1.5,fat=8")
+      ->delimiter(',');
+  root.add_option("--layers-in", a.layers_in, "Scan: labels that layers may take from (default: all)")->delimiter(',');
+  root.add_option("--labels", a.labels, "Scan: mesh these labels alone: 1,3")->delimiter(',');
+  root.add_option("--names", a.names, "Scan: text file, a label and its name on each line; names choose materials");
+  root.add_option("--halvings", a.halvings, "Scan: how often the size may be halved where a label is thin (default 2)")
+      ->check(CLI::Range(0, 4));
+  root.add_option("--mesh", a.mesh, "Scan: keep the mesh in this file; recordings name it (default: a temporary file)");
 }
 
 void add_view(CLI::App& root, Arguments& a) {
@@ -72,11 +83,12 @@ void add_view(CLI::App& root, Arguments& a) {
                                           static const Colors kColors = {{"tissue", app::ColorBy::kTissue},
                                                                          {"region", app::ColorBy::kRegion},
                                                                          {"stroke", app::ColorBy::kStroke},
-                                                                         {"quality", app::ColorBy::kQuality}};
+                                                                         {"quality", app::ColorBy::kQuality},
+                                                                         {"defects", app::ColorBy::kDefects}};
                                           a.view.color = kColors.at(name);
                                         }),
-                                        "What colours show: tissue, region, stroke or quality")
-      ->check(CLI::IsMember({"tissue", "region", "stroke", "quality"}));
+                                        "What colours show: tissue, region, stroke, quality or defects")
+      ->check(CLI::IsMember({"tissue", "region", "stroke", "quality", "defects"}));
   root.add_option_function<std::string>("--theme", seen([&a](const std::string& name) {
                                           a.view.theme = name == "light" ? app::Theme::kLight : app::Theme::kDark;
                                         }),
@@ -97,6 +109,7 @@ void add_view(CLI::App& root, Arguments& a) {
         a.view.shows_surface = false;
       },
       "Draw nothing but the edges");
+  root.add_flag("--no-shadows", a.has_no_shadows, "Headless: draw without shadows");
   root.add_option_function<double>("--opacity", seen([&a](double value) { a.view.skin_opacity = value; }),
                                    "Of the skin, above 0, at most 1")
       ->check(CLI::Range(0.05, 1.0));
@@ -105,6 +118,19 @@ void add_view(CLI::App& root, Arguments& a) {
 /// `count` numbers that stand behind each other, with commas between.
 Vec3 vector_of(const std::vector<double>& n) {
   return {n[0], n[1], n[2]};
+}
+
+/// Pixels of the picture, or millimetres of tets.
+void take_size(const std::string& text, Arguments& a) {
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &a.size.width, &a.size.height, &end) == 2 && a.size.width > 0 &&
+      a.size.height > 0 && a.size.width <= 16384 && a.size.height <= 16384) {
+    return;
+  }
+  if (io::parse_double(text, a.tet_size) && a.tet_size > 0 && std::isfinite(a.tet_size)) return;
+  throw CLI::ValidationError("--size",
+                             "must be WIDTHxHEIGHT in pixels, for instance 1280x720, or the size of the tets that a "
+                             "scan becomes, in mm, for instance 5");
 }
 
 void add_camera(CLI::App& root, Arguments& a) {
@@ -127,17 +153,13 @@ void add_camera(CLI::App& root, Arguments& a) {
           "nx,ny,nz,d: leave out the tets where n.x <= d")
       ->delimiter(',')
       ->expected(4);
-  root.add_option_function<std::string>(
-      "--size",
-      [&a](const std::string& text) {
-        char end = 0;
-        if (std::sscanf(text.c_str(), "%dx%d%c", &a.size.width, &a.size.height, &end) == 2 && a.size.width > 0 &&
-            a.size.height > 0 && a.size.width <= 16384 && a.size.height <= 16384) {
-          return;
-        }
-        throw CLI::ValidationError("--size", "must be WIDTHxHEIGHT in pixels, for instance 1280x720");
-      },
-      "WIDTHxHEIGHT in pixels");
+  root.add_option_function<std::vector<std::string>>(
+          "--size",
+          [&a](const std::vector<std::string>& sizes) {
+            for (const std::string& size : sizes) take_size(size, a);
+          },
+          "WIDTHxHEIGHT in pixels; or, of a scan, the size of its tets in mm. Both may be given")
+      ->allow_extra_args(false);
   root.add_option("--samples", a.samples, "Per pixel, to smooth edges: 0 to 16")->check(CLI::Range(0, 16));
 }
 
@@ -153,7 +175,8 @@ void add_headless(CLI::App& root, Arguments& a) {
       "The picture's frame, counted in frames of a scene or calls of a recording (default: the end)");
   root.add_option("--screenshot", a.screenshot, "Write the picture to this PNG");
   root.add_option("--sequence", a.sequence, "Write pictures of all frames up to --frame to this folder");
-  root.add_option("--every", a.every, "Frames between two pictures of --sequence")
+  root.add_option("--film", a.film, "Write a film of all frames up to --frame to this file (.mp4); needs ffmpeg");
+  root.add_option("--every", a.every, "Frames between two pictures of --sequence or --film")
       ->check(CLI::Range(std::uint64_t{1}, app::kMaxSceneFrames));
 }
 
@@ -170,16 +193,38 @@ bool asks_for_figure(const Arguments& a) {
   return a.spread > 0 || !a.trajectory.empty() || a.shows_incision || a.shows_cut_vertices;
 }
 
-std::string usage_problem(const Arguments& a) {
-  if (a.is_headless && a.screenshot.empty() && a.sequence.empty()) {
-    return "--headless makes pictures: say where with --screenshot OUT.png or --sequence FOLDER";
+std::string scan_problem(const Arguments& a) {
+  const bool has_scan = a.has_scan();
+  if (has_scan && !(a.tet_size > 0))
+    return a.file + ": a scan is meshed first; say by --size MM how large its tets are";
+  for (const std::string& layer : a.layers) {
+    if (!app::parse_layer(layer)) {
+      return "--layers " + layer + ": a name and a thickness in mm are needed, as in --layers skin=1.5,fat=8";
+    }
   }
-  if (!a.is_headless && !(a.screenshot.empty() && a.sequence.empty())) {
-    return "--screenshot and --sequence need --headless; in the window, S saves a picture";
+  const bool asks = !a.layers.empty() || !a.layers_in.empty() || !a.labels.empty() || !a.names.empty() ||
+                    !a.mesh.empty() || a.tet_size > 0;
+  if (asks && !has_scan)
+    return "--size MM, --layers, --labels, --names and --mesh are for scans and surfaces; name one";
+  return {};
+}
+
+std::string usage_problem(const Arguments& a) {
+  const bool has_pictures = !a.screenshot.empty() || !a.sequence.empty() || !a.film.empty();
+  if (a.is_headless && !has_pictures) {
+    return "--headless makes pictures: say where with --screenshot OUT.png, --sequence FOLDER or --film OUT.mp4";
+  }
+  if (!a.is_headless && has_pictures) {
+    return "--screenshot, --sequence and --film need --headless; in the window, S saves a picture";
   }
   if (!a.is_headless && asks_for_figure(a)) {
     return "--spread, --trajectory, --incision and --cut-vertices need --headless";
   }
+  if (const std::string problem = scan_problem(a); !problem.empty()) return problem;
+  if (a.is_headless && incise_apps::is_haply(a.device)) {
+    return "--device haply is for the window; without one: incise simulate SCENE --device haply";
+  }
+  if (const Status status = check_device(a.device, a.haptic); !status.ok()) return status.error().message;
   if (a.from && !(a.from->norm() > 0)) return "--from must not be zero";
   if (a.clip && !(a.clip->normal.norm() > 0)) return "the normal of --clip must not be zero";
   return {};
@@ -187,19 +232,28 @@ std::string usage_problem(const Arguments& a) {
 
 }  // namespace
 
+bool Arguments::has_scan() const {
+  return app::is_image_file(file) || (app::is_surface_file(file) && tet_size > 0);
+}
+
 app::SessionOptions Arguments::session_options() const {
   app::SessionOptions options;
   options.threads = threads;
   options.record = record;
   options.keep_undo = keep_undo;
-  options.up = up == "x" ? Vec3::UnitX() : (up == "y" ? Vec3::UnitY() : Vec3::UnitZ());
+  if (!surface.empty()) options.surface = std::filesystem::absolute(surface).string();
+  const std::string axis = !up.empty() ? up : (app::is_image_file(file) ? "y" : "z");
+  options.up = axis == "x" ? Vec3::UnitX() : (axis == "y" ? Vec3::UnitY() : Vec3::UnitZ());
   return options;
 }
 
 std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
   CLI::App root("incise-view shows bodies that are cut while they deform, and lets you cut them", "incise-view");
   root.set_version_flag("--version", "incise-view " INCISE_VERSION);
+  bool wants_manual = false;
+  root.add_flag("--man", wants_manual, "Print the manual page, for man(1)");
   add_input(root, arguments);
+  add_scan(root, arguments);
   add_view(root, arguments);
   add_camera(root, arguments);
   add_headless(root, arguments);
@@ -212,18 +266,53 @@ std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
     if (error.get_exit_code() == 0) return root.exit(error);
     return fail(kUsage, incise_apps::explain(root, std::vector<std::string>(argv + 1, argv + argc), error));
   }
+  if (wants_manual) {
+    std::fputs(incise_apps::manual_page(root, root, INCISE_VERSION).c_str(), stdout);
+    return 0;
+  }
   if (const std::string problem = usage_problem(arguments); !problem.empty()) return fail(kUsage, problem);
   return std::nullopt;
 }
 
+namespace {
+
+app::OrganJob job_of(const Arguments& a) {
+  app::OrganJob job;
+  job.input = a.file;
+  job.names = a.names;
+  job.size = a.tet_size;
+  job.halvings = a.halvings;
+  job.threads = a.threads;
+  job.labels.assign(a.labels.begin(), a.labels.end());
+  job.layers_in.assign(a.layers_in.begin(), a.layers_in.end());
+  for (const std::string& layer : a.layers) job.layers.push_back(*app::parse_layer(layer));
+  return job;
+}
+
+Result<app::Session> open_scan(const Arguments& arguments, const app::SessionOptions& options) {
+  if (!arguments.is_quiet) std::fprintf(stderr, "meshing %s\n", arguments.file.c_str());
+  const Result<app::ScanScene> made = app::make_scan_scene(job_of(arguments), arguments.mesh, options.up);
+  if (!made.ok()) return made.error();
+  for (const std::string& note : made->notes) {
+    if (!arguments.is_quiet) std::fprintf(stderr, "note: %s\n", note.c_str());
+  }
+  if (!arguments.is_quiet) std::fprintf(stderr, "wrote %s (mesh)\n", made->mesh.string().c_str());
+  return app::Session::open(made->scene, options);
+}
+
+}  // namespace
+
 Result<app::Session> open_session(const Arguments& arguments) {
   const app::SessionOptions options = arguments.session_options();
-  return arguments.file.empty() ? app::Session::open(cube_scene(), options)
+  if (arguments.has_scan()) return open_scan(arguments, options);
+  return arguments.file.empty() ? app::Session::open(app::skin_patch(), options)
                                 : app::Session::open(arguments.file, options);
 }
 
 Result<std::vector<Stroke>> device_strokes(const Arguments& arguments) {
-  if (arguments.device == "mouse" || arguments.device == "none") return std::vector<Stroke>();
+  const bool moves_by_itself =
+      arguments.device != "mouse" && arguments.device != "none" && !incise_apps::is_haply(arguments.device);
+  if (!moves_by_itself) return std::vector<Stroke>();
   return app::read_blade(arguments.device);
 }
 

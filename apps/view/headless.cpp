@@ -7,13 +7,18 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "app/scene/blade_file.h"
 #include "app/view/cut_marks.h"
+#include "app/view/drapes.h"
+#include "app/view/fine_view.h"
+#include "app/view/piece_bounds.h"
 #include "app/view/scene_camera.h"
 #include "app/view/spread_pieces.h"
 #include "exit_code.h"
+#include "film.h"
 #include "render/headless_context.h"
 #include "render/image.h"
 #include "render/offscreen_target.h"
@@ -44,12 +49,15 @@ class Photographer {
   Status take(const app::Session& session, const std::filesystem::path& file);
 
  private:
+  Status show_fine(const app::Session& session);
   void aim(const app::Session& session);
   void mark(const app::Session& session);
 
   const Arguments& arguments_;
   std::vector<Stroke> trajectory_;  // that is shown
   app::SurfaceView surface_;
+  std::optional<app::FineView> fine_;  // the surface of the scene
+  bool has_asked_ = false;
   render::Renderer renderer_;
   render::OffscreenTarget target_;
   app::Picture picture_;
@@ -60,13 +68,22 @@ class Photographer {
 void Photographer::aim(const app::Session& session) {
   if (has_aimed_) return;
   has_aimed_ = true;
-  const Box body = bounds_of(picture_.surface);
+  // What has fallen off would leave the rest small in an empty picture; pieces that are spread are all to be seen.
+  const Box all = bounds_of(picture_.surface);
+  const Box main = app::bounds_of_main_pieces(session.mesh(), find_components(session.mesh()));
+  const Box body = arguments_.spread > 0 || arguments_.clip || main.is_empty() ? all : main;
   picture_.options = app::view_options_of(session.scene());
   if (arguments_.has_view) picture_.options = arguments_.view;
+  picture_.options.look = app::view_options_of(session.scene()).look;
+  picture_.options.shows_shadows = !arguments_.has_no_shadows;
   picture_.camera = app::camera_of(session.scene(), body, arguments_.size);
   if (arguments_.from) {
     app::look_along(picture_.camera, -*arguments_.from);
     app::frame_all(picture_.camera, arguments_.size, body);
+  }
+  if (session.scene().view && session.scene().view->has_drapes) {
+    picture_.ground =
+        std::make_shared<const std::vector<app::SolidCorner>>(app::drapes_around(body, picture_.camera.up));
   }
   if (arguments_.target) picture_.camera.target = *arguments_.target;
   app::zoom(picture_.camera, 1 / arguments_.zoom, body);
@@ -80,9 +97,23 @@ void Photographer::mark(const app::Session& session) {
   if (arguments_.shows_incision) app::mark_incision(picture_.surface, picture_.marks);
 }
 
+/// The fine surface that the scene names, unless a clip plane looks inside.
+Status Photographer::show_fine(const app::Session& session) {
+  if (!has_asked_) {
+    Result<std::optional<app::FineView>> made =
+        app::fine_view_of(session.scene(), session.mesh(), session.engine().journal());
+    if (!made.ok()) return made.error();
+    fine_ = std::move(made).value();
+    has_asked_ = true;
+  }
+  if (!fine_ || arguments_.clip) return {};
+  return fine_->show(session.mesh(), session.engine().journal(), picture_.surface);
+}
+
 Status Photographer::take(const app::Session& session, const std::filesystem::path& file) {
   surface_.follow(session.mesh(), session.engine().journal());
   surface_.fill(session.mesh(), picture_.surface);
+  if (const Status shown = show_fine(session); !shown.ok()) return shown;
   if (arguments_.spread > 0) {
     app::spread_pieces(session.mesh(), find_components(session.mesh()), arguments_.spread, picture_.surface);
   }
@@ -128,10 +159,13 @@ void say_written(const Arguments& a, std::uint64_t pictures) {
   if (a.is_quiet) return;
   const std::string size = fmt::format("{} x {} pixels", a.size.width, a.size.height);
   if (!a.sequence.empty()) fmt::print(stderr, "incise-view: wrote {} ({} pictures, {})\n", a.sequence, pictures, size);
+  if (!a.film.empty()) fmt::print(stderr, "incise-view: wrote {} ({} pictures, {})\n", a.film, pictures, size);
   if (!a.screenshot.empty()) fmt::print(stderr, "incise-view: wrote {} (picture, {})\n", a.screenshot, size);
 }
 
-Status run(const Arguments& a, app::Session& session, Photographer& photographer) {
+/// @param of_film  where the pictures of a film go.
+Status run(const Arguments& a, app::Session& session, Photographer& photographer,
+           const std::filesystem::path& of_film) {
   const std::uint64_t last = last_frame(a, session);
   Progress progress(a.is_quiet);
   for (std::uint64_t frame = 0; frame <= last; ++frame) {
@@ -139,9 +173,19 @@ Status run(const Arguments& a, app::Session& session, Photographer& photographer
     if (frame > 0) {
       if (Status status = session.frame(); !status.ok()) return status;
     }
-    if (a.sequence.empty() || frame % a.every != 0) continue;
-    const std::filesystem::path file = std::filesystem::path(a.sequence) / fmt::format("{:06}.png", frame);
-    if (Status status = photographer.take(session, file); !status.ok()) return status;
+    if (frame % a.every != 0) continue;
+    if (!a.sequence.empty()) {
+      const std::filesystem::path file = std::filesystem::path(a.sequence) / fmt::format("{:06}.png", frame);
+      if (Status status = photographer.take(session, file); !status.ok()) return status;
+    }
+    if (!a.film.empty()) {
+      const std::filesystem::path file = of_film / fmt::format("{:06}.png", frame / a.every);
+      if (Status status = photographer.take(session, file); !status.ok()) return status;
+    }
+  }
+  if (!a.film.empty()) {
+    const double rate = 1 / (session.scene().options.frame_seconds * static_cast<double>(a.every));
+    if (Status status = make_film(of_film, a.film, rate); !status.ok()) return status;
   }
   return a.screenshot.empty() ? Status() : photographer.take(session, a.screenshot);
 }
@@ -169,9 +213,11 @@ int run_headless(const Arguments& arguments) {
   if (!target.ok()) return fail(exit_of(target.error()), target.error().message);
   std::error_code code;
   if (!arguments.sequence.empty()) std::filesystem::create_directories(arguments.sequence, code);
+  const TemporaryFolder of_film;
+  if (of_film.path().empty()) return fail(kFailure, "there is no folder for temporary files: set TMPDIR");
   Photographer photographer(arguments, *session, std::move(trajectory).value(), std::move(renderer).value(),
                             std::move(target).value());
-  if (const Status status = run(arguments, *session, photographer); !status.ok()) {
+  if (const Status status = run(arguments, *session, photographer, of_film.path()); !status.ok()) {
     return fail(exit_of(status.error()), status.error().message);
   }
   say_written(arguments, last_frame(arguments, *session) / arguments.every + 1);

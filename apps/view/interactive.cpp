@@ -27,10 +27,23 @@ using namespace incise;
 constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
 constexpr int kSettlingFrames = 3;         // after something happened, until panels have found their sizes
 constexpr unsigned kSamples = 4;
-const app::Vec2 kFreeShare(0.56, 1);  // of the picture, between the panels
+// Of the picture, between the panels.
+const app::Vec2 kFreeShare(0.8, 0.74), kResearchShare(0.56, 1);
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// A processor that draws has no time for what only makes the picture nicer.
+app::ViewerOptions options_of(const Arguments& arguments, bool is_software) {
+  app::ViewerOptions options;
+  options.view = arguments.view;
+  options.keeps_view = arguments.has_view;
+  options.shades_hollows = options.has_shadows = !is_software;
+  options.mouse_is_hand = arguments.device == "mouse" || incise_apps::is_haply(arguments.device);
+  options.free_share = kFreeShare;
+  options.research_share = kResearchShare;
+  return options;
 }
 
 /// The window with everything in it, frame by frame.
@@ -41,8 +54,10 @@ class Application {
         renderer_(std::move(renderer)),
         interface_(window),
         panels_{{}, window.renderer_name(), render::is_software_renderer(window.renderer_name())},
-        viewer_(session, {".", arguments.view, arguments.has_view, !panels_.is_software, arguments.device == "mouse",
-                          kFreeShare}) {}
+        viewer_(session, options_of(arguments, panels_.is_software)) {
+    // The blade is the device's: the mouse is the other hand.
+    if (incise_apps::is_haply(arguments.device)) viewer_.tools().choose(app::ToolKind::kGrasp);
+  }
 
   ExitCode run();
 
@@ -59,6 +74,7 @@ class Application {
   render::Renderer renderer_;
   Interface interface_;
   PanelContext panels_;
+  Panels drawn_panels_;
   app::Viewer viewer_;
   int frames_to_draw_ = kSettlingFrames;
   bool is_dragging_ = false;  // from the picture, wherever the pointer is meanwhile
@@ -88,7 +104,7 @@ void Application::frame() {
   const app::ViewerState& state = std::as_const(viewer_).state();
   interface_.begin(state.options.theme, state.text_scale);
   handle_events();
-  draw_panels(viewer_, panels_);
+  drawn_panels_.draw(viewer_, panels_);
   const bool has_changed = viewer_.update(panels_.viewport, seconds_now());
   frames_to_draw_ = has_changed ? kSettlingFrames : frames_to_draw_ - 1;
   if (frames_to_draw_ > 0) {
@@ -97,6 +113,7 @@ void Application::frame() {
     interface_.skip();
   }
   window_.set_full_screen(state.is_full_screen);
+  window_.show_cursor(interface_.wants_pointer() ? app::Cursor::kArrow : viewer_.cursor());
   print_score();
   if (title_ != viewer_.view().title) {
     title_ = viewer_.view().title;
@@ -176,6 +193,11 @@ int run_window(const Arguments& arguments) {
   options.session.record.clear();  // of the first file alone
   options.is_paused = arguments.is_paused;
   options.speed = arguments.speed;
+  if (incise_apps::is_haply(arguments.device)) {
+    Result<std::unique_ptr<app::DeviceHand>> hand = incise_apps::open_device(arguments.device, arguments.haptic);
+    if (!hand.ok()) return fail(exit_of(hand.error()), hand.error().message);
+    options.device = std::move(hand).value();
+  }
   app::SessionThread session(std::move(opened).value(), options);
   for (const Stroke& stroke : *strokes) session.follow(stroke);
   Application application(arguments, *window, std::move(renderer).value(), session);

@@ -11,76 +11,21 @@
 #include <vector>
 
 #include "app/view/color_map.h"
+#include "panel_parts.h"
 
 namespace incise_view {
-namespace {
 
 using namespace incise;
 using app::Action;
 using app::Viewer;
 
-constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-constexpr float kMargin = 0.6F;                           // all in heights of text
+namespace {
+
+// All in heights of text.
 constexpr float kToolsWidth = 13.5F, kFiguresWidth = 19;  // of the panels
 constexpr float kHistogramHeight = 4.2F, kForceHeight = 3.2F, kLegendHeight = 0.8F;
 constexpr float kTimeHalfWidth = 15.5F, kTimeHeight = 11;
 constexpr int kLogLines = 5;
-
-float em() {
-  return ImGui::GetFontSize();
-}
-void text(const std::string& line) {
-  ImGui::TextUnformatted(line.c_str());
-}
-void faint(const std::string& line) {
-  ImGui::TextDisabled("%s", line.c_str());
-}
-ImU32 color_of(ImGuiCol name, float opacity = 1) {
-  return ImGui::GetColorU32(name, opacity);
-}
-ImU32 color_of(const app::Color& c) {
-  return IM_COL32(c[0], c[1], c[2], 255);
-}
-
-void heading(const char* name) {
-  ImGui::Spacing();
-  faint(name);
-}
-
-/// A window at a corner or an edge of the picture: `at` and `pivot` as shares of it and of the panel.
-bool begin_panel(const char* name, const ImVec2& at, float width, float most_height) {
-  const ImGuiViewport* screen = ImGui::GetMainViewport();
-  const float margin = kMargin * em();
-  const ImVec2 inner(screen->Size.x - 2 * margin, screen->Size.y - 2 * margin);
-  ImGui::SetNextWindowPos({margin + at.x * inner.x, margin + at.y * inner.y}, ImGuiCond_Always, at);
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width > 0 ? width : inner.x, most_height});
-  return ImGui::Begin(name, nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
-}
-
-// --- the tools
-
-void hint(const std::string& line) {
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", line.c_str());
-}
-
-std::string_view text_of(Action action) {
-  for (const app::KeyBinding& binding : app::key_bindings()) {
-    if (binding.action == action) return binding.text;
-  }
-  return {};
-}
-
-/// A button that does what a key does, and names the key.
-void action_button(Viewer& viewer, const PanelContext& context, Action action, const char* label, bool is_on,
-                   float width = 0) {
-  if (is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-  const std::string caption = fmt::format("{}{}###{}", is_on ? "> " : "", label, label);  // not by colour alone
-  if (ImGui::Button(caption.c_str(), {width, 0})) viewer.act(action, context.viewport);
-  if (is_on) ImGui::PopStyleColor();
-  hint(fmt::format("{}  ({})", text_of(action), app::key_of(action)));
-}
 
 void tool_buttons(Viewer& viewer, const PanelContext& context) {
   heading("Tools");
@@ -88,42 +33,14 @@ void tool_buttons(Viewer& viewer, const PanelContext& context) {
     const auto tool = static_cast<app::ToolKind>(i);
     const Action action = app::action_of(tool);
     const std::string label = fmt::format("{} {}", app::key_of(action), app::name_of(tool));
-    action_button(viewer, context, action, label.c_str(), viewer.tools().tool() == tool, -1);
+    const float half = 0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+    if (i % 2 == 1) ImGui::SameLine();
+    action_button(viewer, context, action, label.c_str(), viewer.tools().tool() == tool, half);
   }
-}
-
-void tool_settings(Viewer& viewer) {
-  app::ToolSettings settings = viewer.tools().settings();
-  const double unit = viewer.view().scene ? 1e3 * viewer.view().scene->options.body.length_unit : 1;  // mm
-  bool has_changed = false;
-  ImGui::PushItemWidth(-1);
-  if (viewer.tools().tool() == app::ToolKind::kScalpel) {
-    auto depth = static_cast<float>(settings.depth * unit);
-    auto angle = static_cast<float>(settings.angle * 180 / std::numbers::pi);
-    if (ImGui::DragFloat("##depth", &depth, 0.02F * depth, 1e-3F, 1e4F, "Depth %.1f mm")) {
-      settings.depth = static_cast<double>(depth) / unit;
-      has_changed = true;
-    }
-    hint("Drag, or Ctrl+wheel over the picture");
-    if (ImGui::SliderFloat("##angle", &angle, -68, 68, "Angle %.0f deg")) {
-      settings.angle = static_cast<double>(angle) * std::numbers::pi / 180;
-      has_changed = true;
-    }
-    hint("Drag, or Shift+wheel over the picture");
-  }
-  if (viewer.tools().tool() == app::ToolKind::kGrasp) {
-    auto radius = static_cast<float>(settings.grasp_radius * unit);
-    if (ImGui::DragFloat("##radius", &radius, 0.02F * radius, 1e-3F, 1e4F, "Grip %.1f mm")) {
-      settings.grasp_radius = static_cast<double>(radius) / unit;
-      has_changed = true;
-    }
-  }
-  ImGui::PopItemWidth();
-  if (has_changed) viewer.tools().set(settings);
 }
 
 const char* name_of(app::ColorBy color) {
-  constexpr std::array<const char*, 4> kNames = {"Tissue", "Region", "Stroke", "Quality"};
+  constexpr std::array<const char*, 5> kNames = {"Tissue", "Region", "Stroke", "Quality", "Defects"};
   return kNames[static_cast<std::size_t>(color)];
 }
 
@@ -297,20 +214,6 @@ void draw_figures(const Viewer& viewer, const PanelContext& context) {
 
 // --- time, at the bottom
 
-void replay_line(Viewer& viewer, const PanelContext& context) {
-  const app::SessionView& view = viewer.view();
-  auto call = static_cast<int>(view.place.call);
-  ImGui::SetNextItemWidth(18 * em());
-  const std::string format = fmt::format("%d of {}", view.place.calls);
-  if (ImGui::SliderInt("##place", &call, 0, static_cast<int>(view.place.calls), format.c_str())) {
-    viewer.session().seek(static_cast<std::uint64_t>(std::max(call, 0)));
-  }
-  ImGui::SameLine();
-  action_button(viewer, context, Action::kNextStep, "Next step", false);
-  ImGui::SameLine();
-  action_button(viewer, context, Action::kTakeOver, "Take over", false);
-}
-
 void log_lines(const app::SessionView& view) {
   if (!view.log || view.log->empty()) return;
   const std::vector<app::Operation>& all = *view.log;
@@ -458,18 +361,30 @@ void draw_help(app::ViewerState& state) {
 
 }  // namespace
 
-void draw_panels(Viewer& viewer, const PanelContext& context) {
+void draw_research_panels(Viewer& viewer, const PanelContext& context) {
   const app::ViewerState& state = std::as_const(viewer).state();
   if (state.panels == app::Panels::kAll) {
     draw_tools(viewer, context);
     draw_time(viewer, context);
-    draw_exercise(viewer, context);
   }
+  draw_figures(viewer, context);
+  draw_title(viewer.view(), state);
+}
+
+Panels::Panels() : first_(std::make_unique<FirstPanels>()) {}
+Panels::~Panels() = default;
+
+void Panels::draw(Viewer& viewer, const PanelContext& context) {
+  const app::ViewerState& state = std::as_const(viewer).state();
   if (state.panels != app::Panels::kNone) {
-    draw_figures(viewer, context);
+    if (state.is_research) {
+      draw_research_panels(viewer, context);
+    } else {
+      first_->draw(viewer, context);
+    }
+    if (state.panels == app::Panels::kAll) draw_exercise(viewer, context);
     draw_probe(viewer.view());
     draw_legend(state);
-    draw_title(viewer.view(), state);
   }
   if (state.shows_help) draw_help(viewer.state());
 }

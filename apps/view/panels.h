@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "app/viewer/viewer.h"
@@ -14,7 +15,19 @@ struct PanelContext {
   bool is_software = false;  ///< the processor draws
 };
 
-/// Draws all panels for a frame; what the person changes in them goes to the viewer.
-void draw_panels(incise::app::Viewer& viewer, const PanelContext& context);
+class FirstPanels;
+
+class Panels {
+ public:
+  Panels();
+  Panels(const Panels&) = delete;
+  Panels& operator=(const Panels&) = delete;
+  ~Panels();
+  /// Draws all panels for a frame; what the person changes in them goes to the viewer.
+  void draw(incise::app::Viewer& viewer, const PanelContext& context);
+
+ private:
+  std::unique_ptr<FirstPanels> first_;
+};
 
 }  // namespace incise_view

@@ -39,7 +39,7 @@ const char* special_name(int key) {
       {GLFW_KEY_UP, "Up"},          {GLFW_KEY_DOWN, "Down"},     {GLFW_KEY_HOME, "Home"},
       {GLFW_KEY_PAGE_UP, "PageUp"}, {GLFW_KEY_F1, "F1"},         {GLFW_KEY_PAGE_DOWN, "PageDown"},
       {GLFW_KEY_F11, "F11"},        {GLFW_KEY_KP_ADD, "+"},      {GLFW_KEY_KP_SUBTRACT, "-"},
-      {GLFW_KEY_KP_DECIMAL, "."},
+      {GLFW_KEY_KP_DECIMAL, "."},   {GLFW_KEY_TAB, "Tab"},
   };
   const auto found = kNames.find(key);
   return found == kNames.end() ? nullptr : found->second;
@@ -58,6 +58,26 @@ std::string printed_name(int key, int scancode) {
 std::string_view kept(const std::string& name) {
   static std::map<std::string, std::string> names;
   return names.emplace(name, name).first->second;
+}
+
+/// A ring with a bar across, white around black: GLFW 3.3 has none of its own.
+GLFWcursor* make_barred_cursor() {
+  constexpr int kSide = 24;
+  constexpr double kMiddle = 11.5, kRadius = 8, kInk = 1.2, kCasing = 2.4;
+  std::vector<unsigned char> pixels(std::size_t{4} * kSide * kSide, 0);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double from_middle = std::hypot(x - kMiddle, y - kMiddle);
+      const double from_bar = from_middle < kRadius ? std::abs(x - y) / std::sqrt(2.0) : kSide;
+      const double away = std::min(std::abs(from_middle - kRadius), from_bar);
+      if (away > kCasing) continue;
+      unsigned char* pixel = &pixels[4 * static_cast<std::size_t>(y * kSide + x)];
+      pixel[0] = pixel[1] = pixel[2] = away <= kInk ? 20 : 255;
+      pixel[3] = 255;
+    }
+  }
+  const GLFWimage image{kSide, kSide, pixels.data()};
+  return glfwCreateCursor(&image, kSide / 2, kSide / 2);
 }
 
 std::optional<KeyPress> press_of(int key, int scancode, int mods) {
@@ -81,13 +101,21 @@ std::optional<KeyPress> press_of(int key, int scancode, int mods) {
 struct Window::State {
   GLFWwindow* window = nullptr;
   std::vector<WindowEvent> events;
+  // Of the pointer, as its last event had it: asked for, it is where the pointer has got to meanwhile, and a window
+  // that is late would take a whole drag for a click at its end.
+  std::array<double, 2> place{};
   std::array<int, 4> before_full{};  // place and size
   bool is_full = false;
+  app::Cursor cursor = app::Cursor::kArrow;
+  std::array<GLFWcursor*, 4> cursors{};  // by `app::Cursor`; null: the system's arrow
 
   State() = default;
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
+    for (GLFWcursor* one : cursors) {
+      if (one != nullptr) glfwDestroyCursor(one);
+    }
     if (window != nullptr) glfwDestroyWindow(window);
     glfwTerminate();
   }
@@ -123,22 +151,21 @@ int Window::State::held() const {
 }
 
 PointerEvent Window::State::pointer(PointerEvent::Kind kind, int mods) const {
-  double x = 0, y = 0;
   int width = 0, height = 0, pixel_width = 0, pixel_height = 0;
-  glfwGetCursorPos(window, &x, &y);
   glfwGetWindowSize(window, &width, &height);
   glfwGetFramebufferSize(window, &pixel_width, &pixel_height);
   PointerEvent event;
   event.kind = kind;
-  event.pixel = {x * pixel_width / std::max(width, 1), y * pixel_height / std::max(height, 1)};
+  event.pixel = {place[0] * pixel_width / std::max(width, 1), place[1] * pixel_height / std::max(height, 1)};
   event.shift = (mods & GLFW_MOD_SHIFT) != 0;
   event.control = (mods & GLFW_MOD_CONTROL) != 0;
   event.alt = (mods & GLFW_MOD_ALT) != 0;
   return event;
 }
 
-void Window::State::on_move(GLFWwindow* window, double /*x*/, double /*y*/) {
+void Window::State::on_move(GLFWwindow* window, double x, double y) {
   State& s = of(window);
+  s.place = {x, y};
   s.events.emplace_back(s.pointer(PointerEvent::Kind::kMove, s.held()));
 }
 
@@ -184,6 +211,7 @@ Result<Window> Window::open(const std::string& title, const app::Viewport& size,
   if (state->window == nullptr) return no_display();
   glfwMakeContextCurrent(state->window);
   glfwSwapInterval(1);
+  glfwGetCursorPos(state->window, &state->place[0], &state->place[1]);
   state->listen();
   return Window(std::move(state));
 }
@@ -236,6 +264,17 @@ void Window::set_full_screen(bool is_full) {
   } else {
     glfwSetWindowMonitor(s.window, nullptr, x, y, width, height, 0);
   }
+}
+
+void Window::show_cursor(app::Cursor cursor) {
+  State& s = *state_;
+  if (cursor == s.cursor) return;
+  s.cursor = cursor;
+  GLFWcursor*& made = s.cursors[static_cast<std::size_t>(cursor)];
+  if (made == nullptr && cursor == app::Cursor::kCross) made = glfwCreateStandardCursor(GLFW_CROSSHAIR_CURSOR);
+  if (made == nullptr && cursor == app::Cursor::kHand) made = glfwCreateStandardCursor(GLFW_HAND_CURSOR);
+  if (made == nullptr && cursor == app::Cursor::kBarred) made = make_barred_cursor();
+  glfwSetCursor(s.window, made);
 }
 
 void Window::swap() {

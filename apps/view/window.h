@@ -11,6 +11,7 @@
 #include "app/hands/tools.h"
 #include "app/view/camera.h"
 #include "app/viewer/key_bindings.h"
+#include "app/viewer/viewer.h"
 #include "incise/core/result.h"
 
 struct GLFWwindow;
@@ -42,6 +43,7 @@ class Window {
   [[nodiscard]] double density() const;
   void show_title(const std::string& title);
   void set_full_screen(bool is_full);
+  void show_cursor(incise::app::Cursor cursor);
   void swap();
   /// Whether the context is gone, as after a reset of the graphics processor.
   [[nodiscard]] bool is_lost() const;

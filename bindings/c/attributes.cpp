@@ -9,9 +9,11 @@
 // NOLINTBEGIN(readability-identifier-naming): a C name
 struct incise_attributes {
   incise::Attributes attributes;
+  incise::c::Identity engine;
   mutable incise::c::Turn turn;
 
-  explicit incise_attributes(const incise::Engine& engine) : attributes(engine.mesh(), engine.journal()) {}
+  explicit incise_attributes(const incise_engine& of)
+      : attributes(of.engine->mesh(), of.engine->journal()), engine(of.identity) {}
 };
 // NOLINTEND(readability-identifier-naming)
 
@@ -29,7 +31,7 @@ incise_status change_values(incise_attributes* handle, const Call& call) {
 template <class Call>
 incise_status change_beside(incise_attributes* handle, const incise_engine* engine, const Call& call) {
   return change_values(handle, [&](Attributes& attributes) {
-    return look(engine, [&](const Engine& looked) {
+    return look_as(handle->engine, engine, [&](const Engine& looked) {
       engine->turn->lets_look();
       return call(attributes, looked);
     });
@@ -68,8 +70,8 @@ using namespace incise;
 incise_status incise_attributes_create(const incise_engine* engine, incise_attributes** attributes) {
   if (attributes == nullptr) return c::refuse("there is no place for the attributes: the last argument is null");
   *attributes = nullptr;
-  return c::look(engine, [&](const Engine& looked) {
-    *attributes = std::make_unique<incise_attributes>(looked).release();
+  return c::look(engine, [&](const Engine&) {
+    *attributes = std::make_unique<incise_attributes>(*engine).release();
     return INCISE_OK;
   });
 }

@@ -34,6 +34,7 @@ incise_status make(Result<io::LoadedMesh> loaded, const incise_engine_options* o
   auto handle = std::make_unique<incise_engine>();
   handle->notes = std::move(loaded->source.notes);
   handle->file_vertex = std::move(loaded->file_vertex);
+  handle->region_names = std::move(loaded->region_names);
   return make(std::move(loaded->mesh), options, std::move(handle), out);
 }
 
@@ -120,14 +121,7 @@ incise_status incise_engine_free(incise_engine* engine) {
 
 incise_status incise_engine_notes(const incise_engine* engine, char* text, uint64_t room, uint64_t* count) {
   return c::look(engine, [&](const Engine&) -> incise_status {
-    if (text == nullptr && room > 0) return c::refuse("the buffer is null, and its room is not 0");
-    const std::string lines = c::lines_of(engine->notes);
-    if (count != nullptr) *count = lines.size() + 1;
-    if (room == 0) return INCISE_OK;
-    const std::size_t n = std::min<std::size_t>(room - 1, lines.size());
-    std::memcpy(text, lines.data(), n);
-    text[n] = 0;
-    return INCISE_OK;
+    return c::give_text(c::lines_of(engine->notes), text, room, count);
   });
 }
 

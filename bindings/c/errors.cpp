@@ -54,6 +54,16 @@ incise_status finish(const Status& status) {
   return status.ok() ? INCISE_OK : fail(status.error());
 }
 
+incise_status give_text(const std::string& from, char* text, std::uint64_t room, std::uint64_t* count) {
+  if (text == nullptr && room > 0) return refuse("the buffer is null, and its room is not 0");
+  if (count != nullptr) *count = from.size() + 1;
+  if (room == 0) return INCISE_OK;
+  const std::size_t n = std::min<std::size_t>(room - 1, from.size());
+  std::memcpy(text, from.data(), n);
+  text[n] = 0;
+  return INCISE_OK;
+}
+
 bool Turn::begin(bool only_looks) {
   const void* const me = this_thread();
   const void* owner = nullptr;

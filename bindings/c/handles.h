@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "incise/c/incise.h"
 #include "incise/core/result.h"
 #include "incise/engine/engine.h"
+#include "incise/io/mesh_data.h"
 
 namespace incise::c {
 
@@ -49,6 +52,8 @@ incise_status guarded(const Call& call) {
     return call();
   } catch (const std::bad_alloc&) {
     return fail({ErrorCode::kOutOfMemory, "out of memory; use a smaller mesh or free other engines", {}});
+  } catch (const std::length_error&) {
+    return refuse("a number of elements is above what memory can hold; was it negative?");
   } catch (const std::exception& thrown) {
     return fail({ErrorCode::kInternal, thrown.what(), {}});
   } catch (...) {
@@ -117,6 +122,9 @@ incise_status give_list(const std::vector<T>& from, T* to, std::uint64_t room, s
   return give_list(from, to, room, count, [](const T& value) { return value; });
 }
 
+/// A text with a closing 0 as far as it goes, and how many bytes the whole takes.
+incise_status give_text(const std::string& from, char* text, std::uint64_t room, std::uint64_t* count);
+
 inline Vec3 to_vec(const double* xyz) {
   return {xyz[0], xyz[1], xyz[2]};
 }
@@ -126,6 +134,8 @@ inline void from_vec(const Vec3& v, double* xyz) {
 /// An edge of `n` points that cuts along `direction`, which may be null.
 BladePose pose_of(const double* edge, std::uint64_t n, const double* direction);
 
+/// What a program listens with; null: nobody listens.
+LogSink log_to(incise_log log, void* user);
 Result<EngineOptions> engine_options(const incise_engine_options* given, EngineOptions otherwise = {});
 /// A mesh of arrays, checked as far as it takes to read them.
 Result<TetMesh> mesh_of(const incise_mesh_arrays* given);
@@ -133,6 +143,9 @@ Result<TetMesh> mesh_of(const incise_mesh_arrays* given);
 void fill(incise_report& report, const CutStatistics& cut);
 void fill(incise_report& report, const MaintainStatistics& maintain);
 void fill(incise_report& report, const StageTimes& times);
+
+/// Tells an engine from all others, also from those that take its place in memory later: its followers keep a copy.
+using Identity = std::shared_ptr<const char>;
 
 }  // namespace incise::c
 
@@ -142,11 +155,13 @@ void fill(incise_report& report, const StageTimes& times);
 struct incise_engine {
   std::optional<incise::Engine> own;
   const incise::Engine* engine = nullptr;
+  incise::c::Identity identity = std::make_shared<const char>('\0');
   mutable incise::c::Turn own_turn;
   incise::c::Turn* turn = &own_turn;
   std::uint64_t version = 1;  // of addresses, rows and values
   std::vector<std::string> notes;
   std::vector<std::uint32_t> file_vertex;  // as in `LoadedMesh`
+  incise::io::RegionNames region_names;    // likewise
 };
 
 // NOLINTEND(readability-identifier-naming)
@@ -158,6 +173,15 @@ template <class Call>
 incise_status look(const incise_engine* handle, const Call& call) {
   if (handle == nullptr) return refuse("the engine is null");
   return in_turn(*handle->turn, true, [&] { return call(*handle->engine); });
+}
+
+/// The same for a follower of one engine, which another one would lead astray.
+template <class Call>
+incise_status look_as(const Identity& of, const incise_engine* handle, const Call& call) {
+  if (handle != nullptr && handle->identity != of) {
+    return refuse("this cursor, or these attributes, were made for another engine; make new ones for this one");
+  }
+  return look(handle, call);
 }
 
 /// Changes an engine in the thread's turn: `call(Engine&)`.

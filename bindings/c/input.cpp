@@ -25,13 +25,6 @@ incise_engine_options to_c(const EngineOptions& options) {
   return c;
 }
 
-LogSink log_to(incise_log log, void* user) {
-  if (log == nullptr) return {};
-  return [log, user](LogLevel level, std::string_view text) {
-    log(user, static_cast<std::int32_t>(level), std::string(text).c_str());
-  };
-}
-
 Status check_counts(const incise_mesh_arrays& c) {
   if (c.points == nullptr || c.tets == nullptr) return bad("points or tets are null; give both");
   if (c.n_points >= kInvalidIndex) return bad("n_points is " + std::to_string(c.n_points) + "; at most 2^32 - 2");
@@ -77,6 +70,13 @@ Status check_for_mending(const TetSoup& soup) {
 }
 
 }  // namespace
+
+LogSink log_to(incise_log log, void* user) {
+  if (log == nullptr) return {};
+  return [log, user](LogLevel level, std::string_view text) {
+    log(user, static_cast<std::int32_t>(level), std::string(text).c_str());
+  };
+}
 
 BladePose pose_of(const double* edge, std::uint64_t n, const double* direction) {
   BladePose pose;

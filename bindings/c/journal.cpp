@@ -9,6 +9,7 @@
 // NOLINTBEGIN(readability-identifier-naming): a C name
 struct incise_cursor {
   incise::JournalCursor cursor;
+  incise::c::Identity engine;
 };
 // NOLINTEND(readability-identifier-naming)
 
@@ -228,7 +229,8 @@ incise_status incise_engine_step_new_tets(const incise_engine* engine, uint64_t 
 incise_status incise_cursor_create(const incise_engine* engine, incise_cursor** cursor) {
   if (cursor == nullptr) return c::refuse("there is no place for the cursor: the last argument is null");
   return c::look(engine, [&](const Engine& looked) {
-    *cursor = std::make_unique<incise_cursor>(incise_cursor{JournalCursor(looked.journal())}).release();
+    *cursor =
+        std::make_unique<incise_cursor>(incise_cursor{JournalCursor(looked.journal()), engine->identity}).release();
     return INCISE_OK;
   });
 }
@@ -236,7 +238,7 @@ incise_status incise_cursor_create(const incise_engine* engine, incise_cursor** 
 incise_status incise_cursor_way(const incise_cursor* cursor, const incise_engine* engine, int32_t* way,
                                 uint64_t* position) {
   if (cursor == nullptr || way == nullptr) return c::refuse("the cursor, or the place for the way, is null");
-  return c::look(engine, [&](const Engine& looked) {
+  return c::look_as(cursor->engine, engine, [&](const Engine& looked) {
     *way = static_cast<std::int32_t>(cursor->cursor.way_to(looked.journal()));
     if (position != nullptr) *position = cursor->cursor.position();
     return INCISE_OK;
@@ -245,7 +247,7 @@ incise_status incise_cursor_way(const incise_cursor* cursor, const incise_engine
 
 incise_status incise_cursor_move(incise_cursor* cursor, const incise_engine* engine) {
   if (cursor == nullptr) return c::refuse("the cursor is null");
-  return c::look(engine, [&](const Engine& looked) {
+  return c::look_as(cursor->engine, engine, [&](const Engine& looked) {
     cursor->cursor.move_to(looked.journal());
     return INCISE_OK;
   });

@@ -67,6 +67,15 @@ struct SurfaceBuffers {
   }
 };
 
+/// Between counting and this call another thread may have had its turn.
+incise_status check_room(const TetMesh& mesh, const incise_compact& out) {
+  const auto fits = [](std::uint64_t room, std::uint64_t count) { return room == 0 || count <= room; };
+  if (fits(out.vertex_room, mesh.vertex_count()) && fits(out.tet_room, mesh.tet_count())) return INCISE_OK;
+  return refuse("the arrays have room for " + std::to_string(out.vertex_room) + " vertices and " +
+                std::to_string(out.tet_room) + " tets; the mesh has " + std::to_string(mesh.vertex_count()) + " and " +
+                std::to_string(mesh.tet_count()) + ": count them again");
+}
+
 void compact_vertices(const TetMesh& mesh, const incise_compact& out, std::vector<std::uint32_t>& number) {
   std::uint32_t n = 0;
   mesh.for_each_vertex([&](VertexId v) {
@@ -165,8 +174,9 @@ incise_status incise_engine_compact(const incise_engine* engine, incise_compact*
   if (arrays == nullptr) return c::refuse("the struct of arrays is null");
   incise_compact all{};
   if (const incise_status bad = c::take(arrays, all, "incise_compact")) return bad;
-  return c::look(engine, [&](const Engine& looked) {
+  return c::look(engine, [&](const Engine& looked) -> incise_status {
     const TetMesh& mesh = looked.mesh();
+    if (const incise_status bad = c::check_room(mesh, all)) return bad;
     std::vector<std::uint32_t> number(mesh.vertex_slots(), kInvalidIndex);
     c::compact_vertices(mesh, all, number);
     c::compact_tets(mesh, all, number);

@@ -62,7 +62,13 @@ Result<Materials> materials_of(const incise_material* given, std::uint32_t n) {
     return Error{ErrorCode::kBadArgument, "materials are null, and n_materials is not 0", {}};
   for (std::uint32_t i = 0; i < n; ++i) {
     const incise_material& c = given[i];
-    const Material material{c.density, c.young, c.poisson, c.toughness, c.cut_friction};
+    Material material{c.density, c.young, c.poisson, c.toughness, c.cut_friction, c.stiffening, c.rupture};
+    std::copy_n(c.fibre, 3, material.fibre.begin());
+    material.fibre_young = c.fibre_young;
+    for (std::size_t k = 0; k < material.prony.size(); ++k) {
+      material.prony[k] = {c.prony[2 * k], c.prony[2 * k + 1]};
+    }
+    material.rigid = c.rigid != 0;
     if (c.is_fallback != 0) {
       materials.fallback = material;
     } else {
@@ -130,7 +136,7 @@ Result<Made> make(Result<io::LoadedMesh> loaded, const incise_simulation_options
 
 Result<Made> make(Result<app::Scene> scene, std::uint32_t threads) {
   if (!scene.ok()) return scene.error();
-  Result<io::LoadedMesh> loaded = app::load_model(*scene);
+  Result<io::LoadedMesh> loaded = app::take_model(*scene);
   if (!loaded.ok()) return loaded.error();
   Result<Simulation> simulation = app::make_simulation(*scene, std::move(loaded->mesh), threads);
   if (!simulation.ok()) return simulation.error();
@@ -204,9 +210,13 @@ Result<FrameInput> input_of(const incise_frame_input* given) {
   }
   FrameInput input;
   if (c.blade != nullptr) input.blade = pose_of(c.blade, c.n_blade, c.direction);
+  input.hooks.reserve(c.n_hooks);  // a number that was negative ends here
+  input.tools.reserve(c.n_tools);
   for (std::uint64_t i = 0; i < c.n_hooks; ++i) {
     const incise_hook& hook = c.hooks[i];
-    input.hooks.push_back({hook.id, to_vec(hook.position), hook.radius, hook.stiffness});
+    Hook& taken = input.hooks.emplace_back(Hook{hook.id, to_vec(hook.position), hook.radius, hook.stiffness});
+    if (hook.strength != 0) taken.strength = hook.strength;
+    taken.tears = hook.tears != 0;
   }
   for (std::uint64_t i = 0; i < c.n_tools; ++i) {
     Result<Tool> tool = tool_of(c.tools[i]);
@@ -402,6 +412,13 @@ incise_status incise_simulation_redo(incise_simulation* simulation, int32_t* don
 incise_status incise_simulation_hold(incise_simulation* simulation, uint32_t vertex, double stiffness) {
   return c::change(simulation,
                    [&](Simulation& changed) { return c::finish(changed.body().hold(VertexId(vertex), stiffness)); });
+}
+
+incise_status incise_simulation_pin(incise_simulation* simulation, uint32_t vertex, double stiffness, double strength,
+                                    int32_t tears) {
+  return c::change(simulation, [&](Simulation& changed) {
+    return c::finish(changed.body().hold(VertexId(vertex), stiffness, {strength, tears != 0}));
+  });
 }
 
 incise_status incise_simulation_move_hold(incise_simulation* simulation, uint32_t vertex, const double* target) {

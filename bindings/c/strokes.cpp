@@ -54,6 +54,7 @@ Result<Stroke> stroke_of(const incise_stroke* given) {
   }
   Stroke stroke;
   if (c.name != nullptr) stroke.name = c.name;
+  stroke.times.reserve(c.n_times);  // a number that was negative ends here
   stroke.times.assign(c.times, c.times + c.n_times);
   for (std::uint64_t i = 0; i < c.n_times; ++i) {
     stroke.edges.push_back(pose_of(c.points + 3 * i * c.n_points, c.n_points, nullptr).edge);
@@ -124,7 +125,9 @@ incise_status incise_engine_cut_plane(incise_engine* engine, const double* norma
 incise_status incise_engine_cut_blade(incise_engine* engine, const char* path, incise_report* report) {
   if (path == nullptr) return c::refuse("the name of the blade file is null");
   return c::change_and_report(engine, report, [&](Engine& changed) -> Result<StrokeReport> {
-    const Result<std::vector<Stroke>> strokes = app::read_blade(path);
+    const Result<std::vector<app::BladeStroke>> blade = app::read_blade_file(path);
+    if (!blade.ok()) return blade.error();
+    const Result<std::vector<Stroke>> strokes = app::held_strokes(*blade, changed.mesh(), engine->region_names);
     if (!strokes.ok()) return strokes.error();
     return c::cut_all(changed, *strokes);
   });

@@ -74,6 +74,12 @@ namespace Incise
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate void incise_recompute(IntPtr user, uint slot, double* value, uint width);
 
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate void incise_progress(IntPtr user, ulong done, ulong total);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate void incise_told(IntPtr user, IntPtr text);
+
         /// <summary>How an engine works; see EngineOptions in C++.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_engine_options
@@ -154,6 +160,8 @@ namespace Incise
             public uint* tet_slots;
             public ulong vertices;
             public ulong tet_count;
+            public ulong vertex_room;
+            public ulong tet_room;
         }
 
         /// <summary>The quality of a set of tets at rest; all 0 where it is empty.</summary>
@@ -402,6 +410,13 @@ namespace Incise
             public double poisson;
             public double toughness;
             public double cut_friction;
+            public double stiffening;
+            public double rupture;
+            public fixed double fibre[3];
+            public double fibre_young;
+            public fixed double prony[6];
+            public int rigid;
+            public int pad;
         }
 
         /// <summary>How a simulation works.</summary>
@@ -427,6 +442,9 @@ namespace Incise
             public fixed double position[3];
             public double radius;
             public double stiffness;
+            public double strength;
+            public int tears;
+            public uint pad2;
         }
 
         /// <summary>Something that presses on the body; lengths in the unit of the mesh.</summary>
@@ -533,6 +551,25 @@ namespace Incise
             public double physics_period;
         }
 
+        /// <summary>What a worker does.</summary>
+        [StructLayout(LayoutKind.Sequential)]
+        public struct incise_batch_options
+        {
+            public uint size;
+            public uint shard_index;
+            public uint shard_count;
+            public uint threads;
+            public int retry;
+            public uint pad;
+            public ulong verify_items;
+            public ulong verify_seed;
+            public IntPtr progress;
+            public IntPtr should_stop;
+            public IntPtr user;
+            public IntPtr log;
+            public IntPtr log_user;
+        }
+
         /// <summary>INCISE_ABI of the library.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern uint incise_abi();
@@ -609,7 +646,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_surface(IntPtr engine, uint* triangles, uint* tags, uint* sides, ulong room, ulong* count);
 
-        /// <summary>Cost: O(slots).</summary>
+        /// <summary>Errors: bad argument, and nothing is written, where the mesh has more than there is room for: another thread may have cut it since it was counted. Cost: O(slots).</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_compact(IntPtr engine, incise_compact* arrays);
 
@@ -745,7 +782,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_step_new_tets(IntPtr engine, ulong step, uint* records, ulong room, ulong* count);
 
-        /// <summary>At where the engine's journal stands now.</summary>
+        /// <summary>At where the engine's journal stands now. It is for that engine alone: another one is a bad argument.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_cursor_create(IntPtr engine, out IntPtr cursor);
 
@@ -833,7 +870,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_hook_forces(IntPtr simulation, double* forces, ulong room, ulong* count);
 
-        /// <summary>Lets the body come to rest until nothing moves faster than `speed` m/s, at most `max_frames`; `frames` (may be null) gets how many it took.</summary>
+        /// <summary>Lets the body come to rest until nothing moves faster than `speed` m/s, at least 0, at most `max_frames`; `frames` (may be null) gets how many it took.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_settle(IntPtr simulation, uint max_frames, double speed, uint* frames);
 
@@ -856,6 +893,10 @@ namespace Incise
         /// <summary>Holds a vertex where it stands: rigidly (infinite stiffness), or by a spring of N/m; 0 lets it go.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_hold(IntPtr simulation, uint vertex, double stiffness);
+
+        /// <summary>Holds a vertex by a spring of N/m that bears no more than `strength`, N, above 0: beyond it the vertex slips, or tears loose where `tears` is other than 0.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_simulation_pin(IntPtr simulation, uint vertex, double stiffness, double strength, int tears);
 
         /// <summary>Where a held vertex is to be: x y z.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -896,5 +937,41 @@ namespace Incise
         /// <summary>Null is fine.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_haptic_tool_free(IntPtr tool);
+
+        /// <summary>Reads a plan, JSON of format incise-plan. Errors: bad file "FILE:LINE: PATH what; remedy".</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_plan_read([MarshalAs(UnmanagedType.LPUTF8Str)] string path, out IntPtr plan);
+
+        /// <summary>The same from memory. Files that it names are seen from `folder`; null: from the folder that the program runs in.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_plan_parse([MarshalAs(UnmanagedType.LPUTF8Str)] string json, [MarshalAs(UnmanagedType.LPUTF8Str)] string folder, out IntPtr plan);
+
+        /// <summary>Null is fine.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_plan_free(IntPtr plan);
+
+        /// <summary>How many items it has.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_plan_count(IntPtr plan, ulong* count);
+
+        /// <summary>The name of an item, from 0: copies at most `room` bytes with a closing 0, tells in `count` how many the whole takes.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_plan_name(IntPtr plan, ulong item, IntPtr text, ulong room, ulong* count);
+
+        /// <summary>Writes the first `size` bytes of the default options.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_default_batch_options(incise_batch_options* options, uint size);
+
+        /// <summary>Computes the items of a shard that no worker has done yet into `folder`, which is made where it is not there. `tell` (may be null) gets a report: JSON of format incise-batch, with "items", "skipped", "done", "failed" and "stopped". Items that cannot be computed are no error of the call. Errors: io; bad argument where another worker is at the same shard; bad file where the folder has results of another plan.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_batch_run(IntPtr plan, [MarshalAs(UnmanagedType.LPUTF8Str)] string folder, incise_batch_options* options, incise_told tell, IntPtr user);
+
+        /// <summary>Puts the lines of all shards into results.jsonl, in the order of the plan, where all is whole; the report's "ok" says whether it was, and "missing", "contradictory" and "broken_files" what was not. Errors: as above.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_batch_merge(IntPtr plan, [MarshalAs(UnmanagedType.LPUTF8Str)] string folder, incise_told tell, IntPtr user);
+
+        /// <summary>Computes `verify_items` items again, and compares hashes: the report's "ok", "differences" and "stopped".</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_batch_verify(IntPtr plan, [MarshalAs(UnmanagedType.LPUTF8Str)] string folder, incise_batch_options* options, incise_told tell, IntPtr user);
     }
 }

@@ -12,6 +12,7 @@ import os
 import re
 import shlex
 import subprocess
+import sys
 import sysconfig
 import tarfile
 import zipfile
@@ -135,3 +136,14 @@ def build_sdist(sdist_directory: str, config_settings: Settings = None) -> str:
         out.add(pkg_info, top + "/PKG-INFO")
     pkg_info.unlink()
     return archive.name
+
+
+def write_metadata(folder: Path) -> None:
+    """Writes what `importlib.metadata` and pip know the package by, for packages that are not wheels."""
+    info = folder / ("incise_mesh-%s.dist-info" % _version())
+    info.mkdir(parents=True, exist_ok=True)
+    (info / "METADATA").write_text(_metadata(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write_metadata(Path(sys.argv[1]))

@@ -99,6 +99,7 @@ typedef struct incise_table {
   incise_status (*simulation_undo)(incise_simulation* simulation, int32_t* done);
   incise_status (*simulation_redo)(incise_simulation* simulation, int32_t* done);
   incise_status (*simulation_hold)(incise_simulation* simulation, uint32_t vertex, double stiffness);
+  incise_status (*simulation_pin)(incise_simulation* simulation, uint32_t vertex, double stiffness, double strength, int32_t tears);
   incise_status (*simulation_move_hold)(incise_simulation* simulation, uint32_t vertex, const double* target);
   incise_status (*simulation_is_held)(const incise_simulation* simulation, uint32_t vertex, int32_t* is_held);
   incise_status (*simulation_velocities)(const incise_simulation* simulation, double* velocities, uint64_t room, uint64_t* count);
@@ -109,6 +110,15 @@ typedef struct incise_table {
   incise_status (*haptic_tool_accept)(incise_haptic_tool* tool, const incise_haptic_snapshot* snapshot);
   incise_status (*haptic_tool_tick)(incise_haptic_tool* tool, double dt, const double* position, const double* velocity, double* force, double* tool_position);
   incise_status (*haptic_tool_free)(incise_haptic_tool* tool);
+  incise_status (*plan_read)(const char* path, incise_plan** plan);
+  incise_status (*plan_parse)(const char* json, const char* folder, incise_plan** plan);
+  incise_status (*plan_free)(incise_plan* plan);
+  incise_status (*plan_count)(const incise_plan* plan, uint64_t* count);
+  incise_status (*plan_name)(const incise_plan* plan, uint64_t item, char* text, uint64_t room, uint64_t* count);
+  incise_status (*default_batch_options)(incise_batch_options* options, uint32_t size);
+  incise_status (*batch_run)(const incise_plan* plan, const char* folder, const incise_batch_options* options, incise_told tell, void* user);
+  incise_status (*batch_merge)(const incise_plan* plan, const char* folder, incise_told tell, void* user);
+  incise_status (*batch_verify)(const incise_plan* plan, const char* folder, const incise_batch_options* options, incise_told tell, void* user);
 } incise_table;
 
 /* Finds a symbol of a library: null where there is none. */
@@ -198,6 +208,7 @@ static inline const char* incise_table_load(incise_table* table, incise_find fin
     "incise_simulation_undo",
     "incise_simulation_redo",
     "incise_simulation_hold",
+    "incise_simulation_pin",
     "incise_simulation_move_hold",
     "incise_simulation_is_held",
     "incise_simulation_velocities",
@@ -208,6 +219,15 @@ static inline const char* incise_table_load(incise_table* table, incise_find fin
     "incise_haptic_tool_accept",
     "incise_haptic_tool_tick",
     "incise_haptic_tool_free",
+    "incise_plan_read",
+    "incise_plan_parse",
+    "incise_plan_free",
+    "incise_plan_count",
+    "incise_plan_name",
+    "incise_default_batch_options",
+    "incise_batch_run",
+    "incise_batch_merge",
+    "incise_batch_verify",
   };
   const size_t count = sizeof names / sizeof *names;
   size_t i;

@@ -82,7 +82,7 @@ export declare class Engine {
   [Symbol.dispose](): void;
 }
 
-export type ToolName = 'Orbit' | 'Scalpel' | 'Plane cut' | 'Grasp' | 'Pin' | 'Probe';
+export type ToolName = 'Orbit' | 'Scalpel' | 'Plane cut' | 'Forceps' | 'Pin' | 'Probe' | 'Hook' | 'Retractor' | 'Scissors' | 'Punch' | 'Suture' | 'Staple';
 export type PointerKind = 'move' | 'press' | 'release' | 'wheel';
 
 export interface PointerOptions {
@@ -105,7 +105,7 @@ export interface Surface {
   positions: Float32Array;
   /** Three numbers per corner, of any length. */
   normals: Float32Array;
-  /** Four bytes per corner: flags (1 wall of a cut, 2 of the newest stroke), stroke, region, quality. */
+  /** Four bytes per corner: flags (1 wall of a cut, 2 of the newest stroke, 8 of a tet that is too small), stroke, region, quality. */
   looks: Uint8Array;
 }
 

@@ -118,7 +118,8 @@ void WebSession::pointer(int kind, double x, double y, int button, int keys, dou
   event.wheel = wheel;
   event.pressure = pressure;
   tools_.handle(event, {viewport_, &frame_, body_}, camera_);
-  if (const auto plane = tools_.take_plane_cut()) session_.follow(*plane);
+  if (const auto stroke = tools_.take_stroke()) session_.follow(*stroke);
+  if (const auto stitch = tools_.take_stitch()) (void)session_.add_suture(stitch->rest_places, stitch->suture);
   set_hands();
 }
 
@@ -154,7 +155,7 @@ void WebSession::frame_body() {
 }
 
 val WebSession::frame() {
-  return to_value(session_.frame(queue_.pop()));
+  return to_value(session_.frame(session_.is_following() ? queue_.pop_hooks() : queue_.pop()));
 }
 
 bool WebSession::is_busy() const {

@@ -16,6 +16,7 @@
 #include "incise/mesh/components.h"
 #include "incise/mesh/defects.h"
 #include "incise/mesh/journal_cursor.h"
+#include "incise/mesh/journal_mirror.h"
 #include "incise/mesh/journal_visitor.h"
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/shapes.h"

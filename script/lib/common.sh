@@ -144,6 +144,7 @@ use_corpus() {
 build_packages=(
   cmake ninja-build g++ ccache git ca-certificates
   libeigen3-dev libtbb-dev libhwy-dev libpugixml-dev zlib1g-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
+  libboost-dev
   libgtest-dev libgmock-dev librapidcheck-dev
   libepoxy-dev libegl-dev libstb-dev libegl1 libgl1-mesa-dri libglfw3-dev libimgui-dev fonts-dejavu-core
   xvfb xdotool pkg-config
@@ -157,3 +158,11 @@ model_packages=(tetgen python3:python3)
 wasm_packages=(emscripten node:nodejs clang-14)
 # shellcheck disable=SC2034
 web_packages=(emscripten node:nodejs npm:npm chromium)
+# shellcheck disable=SC2034
+package_packages=(dpkg-dev lintian file)
+# shellcheck disable=SC2034
+python_packages=(python3-distributed python3-mpi4py openmpi-bin python3-matplotlib)
+# shellcheck disable=SC2034
+slurm_packages=(slurmctld slurmd slurm-client munge)
+# shellcheck disable=SC2034
+example_packages=(libbullet-dev cargo:cargo npm:npm node:nodejs)

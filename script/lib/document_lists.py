@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks the lists that documents keep of what is elsewhere. usage: document_lists.py ROOT
 
-- docs/acceptance.md has T1 to T35; comments in tests name each of them and no other; the tests that it names exist.
+- docs/acceptance.md has T1 to T35; comments in tests name each of them and no other; the tests that it and docs/paper_map.md
+  name exist.
 - docs/decisions/README.md has a row for each record, under its title.
 - docs/README.md names each page beside it.
 - docs/troubleshooting.md quotes messages ("`...`") as the sources have them.
@@ -43,8 +44,9 @@ def check_acceptance(root):
         yield "docs/acceptance.md lists T%d, which no comment in a test names" % number
     for number in sorted(in_tests - set(listed)):
         yield "a comment in a test names T%d, which docs/acceptance.md does not list" % number
-    for name in sorted(set(NAMED_TEST.findall(page)) - tests):
-        yield "docs/acceptance.md names the test %s, which does not exist" % name
+    for where, text in (("docs/acceptance.md", page), ("docs/paper_map.md", text_of(root, "docs/paper_map.md"))):
+        for name in sorted(set(NAMED_TEST.findall(text)) - tests):
+            yield "%s names the test %s, which does not exist" % (where, name)
 
 
 def check_decisions(root):

@@ -20,6 +20,8 @@ constexpr double kSlitShare = 0.25;
 constexpr std::array kSlitSamples = {1.0, 0.25, 0.5, 0.75};
 /// Points of a blade that moved less than this many spacings wait for more.
 constexpr double kLeastStep = 0.05;
+/// The direction in which a front has come is that of its last so many spacings.
+constexpr double kTowLength = 0.5;
 /// A strip whose middle lies this close to what was swept before lies on it.
 constexpr double kCoverShare = 0.02;
 /// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
@@ -48,6 +50,7 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   is_first_strip_ = true;
   is_held_ = false;
   ways_.assign(row.size(), Vec3::Zero());
+  towed_.assign(row.begin(), row.end());
   reaches_on_ = {};
   seams_ = {};
   seam_segments_.clear();
@@ -93,6 +96,29 @@ bool BladeMotion::is_on(const Vec3& point, const OwnSheet& sheet, double distanc
   if (!place.is_valid()) return false;
   const double tolerance = 1e-9 * spacing_;
   return distance2_to_front(place.point) > tolerance * tolerance;
+}
+
+/// Whether a point moves beside its front without getting on, as seen along the way that the front has come. What it
+/// slides along the blade's own edge counts for neither.
+bool BladeMotion::trembles(std::size_t c, const Vec3& place, bool flushes) const {
+  const Vec3& front = front_[c].position;
+  const Vec3 edge =
+      (front_[std::min(c + 1, front_.size() - 1)].position - front_[c > 0 ? c - 1 : 0].position).normalized();
+  const auto across = [&](const Vec3& v) -> Vec3 { return v - v.dot(edge) * edge; };
+  const Vec3 way = place - front, come = across(front - towed_[c]);
+  const double slit = kSlitShare * spacing_, least = flushes ? 0.0 : kLeastStep * spacing_;
+  return way.squaredNorm() < slit * slit && come.norm() > 0.5 * kTowLength * spacing_ &&
+         way.dot(come) <= least * come.norm();
+}
+
+/// Takes the places along that follow the front as if on a rope.
+void BladeMotion::tow() {
+  const double length = kTowLength * spacing_;
+  for (std::size_t c = 0; c < front_.size(); ++c) {
+    const Vec3 behind = towed_[c] - front_[c].position;
+    const double distance = behind.norm();
+    if (distance > length) towed_[c] = front_[c].position + (length / distance) * behind;
+  }
 }
 
 /// Whether a strip from the front to a row would lie on what was swept already.
@@ -168,6 +194,7 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
   note_swept(to);
   before_ = front_;
   front_ = to;
+  tow();
   is_first_strip_ = false;
   seams_ = {};
   seam_segments_.clear();
@@ -229,6 +256,7 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
   front_ = std::move(refined);
   ways_.assign(front_.size(), Vec3::Zero());
   last_ = divided(last_, shares);
+  towed_ = divided(towed_, shares);
   if (is_first_strip_) {  // nothing was swept yet: there is no seam
     seams_ = {};
     seam_segments_.clear();
@@ -283,12 +311,12 @@ void BladeMotion::reach_from_ends(SweptSurface& surface, const Row& to, const Su
     const double reach_from = around.reach(from.position, out, normal),
                  reach_at = around.reach(at.position, out, normal);
     const bool was_in = did || reach_from > 0, is_in = reach_at > 0;
-    reaches_on_[end] =
-        (was_in || is_in) && (was_in || around.is_outside(from.position)) && (is_in || around.is_outside(at.position));
-    if (!reaches_on_[end]) continue;
+    reaches_on_[end] = is_in || (was_in && around.is_outside(at.position));
+    if (!was_in && !is_in) continue;
     const double reach = std::max(reach_from, reach_at);
-    const SosPoint old = did ? ends_[end] : SosPoint{from.position + reach * out, next_key_++};
-    ends_[end] = {at.position + (is_in ? reach_at : reach) * out, next_key_++};
+    const bool starts = was_in || around.is_outside(from.position);  // else it begins with nothing, and ends so
+    const SosPoint old = did ? ends_[end] : starts ? SosPoint{from.position + reach * out, next_key_++} : from;
+    ends_[end] = reaches_on_[end] ? SosPoint{at.position + (is_in ? reach_at : reach) * out, next_key_++} : at;
     if (did) inner.push_back(keys_of(from, old));
     const auto column = static_cast<std::uint32_t>(end == 0 ? 0 : last - 1);
     add_reaching_triangle(surface, from, at, ends_[end], column);
@@ -370,7 +398,9 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnShe
   for (std::size_t c = 0; c < row.size(); ++c) {
     const bool is_held = goes_in_slit(last_[c], row[c], sheet);
     in_slit += is_held ? 1U : 0U;
-    if (is_held || (row[c] - front_[c].position).squaredNorm() <= least2) wanted[c] = front_[c].position;
+    if (is_held || (row[c] - front_[c].position).squaredNorm() <= least2 || trembles(c, row[c], flushes)) {
+      wanted[c] = front_[c].position;
+    }
   }
   const std::vector<Vec3> before = last_;
   last_.assign(given.begin(), given.end());

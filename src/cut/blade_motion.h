@@ -79,6 +79,8 @@ class BladeMotion {
   void stay_before_walls(std::span<const Vec3> from, std::vector<Vec3>& row, const Surroundings& around) const;
   [[nodiscard]] std::vector<Vec3> drawn_back(std::span<const Vec3> row, const Surroundings& around) const;
   void note_swept(const Row& to);
+  [[nodiscard]] bool trembles(std::size_t c, const Vec3& place, bool flushes) const;
+  void tow();
   Move move_to(const Row& to, const Surroundings& around);
   void start_sheet(const Row& from);
   std::vector<std::size_t> reach_from_row(SweptSurface& surface, const Row& row, double sign,
@@ -91,6 +93,7 @@ class BladeMotion {
   std::vector<bool> is_swept_;        // by column: the front there is the end of a strip
   std::vector<Vec3> last_;            // where the blade was last
   std::vector<Vec3> ways_;            // by point: how it moved last
+  std::vector<Vec3> towed_;           // by point: what follows the front on a rope: the way that it has come
   std::array<SosPoint, 2> ends_;      // where the ends of the front reach on to, into an older cut
   std::array<bool, 2> reaches_on_{};  // whether they do
   SweptSurface seams_;                // between the front as it was and as it is divided now

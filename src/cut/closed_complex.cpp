@@ -9,8 +9,13 @@ namespace incise {
 inline namespace v0 {
 
 void ClosedComplex::clear() {
-  for (std::uint32_t i = 0; i < size(); ++i) {
-    if (masters_[i].split != nullptr) release(i);
+  for (const Master& master : masters_) {
+    if (master.split == nullptr) continue;
+    for (const TetId child : children(master)) master_of_[child.value] = 0;
+    for (const VertexId vertex : master.vertices) forget(vertex);
+  }
+  for (const VertexId vertex : copied_) {
+    if (vertex.is_valid()) drop_copies(vertex);
   }
   masters_.clear();
   free_masters_.clear();
@@ -24,9 +29,16 @@ void ClosedComplex::clear() {
   let_go_.clear();
   for (const VertexId vertex : ranked_) rank_[vertex.value] = 0;
   ranked_.clear();
-  scope_ = {};
   mark_ = 0;
   ++hold_;
+}
+
+/// What the tables by vertex slot say of a corner.
+void ClosedComplex::forget(VertexId vertex) {
+  master_at_[vertex.value] = count_at_[vertex.value] = 0;
+  if (vertex.value < flagged_at_.capacity()) flagged_at_[vertex.value] = 0;
+  if (is_on(vertex)) is_on_[vertex.value] = 0;
+  if (is_settled(vertex)) is_settled_[vertex.value] = 0;
 }
 
 ClosedComplex::Image ClosedComplex::image() const {
@@ -133,13 +145,13 @@ void ClosedComplex::hold_vertices(const TetMesh& mesh) {
   ++hold_;
   for (const Master& master : masters_) {
     if (master.split == nullptr) continue;
-    for (const VertexId v : master.vertices) hold(v);
-    for (const std::uint32_t e : master.edges) hold_made(edges_[e].split);
-    for (const std::uint32_t at : master.points) {
-      if (at != Master::kNone) hold_made(points_[at].vertex);
+    for (const VertexId v : master.vertices) {
+      if (v.value >= held_.capacity() || held_[v.value] != hold_) hold(v);  // another master has held it
     }
     hold_made(master.middle);
   }
+  for (const ClosedEdge& edge : edges_.edges()) hold_made(edge.split);
+  for (const FrontPoint& point : points_) hold_made(point.vertex);
   mark_beside_made(mesh);
 }
 
@@ -456,8 +468,8 @@ const std::vector<std::uint32_t>& ClosedComplex::star(const TetMesh& mesh, std::
   star_.assign(1, master);
   masters_[master].mark = ++mark_;
   flood_star(mesh, vertex, 0);
-  if ((mesh.shape_of(vertex) & shape::kPinched) == 0) return star_;
-  for (const std::uint32_t other : scope_) {
+  // Where the input's tets touched without sharing faces, others may have it.
+  for (std::uint32_t other = 0; star_.size() < count_at_[vertex.value] && other < size(); ++other) {
     const auto& corners = masters_[other].vertices;
     if (masters_[other].mark == mark_ || masters_[other].split == nullptr ||
         std::find(corners.begin(), corners.end(), vertex) == corners.end()) {

@@ -248,13 +248,10 @@ class ClosedComplex {
   template <class Visit>
   void for_each_around(std::uint32_t edge, Visit&& visit) const;
 
-  /// All masters around a vertex; live tets there that are none yet become masters. `master` has the vertex. Where the
-  /// input's tets touched at the vertex without sharing faces, those of `set_scope` are looked at too. Valid until the
-  /// next call.
+  /// All masters around a vertex; live tets that share faces with them there become masters, too. `master` has the
+  /// vertex. Cost: O(star), and O(masters) where tets touch at the vertex without sharing faces. Valid until the next
+  /// call.
   const std::vector<std::uint32_t>& star(const TetMesh& mesh, std::uint32_t master, VertexId vertex);
-
-  /// The masters that the blade is busy with.
-  void set_scope(std::span<const std::uint32_t> masters) { scope_ = masters; }
 
   /// The live tet behind a side of a master that has no master behind it, or the boundary.
   [[nodiscard]] Link outside(const TetMesh& mesh, const Master& master, unsigned side) const {
@@ -262,6 +259,7 @@ class ClosedComplex {
   }
 
  private:
+  void forget(VertexId vertex);
   void rename_edge(std::uint32_t index, VertexId from, VertexId to);
   void rename_point(FrontPoint& point, VertexId from, VertexId to);
   void retire_rank(VertexId vertex);
@@ -312,7 +310,6 @@ class ClosedComplex {
   std::vector<std::uint32_t> free_masters_;
   std::vector<VertexId> retired_;
   std::vector<std::uint32_t> star_, dirty_;
-  std::span<const std::uint32_t> scope_;
   std::uint32_t mark_ = 0;
 };
 

@@ -54,9 +54,11 @@ struct Exit {
 Exit find_exit(const TetMesh& mesh, const SurfaceIndex& surface, const Ray& ray) {
   std::vector<Side> crossed;
   const Box box{ray.from.position.cwiseMin(ray.to.position), ray.from.position.cwiseMax(ray.to.position)};
-  surface.for_each_near(mesh, box, [&](Side side) {
+  const auto note = [&](Side side) {
     if (ray.crosses(mesh, side)) crossed.push_back(side);
-  });
+  };
+  surface.for_each_near(mesh, box, note);
+  surface.for_each_waiting(mesh, note);
   std::sort(crossed.begin(), crossed.end());
   crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
   Exit exit;
@@ -226,6 +228,9 @@ void ContactWalk::seed_from_surface(const TetMesh& mesh, const Strip& strip, con
           if (std::exchange(found_near_[side.tet().value], walk_) != walk_) near_.push_back(side.tet());
         });
   }
+  surface.for_each_waiting(mesh, [&](Side side) {  // a blade that trembles comes back to what the last strip left
+    if (std::exchange(found_near_[side.tet().value], walk_) != walk_) near_.push_back(side.tet());
+  });
   std::sort(near_.begin(), near_.end());
   for (const TetId tet : near_) visit(mesh, tet);
 }

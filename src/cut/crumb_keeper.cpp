@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "cut/older_walls.h"
-
 namespace incise {
 inline namespace v0 {
 
@@ -24,7 +22,6 @@ CrumbRules CrumbKeeper::rules() {
   CrumbRules rules;
   rules.limit = [this](TetId tet) { return limit_at(tet); };
   rules.thin = state_.settings.thin;
-  rules.is_older = [this](Side side) { return is_older_wall(state_.mesh, state_.complex, side); };
   rules.stands_open = [this](const IncisionFace& face) { return faces_.stands_open(face); };
   const MaterialPieces& pieces = material_.pieces();
   if (pieces.has_several()) rules.are_apart = [&pieces](TetId a, TetId b) { return pieces.are_apart(a, b); };

@@ -48,8 +48,10 @@ class CrumbFinder {
     if (homes_.empty()) return 0;
     collect_borders();
     std::uint64_t kept = 0;
-    for (; attach_next(); ++kept) {
-    }
+    do {
+      for (; attach_next(); ++kept) {
+      }
+    } while (found_home());
     drop_faces();
     return kept;
   }
@@ -94,7 +96,7 @@ class CrumbFinder {
         }
       }
     }
-    is_large |= shaving.volume >= limit && !(shaving.has_older_wall && is_thin(shaving, 1.0));
+    is_large |= shaving.volume >= limit && !is_thin(shaving, 1.0);
     if (is_large) {
       for (const TetId tet : piece_) {
         state_[tet.value] = kLarge;
@@ -105,7 +107,6 @@ class CrumbFinder {
   /// What tells a shaving.
   struct Shaving {
     double volume = 0, walls = 0;  ///< twice the area of its walls
-    bool has_older_wall = false;
   };
   void add_to(Shaving& shaving, TetId tet) const {
     shaving.volume += mesh_.rest_volume(tet);
@@ -113,9 +114,7 @@ class CrumbFinder {
     for (unsigned s = 0; s < 4; ++s) {
       const Side side(tet, s);
       const Link link = mesh_.link(side);
-      const bool is_wall = link.is_boundary() && link.tag() != 0, is_new = is_blocked(side);
-      if (is_wall || is_new) shaving.walls += area_of(side);
-      shaving.has_older_wall = shaving.has_older_wall || (is_wall && !is_new && rules_.is_older(side));
+      if ((link.is_boundary() && link.tag() != 0) || is_blocked(side)) shaving.walls += area_of(side);
     }
   }
   /// Whether the walls on either side are at most `slack` times the greatest thickness apart, on the average.
@@ -137,8 +136,13 @@ class CrumbFinder {
     double area;
   };
   void add_crumb() {
-    for (const TetId tet : piece_) crumb_of_.emplace(tet.value, static_cast<std::uint32_t>(homes_.size()));
+    double volume = 0;
+    for (const TetId tet : piece_) {
+      crumb_of_.emplace(tet.value, static_cast<std::uint32_t>(homes_.size()));
+      volume += mesh_.rest_volume(tet);
+    }
     homes_.push_back({});
+    crumbs_.push_back({piece_.front(), volume});
   }
   [[nodiscard]] std::uint32_t crumb_of(TetId tet) const {
     const auto found = crumb_of_.find(tet.value);
@@ -177,6 +181,19 @@ class CrumbFinder {
     }
     return true;
   }
+  /// Where crumbs hang on each other and on nothing else, all of a piece is crumbs: it stays whole, and the others hang
+  /// on the largest. Returns whether there was one.
+  bool found_home() {
+    std::uint32_t largest = kInvalidIndex;
+    for (const Border& border : borders_) {
+      const std::uint32_t crumb = border.crumb;
+      if (homes_[crumb].is_valid() || border.behind_crumb == kInvalidIndex) continue;
+      if (largest == kInvalidIndex || crumbs_[crumb].volume > crumbs_[largest].volume) largest = crumb;
+    }
+    if (largest == kInvalidIndex) return false;
+    homes_[largest] = crumbs_[largest].tet;
+    return true;
+  }
   /// Some of the tets connected to `seed` without crossing the incision.
   [[nodiscard]] std::vector<TetId> piece_around(TetId seed) {
     std::vector<TetId> piece = {seed};
@@ -212,6 +229,11 @@ class CrumbFinder {
   std::vector<TetId> touched_;  // whose entries may not be zero
   std::vector<bool> is_dropped_;
   std::vector<TetId> piece_;  // the last one searched
+  struct Crumb {
+    TetId tet;  ///< one of it
+    double volume;
+  };
+  std::vector<Crumb> crumbs_;
   /// By crumb: a tet of the piece that it hangs on, be it by other crumbs; invalid until it hangs on one.
   std::vector<TetId> homes_;
   std::unordered_map<std::uint32_t, std::uint32_t> crumb_of_;  // by tet slot; looked up, never iterated

@@ -23,10 +23,10 @@ inline double crumb_limit(double spacing) {
 /// What counts as a crumb.
 struct CrumbRules {
   CrumbLimit limit;  ///< the volume below which a piece is one
-  /// A piece between an older wall and the cut is one where it is thinner than this on the average: where a blade comes
-  /// back beside its cut, shavings would fall. In length units; 0: none is.
+  /// A piece between two walls is one where it is thinner than this on the average, and one between a wall and skin
+  /// where it is thinner than half of it: where a blade comes back beside its cut, or grazes skin, shavings would fall.
+  /// In length units; 0: none is.
   double thin = 0.0;
-  std::function<bool(Side)> is_older;  ///< of a wall: asked where `thin` is above 0
   /// Where set: whether a face was open before. A crumb does not hang on such a one.
   std::function<bool(const IncisionFace&)> stands_open = {};
   /// Where set: whether a tet of a crumb and one behind its face are of two pieces. A crumb hangs on its own one only.
@@ -39,8 +39,9 @@ struct CrumbScratch {
 };
 
 /// Takes the incision faces of crumbs out of `incision` and adds them to `dropped`, so that a crumb stays attached to
-/// the piece that it shares its faces with. Where it touches two pieces it stays with one, and they come apart. Returns
-/// how many crumbs. Cost: O(incision faces) plus a search of a few tets around each small tet beside one.
+/// the piece that it shares its faces with. Where it touches two pieces it stays with one, and they come apart. A piece
+/// that is all crumbs stays whole. Returns how many crumbs. Cost: O(incision faces) plus a search of a few tets around
+/// each small tet beside one.
 std::uint64_t keep_crumbs(const TetMesh& mesh, const CrumbRules& rules, std::vector<IncisionFace>& incision,
                           std::vector<IncisionFace>& dropped, CrumbScratch& scratch);
 

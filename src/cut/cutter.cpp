@@ -19,6 +19,7 @@
 #include "cut/stroke_cut.h"
 #include "cut/sweep.h"
 #include "cut/twist.h"
+#include "incise/mesh/bounds.h"
 
 namespace incise {
 inline namespace v0 {
@@ -73,11 +74,23 @@ constexpr double kPointReach = 0.2;
 
 Cutter::Cutter(CutOptions options) : options_(options), stroke_cut_(options) {}
 
+void Cutter::prepare(const TetMesh& mesh, const Journal& journal) {
+  static_cast<void>(spacing_of(mesh, true));
+  stroke_cut_.prepare(mesh, journal);
+}
+
+/// A typical edge. In a body that moves it is the same for all strokes: the edges of a mesh that was cut are shorter,
+/// and a stroke that took its tolerances from them would leave edges that are shorter still.
+double Cutter::spacing_of(const TetMesh& mesh, bool has_moved) {
+  if (!(body_spacing_ > 0)) body_spacing_ = uncut_spacing(mesh);
+  return has_moved ? body_spacing_ : typical_spacing(mesh);
+}
+
 void Cutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
                    std::uint32_t tag) {
   stroke_.tag = tag;
   stroke_.swept = {};
-  stroke_.spacing = typical_spacing(mesh);
+  stroke_.spacing = spacing_of(mesh, has_moved);
   stroke_cut_.begin(tag, stroke_.spacing);
   stroke_cut_.prepare(mesh, journal);
   stroke_.given_row.assign(row.begin(), row.end());
@@ -112,7 +125,7 @@ Result<CutStatistics> Cutter::step(TetMesh& mesh, Journal& journal, std::span<co
     }
     if (goes_on_shortly(context.mesh, stroke_.last_row)) return {};
     return follow(context, stroke_.motion.advance(stroke_.last_row, stroke_cut_.sheet(), touches(context.mesh),
-                                                  surroundings(context.mesh), false));
+                                                  surroundings(context), false));
   });
 }
 
@@ -127,10 +140,9 @@ Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& t
     } else if (goes_on_shortly(context.mesh, stroke_.last_row)) {
       status = end_shortly(context, stroke_.last_row);
     } else {
-      status =
-          follow(context, stroke_.motion.end(stroke_cut_.sheet(), touches(context.mesh), surroundings(context.mesh)));
+      status = follow(context, stroke_.motion.end(stroke_cut_.sheet(), touches(context.mesh), surroundings(context)));
     }
-    if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context.mesh)));
+    if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context)));
     if (status && !(stroke_.has_left && stroke_.motion.is_at_start())) finish_sheet(context);
     return status;
   });
@@ -158,8 +170,20 @@ bool Cutter::may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std:
   const bool stands =
       stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row), kStands * stroke_.spacing);
   stroke_cut_.forget();
-  journal.take_back(mesh, end);
+  forget_tried(mesh, journal, end);
   return stands;
+}
+
+/// Takes back what was only tried. The surface goes back with it while the journal knows the way; without memory for
+/// that it is looked at anew when it is needed.
+void Cutter::forget_tried(TetMesh& mesh, Journal& journal, std::size_t end) noexcept {
+  try {
+    while (journal.position() > end) journal.undo(mesh);
+    stroke_cut_.prepare(mesh, journal);
+  } catch (const std::bad_alloc&) {
+    stroke_cut_.forget();
+  }
+  journal.take_back(mesh, end);
 }
 
 bool Cutter::go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
@@ -247,6 +271,7 @@ BladeMotion::Touches Cutter::touches(const TetMesh& mesh) const {
 /// The body has begun to move: from now on the blade is located in the elements as they stand.
 void Cutter::enter_material(const TetMesh& mesh) {
   stroke_.is_in_material = true;
+  stroke_cut_.enter_material(mesh);
   stroke_.material.take_over(mesh, stroke_cut_.surface(), stroke_.last_row, stroke_.motion.front(), stroke_.spacing,
                              stroke_cut_.complex());
   stroke_.motion.refine(stroke_.material.shares());
@@ -323,7 +348,7 @@ Status Cutter::cut_to(const CutContext& context, const std::vector<Vec3>& row, c
     return ends ? end_shortly(context, to) : Status{};
   }
   BladeMotion::Move move;
-  move.strip = stroke_.motion.accept(proposal, surroundings(context.mesh));
+  move.strip = stroke_.motion.accept(proposal, surroundings(context));
   stroke_.material.advance(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
   return follow(context, std::move(move));
 }
@@ -379,9 +404,11 @@ bool Cutter::hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Propos
 }
 
 /// What a border of the sheet finds: an older cut to reach on into, or the end of the body.
-Surroundings Cutter::surroundings(const TetMesh& mesh) const {
+Surroundings Cutter::surroundings(const CutContext& context) {
+  const TetMesh& mesh = context.mesh;
+  stroke_cut_.prepare(mesh, context.journal);  // walls are where the last step left them
   Surroundings found;
-  const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+  const OlderWalls older = stroke_cut_.older_walls(mesh);
   if (!older.exist()) return found;
   found.has_older_cuts = true;
   found.is_outside = [this, &mesh](const Vec3& place) {
@@ -427,7 +454,7 @@ bool Cutter::goes_on_shortly(const TetMesh& mesh, std::span<const Vec3> row) {
 
 /// Whether all of a row that is in the body lies at the front of older cuts, seen along its way to another row.
 bool Cutter::lies_at_front(const TetMesh& mesh, std::span<const Vec3> start, std::span<const Vec3> row) const {
-  const OlderWalls older(mesh, stroke_cut_.surface(), stroke_cut_.complex());
+  const OlderWalls older = stroke_cut_.older_walls(mesh);
   if (!older.exist()) return false;
   const auto is_inside = [&](const Vec3& place) {
     return locate(mesh, stroke_cut_.surface(), {place, ~std::uint64_t{0} - 1}).is_valid();
@@ -474,10 +501,10 @@ Status Cutter::end_shortly(const CutContext& context, std::span<const Vec3> row)
   stroke_cut_.prepare(context.mesh, context.journal);
   stroke_.motion.begin(back, stroke_.spacing);
   BladeMotion::Move move;
-  move.strip = stroke_.motion.accept(stroke_.motion.propose(row), surroundings(context.mesh));
+  move.strip = stroke_.motion.accept(stroke_.motion.propose(row), surroundings(context));
   if (stroke_.is_in_material) stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
   Status status = follow(context, std::move(move));
-  if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context.mesh)));
+  if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context)));
   if (!status) return status;
   finish_sheet(context);
   static_cast<void>(carry(context, back, row));
@@ -506,14 +533,14 @@ void Cutter::finish_sheet(const CutContext& context) {
 /// new sheet, to which the one so far is an older cut.
 Status Cutter::follow(const CutContext& context, BladeMotion::Move move) {
   if (move.strip == nullptr) return {};
-  if (move.starts_anew || comes_back(context.mesh, *move.strip)) {
+  if (move.starts_anew || comes_back(context, *move.strip)) {
     finish_sheet(context);
     stroke_cut_.begin(stroke_.tag, stroke_.spacing);
     if (between_sheets_) between_sheets_();
     stroke_cut_.prepare(context.mesh, context.journal);
     if (stroke_.is_in_material)
       stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
-    move.strip = stroke_.motion.lay_anew(surroundings(context.mesh));
+    move.strip = stroke_.motion.lay_anew(surroundings(context));
   }
   note_swept(move.strip->surface);
   stroke_cut_.keep_pieces(stroke_.is_in_material);
@@ -529,9 +556,9 @@ Status Cutter::follow(const CutContext& context, BladeMotion::Move move) {
 }
 
 /// Whether a strip comes back to what the sheet is done with.
-bool Cutter::comes_back(const TetMesh& mesh, const Strip& strip) {
-  if (!stroke_.is_in_material && stroke_cut_.crosses_own_cut(mesh, strip, kApart)) return true;
-  return stroke_cut_.comes_back(mesh, strip);
+bool Cutter::comes_back(const CutContext& context, const Strip& strip) {
+  if (!stroke_.is_in_material && stroke_cut_.crosses_own_cut(context, strip, kApart)) return true;
+  return stroke_cut_.comes_back(context.mesh, strip);
 }
 
 /// Finishes the sheet where it is; the next one goes on from there.
@@ -562,7 +589,7 @@ void Cutter::note_swept(const SweptSurface& surface) {
 /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
 Status Cutter::cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   stroke_.is_in_material = false;
-  const double spacing = stroke_.spacing = typical_spacing(context.mesh);
+  const double spacing = stroke_.spacing = spacing_of(context.mesh, false);
   const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
   const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
   for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {

@@ -73,6 +73,9 @@ class Cutter {
   /// starts, since the blade has come back to what it cut: the mesh may be maintained there. It must not throw. Empty:
   /// nothing is called.
   void call_between_sheets(std::function<void()> between_sheets) { between_sheets_ = std::move(between_sheets); }
+  /// Looks at the body: its surface, and how long its edges are, by which all strokes through it go while it moves. The
+  /// first stroke would do it otherwise. Cost: O(tets), 9 ns each.
+  void prepare(const TetMesh& mesh, const Journal& journal);
   /// Forgets a stroke whose steps were taken back.
   void forget() { stroke_cut_.forget(); }
   /// Whether a live tet lies in the band around the front of the stroke under way, or has a vertex of it: nobody else
@@ -101,6 +104,8 @@ class Cutter {
     std::uint32_t tag = 1;
   };
 
+  [[nodiscard]] double spacing_of(const TetMesh& mesh, bool has_moved);
+  void forget_tried(TetMesh& mesh, Journal& journal, std::size_t end) noexcept;
   bool resume(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
               std::uint32_t tag);
   bool take_end_back(TetMesh& mesh, Journal& journal, std::size_t first_step);
@@ -119,7 +124,7 @@ class Cutter {
   void leave_body(const CutContext& context, const std::vector<Vec3>& row);
   BladeMotion::Proposal propose(const CutContext& context, const std::vector<Vec3>& row, const Vec3& direction);
   bool hold_where_it_closes(const TetMesh& mesh, const BladeMotion::Proposal& proposal);
-  [[nodiscard]] Surroundings surroundings(const TetMesh& mesh) const;
+  [[nodiscard]] Surroundings surroundings(const CutContext& context);
   [[nodiscard]] bool goes_on_shortly(const TetMesh& mesh, std::span<const Vec3> row);
   [[nodiscard]] bool lies_at_front(const TetMesh& mesh, std::span<const Vec3> start, std::span<const Vec3> row) const;
   double carry(const CutContext& context, std::span<const Vec3> from, std::span<const Vec3> to);
@@ -128,7 +133,7 @@ class Cutter {
   [[nodiscard]] std::vector<Vec3> drawn_back(std::vector<Vec3> row, std::span<const Vec3> to) const;
   void finish_sheet(const CutContext& context);
   Status follow(const CutContext& context, BladeMotion::Move move);
-  bool comes_back(const TetMesh& mesh, const Strip& strip);
+  bool comes_back(const CutContext& context, const Strip& strip);
   void go_on_from_front(const CutContext& context);
   [[nodiscard]] FrontRules rules() const;
   void note_swept(const SweptSurface& surface);
@@ -139,6 +144,7 @@ class Cutter {
   CutOptions options_;
   StrokeCut stroke_cut_;
   OpenStroke stroke_;
+  double body_spacing_ = 0;  // of the body as it was first seen; 0: it was not yet
   PieceFinder finder_;
   std::function<void()> between_sheets_;
 };

@@ -95,13 +95,14 @@ Vec3 Divider::position_of(const Master& master, std::uint8_t code) const {
 }
 
 bool Divider::is_sound(const Master& master, const SplitTemplate& split, bool keeps_shape_floor) const {
-  std::array<Vec3, 15> places;
-  for (const SplitTemplate::Child& child : split.children) {
-    for (const std::uint8_t code : child) places[code] = position_of(master, code);
+  std::array<Vec3, SplitTemplate::kCodes> places;
+  for (std::uint8_t code = 0; code < SplitTemplate::kCodes; ++code) {
+    if (!split.around(code).empty()) places[code] = position_of(master, code);
   }
   return std::all_of(split.children.begin(), split.children.end(), [&](const SplitTemplate::Child& child) {
     const Vec3 &a = places[child[0]], &b = places[child[1]], &c = places[child[2]], &d = places[child[3]];
-    return orient3d(a, b, c, d) > 0 && !(keeps_shape_floor && is_flat(a, b, c, d));
+    // What is not flat has a volume far beyond what rounding can make: its sign is certain.
+    return keeps_shape_floor ? !is_flat(a, b, c, d) : orient3d(a, b, c, d) > 0;
   });
 }
 

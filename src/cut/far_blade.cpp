@@ -89,14 +89,6 @@ class StepDivider {
 
 }  // namespace
 
-Box current_bounds(const TetMesh& mesh) {
-  Box box;
-  mesh.for_each_vertex([&](VertexId v) {
-    if (mesh.tet_of(v).is_valid()) box.extend(mesh.current(v));
-  });
-  return box;
-}
-
 Box enlarged(const Box& box, double share) {
   const double margin = share * (box.hi - box.lo).norm();
   Box larger = box;

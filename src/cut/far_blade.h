@@ -11,9 +11,6 @@
 namespace incise {
 inline namespace v0 {
 
-/// The smallest box around a body as it stands; empty for one without tets. Cost: O(vertices).
-[[nodiscard]] Box current_bounds(const TetMesh& mesh);
-
 /// A box that is larger on all sides by a share of its diagonal.
 [[nodiscard]] Box enlarged(const Box& box, double share);
 

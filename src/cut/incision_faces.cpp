@@ -12,6 +12,18 @@ IncisionFaces::IncisionFaces(RebuildState& state, Memory& memory) : state_(state
   memory_.faces.clear();
   memory_.standing.clear();
   memory_.apart.clear();
+  ++memory_.run;
+}
+
+void IncisionFaces::note_relinked(std::uint32_t master) {
+  memory_.relinked.ensure(std::size_t{master} + 1);
+  memory_.relinked[master] = memory_.run;
+}
+
+bool IncisionFaces::is_as_before(std::uint32_t master) const {
+  const Master& m = state_.complex[master];
+  const bool is_relinked = master < memory_.relinked.capacity() && memory_.relinked[master] == memory_.run;
+  return (!m.is_dirty || m.is_kept) && !is_relinked;
 }
 
 void IncisionFaces::sort_standing() {

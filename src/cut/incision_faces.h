@@ -24,6 +24,8 @@ class IncisionFaces {
     std::vector<IncisionFace> faces;
     std::vector<Side> standing;  // of faces that were open before: their first sides; ascending
     std::vector<ApartVertex> apart;
+    ZeroedArray<std::uint32_t> relinked;  // by master: the last run that has changed a link of its children
+    std::uint32_t run = 0;
   };
 
   IncisionFaces(RebuildState& state, Memory& memory);
@@ -41,6 +43,11 @@ class IncisionFaces {
   /// Notes a face that the sheet does not pass, between two pieces: its vertices need copies, wherever they are.
   void note_apart(Side side);
   [[nodiscard]] std::vector<ApartVertex>& apart() { return memory_.apart; }
+
+  /// Notes that a child of a master has another neighbour, or a wall, where it stayed.
+  void note_relinked(std::uint32_t master);
+  /// Whether the children of a master and all that is linked to them are as they were before this run.
+  [[nodiscard]] bool is_as_before(std::uint32_t master) const;
 
   /// Leaves the material joined at a face.
   void close(const IncisionFace& face) { state_.transaction.join(face.a, face.b); }

@@ -3,18 +3,11 @@
 // that have this edge: then the cut does not turn into the master there, and the two take each other out.
 #include "cut/incision_lines.h"
 
-#include <algorithm>
-
 namespace incise {
 inline namespace v0 {
 
 IncisionLines::IncisionLines(const Master& master, const ClosedComplex& complex) : master_(master), complex_(complex) {
   for (unsigned s = 0; s < 4; ++s) add_side(s);
-}
-
-bool IncisionLines::contains(std::uint8_t a, std::uint8_t b) const {
-  const std::array<std::uint8_t, 2> line = {std::min(a, b), std::max(a, b)};
-  return std::find(lines_.begin(), lines_.begin() + count_, line) != lines_.begin() + count_;
 }
 
 /// What stands for the crossing of a flagged edge: its split point, or the end that takes part in the cut; of two such
@@ -43,14 +36,8 @@ void IncisionLines::add_side(unsigned side) {
 
 void IncisionLines::toggle(std::uint8_t a, std::uint8_t b) {
   if (a == b) return;
-  const std::array<std::uint8_t, 2> line = {std::min(a, b), std::max(a, b)};
-  const auto end = lines_.begin() + count_;
-  const auto at = std::find(lines_.begin(), end, line);
-  if (at == end) {
-    lines_[count_++] = line;
-  } else {
-    *at = lines_[--count_];
-  }
+  to_[a] = static_cast<std::uint16_t>(to_[a] ^ (1U << b));
+  to_[b] = static_cast<std::uint16_t>(to_[b] ^ (1U << a));
 }
 
 }  // namespace v0

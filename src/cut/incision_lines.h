@@ -17,7 +17,7 @@ class IncisionLines {
   /// Both must outlive the object. Cost: O(1).
   IncisionLines(const Master& master, const ClosedComplex& complex);
 
-  [[nodiscard]] bool contains(std::uint8_t a, std::uint8_t b) const;
+  [[nodiscard]] bool contains(std::uint8_t a, std::uint8_t b) const { return ((unsigned{to_[a]} >> b) & 1U) != 0; }
 
  private:
   [[nodiscard]] std::uint8_t crossing_of(unsigned edge) const;
@@ -28,8 +28,7 @@ class IncisionLines {
 
   const Master& master_;
   const ClosedComplex& complex_;
-  std::array<std::array<std::uint8_t, 2>, 16> lines_{};
-  std::uint8_t count_ = 0;
+  std::array<std::uint16_t, SplitTemplate::kCodes> to_{};  // by code: those that lines go to from there, as bits
 };
 
 }  // namespace v0

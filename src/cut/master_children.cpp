@@ -13,27 +13,39 @@ void MasterChildren::make() {
 void MasterChildren::make(std::uint32_t index) {
   Master& master = state_.complex[index];
   const SplitTemplate& split = divider_.find(master);
+  find_vertices(master, split);
   if (is_divided_so(master, split)) {
     keep(index);
     return;
   }
   master.is_kept = false;
   const OldMaterial::Range& range = material_.range(master);
+  const auto& vertices = memory_.vertices;
+  std::array<Vec3, SplitTemplate::kCodes> quarters;
+  for (std::uint8_t code = 0; code < SplitTemplate::kCodes; ++code) {
+    if (vertices[code].is_valid()) quarters[code] = 0.25 * state_.mesh.rest(vertices[code]);
+  }
   memory_.children.clear();
   for (const SplitTemplate::Child& child : split.children) {
-    TetVertices v;
-    Vec3 middle = Vec3::Zero();
-    for (unsigned c = 0; c < 4; ++c) {
-      v[c] = vertex_of(master, child[c]);
-      middle += 0.25 * state_.mesh.rest(v[c]);
-    }
+    const TetVertices v = {vertices[child[0]], vertices[child[1]], vertices[child[2]], vertices[child[3]]};
+    const Vec3 middle = quarters[child[0]] + quarters[child[1]] + quarters[child[2]] + quarters[child[3]];
     const std::uint32_t old = material_.children().holding(middle, range.first, range.last);
     const TetId tet = state_.transaction.add_tet(v, material_.children().id(old));
-    for (const VertexId vertex : v) state_.transaction.set_tet_of(vertex, tet);
     memory_.children.push_back(tet);
     material_.hand_down(old, tet);
   }
+  for (std::uint8_t code = 0; code < SplitTemplate::kCodes; ++code) {
+    const auto around = split.around(code);
+    if (!around.empty()) state_.transaction.set_tet_of(vertices[code], memory_.children[around.back() / 4U]);
+  }
   state_.complex.set_children(index, split, memory_.children);
+}
+
+/// The vertices of the master that its template names.
+void MasterChildren::find_vertices(const Master& master, const SplitTemplate& split) {
+  for (std::uint8_t code = 0; code < SplitTemplate::kCodes; ++code) {
+    memory_.vertices[code] = split.around(code).empty() ? VertexId() : vertex_of(master, code);
+  }
 }
 
 void MasterChildren::keep(std::uint32_t index) {
@@ -53,7 +65,7 @@ bool MasterChildren::is_divided_so(const Master& master, const SplitTemplate& sp
   for (std::size_t k = 0; k < children.size(); ++k) {
     for (unsigned c = 0; c < 4; ++c) {
       const VertexId vertex = state_.mesh.vertices(children[k])[c];
-      if (complex.closed(vertex) != vertex_of(master, split.children[k][c])) return false;
+      if (complex.closed(vertex) != memory_.vertices[split.children[k][c]]) return false;
     }
   }
   return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,7 +20,8 @@ class MasterChildren {
  public:
   /// What is kept from run to run, for its storage.
   struct Memory {
-    std::vector<TetId> children;  // of the master at hand
+    std::vector<TetId> children;                           // of the master at hand
+    std::array<VertexId, SplitTemplate::kCodes> vertices;  // by code, of its template
   };
 
   MasterChildren(RebuildState& state, SplitTemplates& templates, OldMaterial& material, Memory& memory)
@@ -35,6 +37,7 @@ class MasterChildren {
  private:
   void make(std::uint32_t index);
   [[nodiscard]] bool is_divided_so(const Master& master, const SplitTemplate& split) const;
+  void find_vertices(const Master& master, const SplitTemplate& split);
   [[nodiscard]] VertexId vertex_of(const Master& master, std::uint8_t code) const;
 
   RebuildState& state_;

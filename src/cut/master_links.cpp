@@ -5,40 +5,15 @@
 #include "cut/master_links.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "cut/division.h"
-#include "cut/incision_lines.h"
 #include "cut/parity.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Which side of the sheet a child of a complete master lies on: the colour of any corner that is not on the sheet.
-unsigned colour_of_child(const SplitTemplate::Child& child, const Master& master) {
-  for (const std::uint8_t code : child) {
-    if (code < SplitTemplate::kFirstSplit && ((unsigned{master.on} >> code) & 1U) == 0) {
-      return colour_of(master.flagged, code);
-    }
-  }
-  return colour_of(master.flagged, child[0] < SplitTemplate::kFirstSplit ? child[0] : 0);
-}
-
-/// Whether a face of a cone stands on a line of the incision.
-bool lies_on_line(const IncisionLines& lines, const SplitTemplate::Child& child, unsigned side) {
-  std::array<std::uint8_t, 2> foot{};
-  unsigned count = 0;
-  for (const unsigned c : kSideCorners[side]) {
-    if (child[c] != SplitTemplate::kMiddle) foot[count++] = child[c];
-  }
-  return lines.contains(foot[0], foot[1]);
-}
-
-/// Whether two faces have the same three vertices.
-bool are_same(const std::array<VertexId, 3>& u, const std::array<VertexId, 3>& v) {
-  return std::all_of(u.begin(), u.end(), [&](VertexId x) { return x == v[0] || x == v[1] || x == v[2]; });
-}
 
 /// Whether a segment passes through a sheet an odd number of times. Exact.
 bool crosses(const OwnSheet& sheet, const SosPoint& p, const SosPoint& q) {
@@ -61,7 +36,9 @@ void MasterLinks::link() {
 }
 
 void MasterLinks::link_last() {
+  keeps_joined_ = true;
   link(state_.dirty.back());
+  keeps_joined_ = false;
   faces_.sort_standing();
 }
 
@@ -79,21 +56,18 @@ void MasterLinks::link(std::uint32_t index) {
 }
 
 void MasterLinks::link_inner(const Master& master) {
-  const ClosedComplex& complex = state_.complex;
   const SplitTemplate& split = *master.split;
   if (split.inner.empty()) return;
-  const bool is_cone = Divider::is_cone(master);
-  const IncisionLines lines(master, complex);
+  std::uint64_t passed = table_.find(master, state_.complex).passed;
   for (const auto& [a, b] : split.inner) {
-    const auto &first = split.children[a / 4U], &second = split.children[b / 4U];
-    const bool is_incision = is_cone ? lies_on_line(lines, first, a & 3U)
-                                     : colour_of_child(first, master) != colour_of_child(second, master);
-    meet(complex.facet(master, a), complex.facet(master, b), is_incision);
+    meet(state_.complex.facet(master, a), state_.complex.facet(master, b), (passed & 1U) != 0);
+    passed >>= 1U;
   }
 }
 
 /// Has two sides meet: linked, or apart as a face of the incision.
 void MasterLinks::meet(Side a, Side b, bool is_crossed) {
+  if (keeps_joined_ && state_.mesh.link(a) == Link(b)) return;
   const StrokeTags& tags = state_.settings.tags;
   const bool is_incision = is_crossed || stand_apart(a, b);
   if (is_incision && !is_crossed) faces_.note_apart(a);
@@ -115,7 +89,12 @@ bool MasterLinks::stand_apart(Side a, Side b) {
 }
 
 void MasterLinks::set_link(Side side, Link link) {
-  if (state_.mesh.link(side) != link) state_.transaction.set_link(side, link);
+  const Link before = state_.mesh.link(side);
+  if (before == link) return;
+  state_.transaction.set_link(side, link);
+  if (before == Link()) return;  // a new child's: its master is not as before anyway
+  const std::uint32_t master = state_.complex.find(side.tet());
+  if (master != Master::kNone) faces_.note_relinked(master);
 }
 
 void MasterLinks::link_outside(std::uint32_t index, unsigned side, Link outside) {
@@ -152,22 +131,32 @@ void MasterLinks::link_masters(std::uint32_t index, unsigned side, std::uint32_t
          lies_across(master, side, other, other_side));
     return;
   }
-  constexpr std::size_t kMostFacets = 6;
-  std::array<std::array<VertexId, 3>, kMostFacets> there;
-  for (std::size_t k = 0; k < facing.size(); ++k) there[k] = closed_facet(other, facing[k]);
-  for (const auto a : outer) {
-    const std::array<VertexId, 3> here = closed_facet(master, a);
-    for (std::size_t k = 0; k < facing.size(); ++k) {
-      if (are_same(here, there[k])) meet(complex.facet(master, a), complex.facet(other, facing[k]), false);
-    }
-  }
+  link_facets(master, side, other, other_side);
 }
 
-/// The closed vertices of a facet of a master.
-std::array<VertexId, 3> MasterLinks::closed_facet(const Master& master, SplitTemplate::ChildSide side) const {
+/// Links the facets of two masters in the side between them, each to that with the same vertices.
+void MasterLinks::link_facets(const Master& master, unsigned side, const Master& other, unsigned other_side) {
   const ClosedComplex& complex = state_.complex;
-  const auto v = state_.mesh.vertices(complex.facet(master, side));
-  return {complex.closed(v[0]), complex.closed(v[1]), complex.closed(v[2])};
+  std::array<std::uint16_t, SplitTemplate::kCodes> there{};  // what a code of `master` is called in `other`
+  const auto name = [&](unsigned here, std::size_t code) { there[here] = static_cast<std::uint16_t>(1U << code); };
+  const auto place_in = [](const auto& all, auto one) {
+    return static_cast<std::size_t>(std::find(all.begin(), all.end(), one) - all.begin());
+  };
+  for (const unsigned c : kSideCorners[side]) name(c, place_in(other.vertices, master.vertices[c]));
+  for (const unsigned e : kSideEdges[side]) {
+    name(SplitTemplate::kFirstSplit + e, SplitTemplate::kFirstSplit + place_in(other.edges, master.edges[e]));
+  }
+  name(SplitTemplate::kFirstPoint + side, SplitTemplate::kFirstPoint + other_side);
+  const auto &outer = master.split->outer[side], &facing = other.split->outer[other_side];
+  const auto &codes = master.split->on_side[side], &facing_codes = other.split->on_side[other_side];
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    unsigned same = 0;
+    for (unsigned rest = codes[i]; rest != 0; rest &= rest - 1)
+      same |= there[static_cast<unsigned>(std::countr_zero(rest))];
+    for (std::size_t k = 0; k < facing.size(); ++k) {
+      if (facing_codes[k] == same) meet(complex.facet(master, outer[i]), complex.facet(other, facing[k]), false);
+    }
+  }
 }
 
 /// Whether an undivided face lies on the sheet: three ON vertices, and the two masters on opposite sides.

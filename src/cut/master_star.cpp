@@ -28,15 +28,14 @@ std::uint8_t sides_of(const Master& master, std::uint8_t corner, unsigned has) {
   return static_cast<std::uint8_t>(sides);
 }
 
-/// Whether the cut ends in a side that has no front point, since an older cut is beside it: it ends at split points.
+}  // namespace
+
 bool ends_without_point(const Master& master) {
   if (!has_odd_face(master.flagged)) return false;
   bool does_end = false;
   for (unsigned s = 0; s < 4; ++s) does_end |= master.points[s] == Master::kNone && is_odd_side(master, s);
   return does_end;
 }
-
-}  // namespace
 
 void MasterStar::gather_corner(std::span<const std::uint32_t> masters, VertexId vertex) {
   gather(masters, [&](const Master& m) { return Codes{static_cast<std::uint8_t>(corner_of(m, vertex))}; });
@@ -87,7 +86,7 @@ void MasterStar::add(const Master& master, const Codes& codes) {
   const SplitTemplate& split = *master.split;
   const auto tets = state_.complex.children(master);
   const bool is_new = master.is_dirty && !master.is_kept;
-  for (const std::uint8_t at : split.around[codes.vertex]) {
+  for (const std::uint8_t at : split.around(codes.vertex)) {
     const unsigned k = at / 4U, has = split.codes[k];
     const auto ends = codes.vertex < SplitTemplate::kFirstSplit
                           ? sides_of(master, codes.vertex, has)

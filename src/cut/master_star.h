@@ -18,6 +18,9 @@ inline namespace v0 {
   return static_cast<unsigned>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
 }
 
+/// Whether the cut ends in a side that has no front point, since an older cut is beside it: it ends at split points.
+[[nodiscard]] bool ends_without_point(const Master& master);
+
 /// The star of a closed vertex: the live tets around it, gathered from the masters that have it.
 ///
 /// Reads the children of masters and their old material; changes nothing but itself. Each `gather` takes the place of

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A split point stays as long as its edge is split, a front point as long as its rest place is the same: with its slot,
-// and where the body has it. A front point whose rest place has moved is another vertex. New ones start where the old
-// children had their place.
+// A split point stays as long as its edge is split: with its slot, and where the body has it. So does a front point
+// while the border passes through its face; at rest it is moved there, in a body that moves it is another vertex once
+// its rest place has changed. New ones start where the old children had their place.
 #include "cut/master_vertices.h"
 
 namespace incise {
@@ -44,17 +44,42 @@ void MasterVertices::update_split_point(std::uint32_t index, unsigned e) {
 }
 
 void MasterVertices::update_front_point(FrontPoint& point) {
-  if (point.vertex.is_valid() && state_.mesh.rest(point.vertex) == point.position) return;
-  if (point.vertex.is_valid()) state_.complex.retire(point.vertex);
-  point.vertex = add_vertex_at(state_.transaction, point.position, place_of(point.position, point.masters));
+  point.vertex = taken_to(point.position, point.vertex, point.masters);
 }
 
 void MasterVertices::update_middle(std::uint32_t index) {
   Master& master = state_.complex[index];
-  const Vec3 place = divider_.middle_of(master);
-  if (master.middle.is_valid() && state_.mesh.rest(master.middle) == place) return;
-  if (master.middle.is_valid()) state_.complex.retire(master.middle);
-  master.middle = add_vertex_at(state_.transaction, place, place_of(place, {index, index}));
+  master.middle = taken_to(divider_.middle_of(master), master.middle, {index, index});
+}
+
+/// A front point of `masters` at a place: `vertex`, moved there, or a new one. At rest a point goes along with the
+/// border of the sheet while that passes through the same faces, and so the tets around it stay: only their shapes
+/// change. In a body that moves it is another vertex, since it has another place there as well.
+VertexId MasterVertices::taken_to(const Vec3& place, VertexId vertex, const std::array<std::uint32_t, 2>& masters) {
+  if (vertex.is_valid() && state_.mesh.rest(vertex) == place) return vertex;
+  if (vertex.is_valid() && !state_.settings.keeps_pieces && !state_.complex.has_copies(vertex)) {
+    const std::uint32_t holder = holder_of(place, masters);
+    if (holder != kInvalidIndex) {
+      // Others may have moved before: where its tet stands now is what a follower knows.
+      const MaterialPlace now = place_in(state_.mesh, material_.children().id(holder), place);
+      if (now.inside > -1.0) {
+        state_.transaction.move(vertex, place, now.basis, now.weights);
+        return vertex;
+      }
+    }
+  }
+  if (vertex.is_valid()) state_.complex.retire(vertex);
+  return add_vertex_at(state_.transaction, place, place_of(place, masters));
+}
+
+/// The old child of a master that holds a rest point.
+std::uint32_t MasterVertices::holder_of(const Vec3& rest, const std::array<std::uint32_t, 2>& masters) const {
+  for (const std::uint32_t index : masters) {
+    if (index == Master::kNone || !state_.complex[index].is_dirty) continue;
+    const OldMaterial::Range& range = material_.range(state_.complex[index]);
+    return material_.children().holding(rest, range.first, range.last);
+  }
+  return kInvalidIndex;
 }
 
 /// Where a rest point stood in the old children of one or the other master.

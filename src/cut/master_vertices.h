@@ -29,6 +29,8 @@ class MasterVertices {
   void update_split_point(std::uint32_t index, unsigned e);
   void update_front_point(FrontPoint& point);
   void update_middle(std::uint32_t index);
+  [[nodiscard]] VertexId taken_to(const Vec3& place, VertexId vertex, const std::array<std::uint32_t, 2>& masters);
+  [[nodiscard]] std::uint32_t holder_of(const Vec3& rest, const std::array<std::uint32_t, 2>& masters) const;
   [[nodiscard]] MaterialPlace place_of(const Vec3& rest, const std::array<std::uint32_t, 2>& masters) const;
 
   RebuildState& state_;

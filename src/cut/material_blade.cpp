@@ -8,8 +8,8 @@
 #include "cut/contact_walk.h"
 #include "cut/far_blade.h"
 #include "cut/twist.h"
-#include "incise/geom/closest.h"
 #include "incise/geom/quality.h"
+#include "incise/mesh/bounds.h"
 
 namespace incise {
 inline namespace v0 {
@@ -48,8 +48,10 @@ constexpr unsigned kMostTets = 256;
 /// A point that is outside while its front is in the way of the body waits until it is so many spacings on: longer, and
 /// it would leave a thread of tissue behind.
 constexpr double kWaits = 1.0;
-/// Rings of cells that are looked through for the nearest surface, and rounds of drawing nearer.
-constexpr unsigned kMostRings = 6, kMostRounds = 6;
+/// The nearest surface is looked for within so many spacings.
+constexpr double kReach = 32.0;
+/// Rounds of drawing nearer to the tet that a point belongs to.
+constexpr unsigned kMostRounds = 6;
 
 using Corners = std::array<Vec3, 4>;
 
@@ -132,33 +134,11 @@ TetId walk_to(const TetMesh& mesh, TetId from, const Vec3& x) {
   return {};
 }
 
-/// Whether a side lies further from a place than `distance2` tells, beyond all rounding: most do, and need no closer
-/// look.
-bool is_beyond(const TetMesh& mesh, Side side, const Vec3& place, double distance2, double spacing) {
-  const auto v = mesh.vertices(side);
-  const Vec3 &a = mesh.rest(v[0]), &b = mesh.rest(v[1]), &c = mesh.rest(v[2]);
-  const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-  return box.distance2(place) > (1 + 1e-6) * distance2 + 1e-12 * spacing * spacing;
-}
-
-/// The boundary side nearest to a rest point, in cells around it.
+/// The boundary side nearest to a rest point, and its nearest point.
 Side nearest_side(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest, double spacing, Vec3& place) {
-  Side best;
-  double least = std::numeric_limits<double>::infinity();
-  for (unsigned ring = 1; ring <= kMostRings && !(least < std::numeric_limits<double>::infinity()); ++ring) {
-    const Vec3 reach = Vec3::Constant(spacing * static_cast<double>(1U << ring) * 0.5);
-    surface.for_each_near(mesh, {rest - reach, rest + reach}, [&](Side side) {
-      if (side == best || is_beyond(mesh, side, rest, least, spacing)) return;
-      const auto v = mesh.vertices(side);
-      const ClosestPoint near = closest_on_triangle(rest, mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]));
-      if (near.distance2 < least || (near.distance2 == least && side < best)) {
-        least = near.distance2;
-        best = side;
-        place = near.point;
-      }
-    });
-  }
-  return best;
+  const SurfaceIndex::Nearest nearest = surface.nearest(mesh, rest, kReach * spacing);
+  place = nearest.point;
+  return nearest.side;
 }
 
 }  // namespace

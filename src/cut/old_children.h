@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "incise/geom/box.h"
 #include "incise/mesh/transaction.h"
 
 namespace incise {
@@ -37,6 +38,7 @@ class OldChildren {
     TetId id;
     TetVertices vertices;
     std::array<Vec3, 4> rest, current;
+    Box around;  ///< of the rest positions
   };
   static OldTet image_of(const TetMesh& mesh, TetId tet);
   static MaterialPlace place_in(const OldTet& tet, const Vec3& rest);

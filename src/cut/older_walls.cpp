@@ -17,24 +17,22 @@ constexpr double kAlongOlder = 0.5;
 
 }  // namespace
 
-bool OlderWalls::exist() const {
-  return surface_.has_walls();
-}
-
-bool is_older_wall(const TetMesh& mesh, const ClosedComplex& complex, Side side) {
-  const Link link = mesh.link(side);
-  if (!link.is_boundary() || link.tag() == 0) return false;
-  const std::uint32_t index = complex.find(side.tet());
-  if (index == Master::kNone) return true;
+bool is_inside_master(const ClosedComplex& complex, Side wall) {
+  const std::uint32_t index = complex.find(wall.tet());
+  if (index == Master::kNone) return false;
   const Master& master = complex[index];
   for (unsigned s = 0; s < 4; ++s) {
+    if (master.behind[s] != Master::kNone) continue;
     const auto& outer = master.split->outer[s];
-    if (master.behind[s] == Master::kNone &&
-        std::any_of(outer.begin(), outer.end(), [&](auto child) { return complex.facet(master, child) == side; })) {
-      return true;
+    if (std::any_of(outer.begin(), outer.end(), [&](auto child) { return complex.facet(master, child) == wall; })) {
+      return false;
     }
   }
-  return false;
+  return true;
+}
+
+bool OlderWalls::exist() const {
+  return surface_.has_walls();
 }
 
 bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, double beyond) const {
@@ -44,7 +42,7 @@ bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, doub
   const Vec3 margin = Vec3::Constant(reach);
   bool does_pass = false;
   surface_.for_each_near(mesh_, {place - margin, place + margin}, [&](Side side) {
-    if (does_pass) return;
+    if (does_pass || mesh_.link(side).tag() == 0) return;
     const auto v = mesh_.vertices(side);
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
@@ -54,7 +52,7 @@ bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, doub
     const Vec3 way = place - closest_on_triangle(place, a, b, c).point;
     const double across = way.dot(area) / length;
     const double along2 = way.squaredNorm() - across * across;
-    does_pass = std::abs(across) <= beside && along2 <= beyond * beyond && is_older_wall(mesh_, complex_, side);
+    does_pass = std::abs(across) <= beside && along2 <= beyond * beyond && !is_inside_master(complex_, side);
   });
   return does_pass;
 }
@@ -63,6 +61,7 @@ double OlderWalls::first_met(const Vec3& from, const Vec3& to, double least_sine
   double first = 2.0;
   if (!exist()) return first;
   surface_.for_each_near(mesh_, {from.cwiseMin(to), from.cwiseMax(to)}, [&](Side side) {
+    if (mesh_.link(side).tag() == 0) return;
     const auto v = mesh_.vertices(side);
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
@@ -73,7 +72,7 @@ double OlderWalls::first_met(const Vec3& from, const Vec3& to, double least_sine
     const Vec3 x = from + share * (to - from);
     const bool is_in = area.dot((b - a).cross(x - a)) >= 0 && area.dot((c - b).cross(x - b)) >= 0 &&
                        area.dot((a - c).cross(x - c)) >= 0;
-    if (is_in && share < first && is_older_wall(mesh_, complex_, side)) first = share;
+    if (is_in && share < first && !is_inside_master(complex_, side)) first = share;
   });
   return first;
 }

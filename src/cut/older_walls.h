@@ -7,8 +7,9 @@
 namespace incise {
 inline namespace v0 {
 
-/// Whether a side is a wall that was there before the sheet of `complex`: one inside a master is that sheet's own.
-[[nodiscard]] bool is_older_wall(const TetMesh& mesh, const ClosedComplex& complex, Side side);
+/// Whether a wall stands within a master, or between two: the sheet of `complex` makes it anew while the blade is
+/// there.
+[[nodiscard]] bool is_inside_master(const ClosedComplex& complex, Side wall);
 
 /// The walls that a stroke finds in the rest shape when it comes: what an older cut has opened is air.
 ///
@@ -18,7 +19,7 @@ inline namespace v0 {
 class OlderWalls {
  public:
   /// `complex`: of the sheet that asks; walls inside its masters are its own, all others are older, those of sheets of
-  /// the same stroke that are finished included. All must outlive the object.
+  /// the same stroke that are finished included. `surface` must be up to date. All must outlive the object.
   OlderWalls(const TetMesh& mesh, const SurfaceIndex& surface, const ClosedComplex& complex)
       : mesh_(mesh), surface_(surface), complex_(complex) {}
 

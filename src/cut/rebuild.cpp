@@ -27,9 +27,9 @@ class Rebuild::Run {
         faces_(state_, memory.faces),
         vertices_(state_, templates, material_),
         children_(state_, templates, material_, memory.children),
-        links_(state_, sheet, material_, faces_),
+        links_(state_, sheet, material_, faces_, memory.table),
         crumbs_(state_, material_, faces_, memory.crumbs),
-        separation_(state_, material_, faces_, memory.stars),
+        separation_(state_, material_, faces_, memory.table, memory.stars),
         pinched_(state_, material_, faces_, separation_, memory.pinched),
         opening_(state_, faces_, separation_, memory.opening) {}
 
@@ -85,7 +85,7 @@ class Rebuild::Run {
 RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,
                                const Settings& settings) {
   std::vector<std::uint32_t>& dirty = complex.dirty();
-  if (sizes_.new_tets <= kMostChildren * dirty.size()) transaction.reserve(sizes_);  // alike steps
+  if (sizes_.new_tets <= SplitTemplate::kMostChildren * dirty.size()) transaction.reserve(sizes_);  // alike steps
   const RebuildStatistics done = Run(templates_, memory_, transaction, complex, sheet, settings).run();
   sizes_ = transaction.sizes();
   for (const std::uint32_t index : dirty) complex[index].is_dirty = false;

@@ -6,6 +6,7 @@
 #include "cut/crumb_keeper.h"
 #include "cut/face_opening.h"
 #include "cut/incision_faces.h"
+#include "cut/incision_table.h"
 #include "cut/master_children.h"
 #include "cut/old_material.h"
 #include "cut/pinched_faces.h"
@@ -16,9 +17,6 @@
 
 namespace incise {
 inline namespace v0 {
-
-/// A master falls apart into so many children at most.
-inline constexpr std::size_t kMostChildren = 24;
 
 /// Makes the children of masters anew and separates them along the cut.
 ///
@@ -53,6 +51,7 @@ class Rebuild {
   struct Memory {
     OldMaterial::Memory material;
     IncisionFaces::Memory faces;
+    IncisionTable table;
     MasterChildren::Memory children;
     CrumbKeeper::Memory crumbs;
     VertexSeparation::Memory stars;

@@ -18,7 +18,7 @@ struct RebuildSettings {
   StrokeTags tags = {};  ///< of the incision
   bool keeps_crumbs = true;
   double spacing = 0.0;        ///< the length of a typical edge: crumbs are judged by half of it at least
-  double thin = 0.0;           ///< pieces beside an older wall that are thinner than this are crumbs
+  double thin = 0.0;           ///< pieces between walls that are thinner than this are crumbs
   bool keeps_pieces = false;   ///< joins no two pieces again, whatever the flags say: for bodies that move
   bool closes_pinched = true;  ///< leaves faces joined where two fans of tets would touch along an edge
 };

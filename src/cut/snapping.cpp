@@ -225,13 +225,15 @@ struct Candidate {
   OnVertex on;
   std::uint32_t master;  ///< one that has the vertex
   bool is_coincident;
+  bool is_sound = true;  ///< whichever of its neighbours take part; else it depends on those that do
   [[nodiscard]] double rank() const { return on.distance / on.spacing; }
   bool operator<(const Candidate& other) const {
     return rank() != other.rank() ? rank() < other.rank() : on.vertex < other.on.vertex;
   }
 };
 
-/// It reaches less far for vertices that cannot be moved onto the sheet, since the wall then bends to them.
+/// It reaches less far for vertices of skin that cannot be moved onto the sheet, since the wall then bends to them. Not
+/// so for those of older walls: where cuts cross, what lies between them and the sheet would be splinters.
 constexpr double kBentReach = 0.5;
 /// A wall whose normal has this cosine with the sheet's lies along it; older walls are crooked at their fronts.
 constexpr double kAlong = 0.9, kAlongOlder = 0.8;
@@ -342,7 +344,8 @@ class CloseVertices {
   }
   /// How far snapping reaches for a vertex, as a multiple of `snap`.
   [[nodiscard]] double reach_of(const OnVertex& on, std::span<const std::uint32_t> star) const {
-    if (on.distance <= kBentReach * snap_ * on.spacing) {
+    const bool is_on_wall = (mesh_.shape_of(on.vertex) & shape::kWall) != 0;
+    if (is_on_wall || on.distance <= kBentReach * snap_ * on.spacing) {
       return 1.0;
     }
     const Constraint constraint = constraint_of(mesh_, complex_, on.vertex, star);
@@ -383,25 +386,53 @@ std::vector<Candidate> find_candidates(const TetMesh& mesh, const CloseVertices&
   std::vector<Candidate> candidates;
   LinkGraph link;
   for (const Candidate& candidate : close.all()) {
+    candidates.push_back(candidate);
+    if (candidate.is_coincident) continue;
     const VertexId v = candidate.on.vertex;
     const auto is_close = [&](VertexId neighbour) {
       if (complex.is_on(neighbour)) return true;
       const Candidate* other = close.find(neighbour);
       return other != nullptr && is_on_same_part(candidate.on, other->on.target, other->on.normal);
     };
-    const auto is_sound = [&] {
-      const std::vector<std::uint32_t>& star = complex.star(mesh, candidate.master, v);
-      link.build(complex, v, star, is_close);
-      return (mesh.shape_of(v) & shape::kPinched) == 0 && link.has_two_parts_at_most() &&
-             crosses_one_part(complex, candidate.on, star);
-    };
-    if (candidate.is_coincident || is_sound()) {
-      candidates.push_back(candidate);
+    const std::vector<std::uint32_t>& star = complex.star(mesh, candidate.master, v);
+    link.build(complex, v, star, is_close);
+    candidates.back().is_sound = link.has_two_parts_at_most();
+    if ((mesh.shape_of(v) & shape::kPinched) != 0 || !crosses_one_part(complex, candidate.on, star)) {
+      candidates.pop_back();
     }
   }
   std::sort(candidates.begin(), candidates.end());
   return candidates;
 }
+
+/// The vertices whose neighbours on either side hang together only as long as some of them do not take part. Where a
+/// thin skin of tissue lies over the sheet two vertices beside each other would tear it, and one would not.
+class LoneVertices {
+ public:
+  LoneVertices(const TetMesh& mesh, ClosedComplex& complex) : mesh_(mesh), complex_(complex) {}
+
+  /// Whether a candidate may take part beside those that do already.
+  [[nodiscard]] bool allow(const Candidate& candidate) {
+    const auto stays_sound = [&](const Candidate& lone) { return is_sound(lone, candidate.on.vertex); };
+    return (candidate.is_sound || is_sound(candidate, {})) && std::all_of(lone_.begin(), lone_.end(), stays_sound);
+  }
+  void note_chosen(const Candidate& candidate) {
+    if (!candidate.is_sound) lone_.push_back(candidate);
+  }
+
+ private:
+  /// With the vertices that take part, and one more.
+  [[nodiscard]] bool is_sound(const Candidate& candidate, VertexId more) {
+    const std::vector<std::uint32_t>& star = complex_.star(mesh_, candidate.master, candidate.on.vertex);
+    link_.build(complex_, candidate.on.vertex, star, [&](VertexId v) { return v == more || complex_.is_on(v); });
+    return link_.has_two_parts_at_most();
+  }
+
+  const TetMesh& mesh_;
+  ClosedComplex& complex_;
+  LinkGraph link_;
+  std::vector<Candidate> lone_;  // chosen in this step
+};
 
 /// Whether a fourth ON vertex would leave a tet without a side. A tet between two sheets, all of whose vertices
 /// coincide with one or the other, keeps its own.
@@ -502,12 +533,15 @@ std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sh
   }
   std::sort(scratch.coincident.begin(), scratch.coincident.end());
   std::vector<OnVertex> chosen;
+  LoneVertices lone(mesh, complex);
   for (const Candidate& candidate : candidates) {
+    if (!candidate.is_coincident && !lone.allow(candidate)) continue;
     if (would_flatten_a_tet(mesh, candidate, complex, scratch.coincident)) continue;
     const VertexId v = candidate.on.vertex;
     if (!candidate.is_coincident && rules.hangs_together &&
         !rules.hangs_together(complex.star(mesh, candidate.master, v)))
       continue;
+    lone.note_chosen(candidate);
     complex.set_on(v);
     for (const std::uint32_t index : complex.star(mesh, candidate.master, v)) {
       Master& master = complex[index];

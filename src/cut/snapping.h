@@ -41,15 +41,16 @@ struct SnapScratch {
 ///
 /// A vertex with a flagged edge, around which the blade has passed (no face of its star is pierced by the border of
 /// the sheet), is chosen where its distance to the sheet is at most `snap` times its mean edge length (half of that
-/// where it cannot be moved onto the sheet), nearest first, unless (i) a tet would get four such vertices, (ii) its
-/// flagged or unflagged neighbours are not connected in its link (two sheets pass near it, or a bubble), or its star
-/// was not face-connected at load. Vertices within `kCoincident` are chosen regardless of (ii); at once where skin or a
-/// wall lies along the sheet, and where `snap` is 0. Vertices of an older wall that runs along the sheet within `snap`
-/// are the cut already: they are chosen at once and regardless of (i) and (ii), so that no tet comes between.
-/// In a wound whose two sides have come apart (`hangs_together`) none is chosen any more: what lies between a vertex
-/// and the sheet would go over from one piece to the other. Marks them in the complex. Source: snapping before
-/// splitting as in Labelle & Shewchuk 2007 and level-set discretisation in Mmg; not in the paper, whose edge merging
-/// (§2.5) repairs afterwards what this avoids. Cost: one star per vertex close to the sheet.
+/// where it is of skin alone and cannot be moved onto the sheet), nearest first, unless (i) a tet would get four such
+/// vertices, (ii) its flagged or unflagged neighbours are not connected in its link (two sheets pass near it, or a
+/// bubble), be it without all that are close or without those chosen already, or its star was not face-connected at
+/// load. Vertices within `kCoincident` are chosen regardless of (ii); at once where skin or a wall lies along the
+/// sheet, and where `snap` is 0. Vertices of an older wall that runs along the sheet within `snap` are the cut already:
+/// they are chosen at once and regardless of (i) and (ii), so that no tet comes between. In a wound whose two sides
+/// have come apart (`hangs_together`) none is chosen any more: what lies between a vertex and the sheet would go over
+/// from one piece to the other. Marks them in the complex. Source: snapping before splitting as in Labelle & Shewchuk
+/// 2007 and level-set discretisation in Mmg; not in the paper, whose edge merging (§2.5) repairs afterwards what this
+/// avoids. Cost: one star per vertex close to the sheet.
 std::vector<OnVertex> choose_on_vertices(const TetMesh& mesh, const OwnSheet& sheet, const SnapRules& rules,
                                          std::span<const std::uint32_t> masters, ClosedComplex& complex,
                                          SnapScratch& scratch);

@@ -6,19 +6,52 @@
 namespace incise {
 inline namespace v0 {
 
-double typical_spacing(const TetMesh& mesh) {
-  double sum = 0;
+namespace {
+
+/// Uncut tets tell how long edges were before cuts where they are at least this share of those looked at.
+constexpr double kUncutShare = 0.125;
+
+/// Some edges, and how long they are together.
+struct Edges {
+  double length = 0;
   std::size_t count = 0;
-  const std::uint32_t stride = std::max(1U, mesh.tet_slots() / 64U);
-  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); slot += stride) {
-    if (!mesh.is_live(TetId(slot))) continue;
-    const TetVertices& v = mesh.vertices(TetId(slot));
+
+  void add(const TetMesh& mesh, TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
     for (const auto& [a, b] : kEdgeCorners) {
-      sum += (mesh.rest(v[a]) - mesh.rest(v[b])).norm();
+      length += (mesh.rest(v[a]) - mesh.rest(v[b])).norm();
       ++count;
     }
   }
-  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+  [[nodiscard]] double mean() const { return count == 0 ? 0.0 : length / static_cast<double>(count); }
+};
+
+/// The edges of 64 to 128 tets, spread over the slots, of which `takes(tet)` is true.
+template <class Takes>
+Edges sample(const TetMesh& mesh, Takes&& takes) {
+  Edges edges;
+  const std::uint32_t stride = std::max(1U, mesh.tet_slots() / 64U);
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); slot += stride) {
+    if (mesh.is_live(TetId(slot)) && takes(TetId(slot))) edges.add(mesh, TetId(slot));
+  }
+  return edges;
+}
+
+}  // namespace
+
+double typical_spacing(const TetMesh& mesh) {
+  return sample(mesh, [](TetId) { return true; }).mean();
+}
+
+double uncut_spacing(const TetMesh& mesh) {
+  const Edges all = sample(mesh, [](TetId) { return true; });
+  const Edges uncut = sample(mesh, [&](TetId tet) {
+    const TetVertices& corners = mesh.vertices(tet);
+    return std::none_of(corners.begin(), corners.end(),
+                        [&](VertexId v) { return (mesh.shape_of(v) & shape::kWall) != 0; });
+  });
+  const bool is_told = static_cast<double>(uncut.count) >= kUncutShare * static_cast<double>(all.count);
+  return is_told ? uncut.mean() : all.mean();
 }
 
 }  // namespace v0

@@ -10,5 +10,9 @@ inline namespace v0 {
 /// 0 for an empty mesh. Cost: O(1).
 double typical_spacing(const TetMesh& mesh);
 
+/// The same before the body was cut, as far as the mesh still tells: of tets without a vertex on a wall, where an
+/// eighth of those that are looked at are such; else of all.
+double uncut_spacing(const TetMesh& mesh);
+
 }  // namespace v0
 }  // namespace incise

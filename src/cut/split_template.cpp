@@ -12,7 +12,7 @@ using Child = SplitTemplate::Child;
 
 constexpr std::uint8_t kFirstSplitCode = SplitTemplate::kFirstSplit;
 
-void bisect(const Child& tet, std::span<const std::uint8_t> order, std::vector<Child>& children) {
+void bisect(const Child& tet, std::span<const std::uint8_t> order, SplitTemplate& result) {
   for (const std::uint8_t edge : order) {
     const auto a = std::find(tet.begin(), tet.end(), kEdgeCorners[edge][0]);
     const auto b = std::find(tet.begin(), tet.end(), kEdgeCorners[edge][1]);
@@ -20,12 +20,12 @@ void bisect(const Child& tet, std::span<const std::uint8_t> order, std::vector<C
       Child keeps_a = tet, keeps_b = tet;
       keeps_a[static_cast<std::size_t>(b - tet.begin())] = static_cast<std::uint8_t>(kFirstSplitCode + edge);
       keeps_b[static_cast<std::size_t>(a - tet.begin())] = static_cast<std::uint8_t>(kFirstSplitCode + edge);
-      bisect(keeps_a, order, children);
-      bisect(keeps_b, order, children);
+      bisect(keeps_a, order, result);
+      bisect(keeps_b, order, result);
       return;
     }
   }
-  children.push_back(tet);
+  result.children.push_back(tet);
 }
 
 /// The codes that lie on a side of the parent, as bits.
@@ -63,6 +63,7 @@ void find_sides(SplitTemplate& result) {
       const auto here = static_cast<std::uint8_t>(c * 4 + s);
       if (const unsigned parent_side = side_of_parent(codes); parent_side < 4) {
         result.outer[parent_side].push_back(here);
+        result.on_side[parent_side].push_back(codes);
         continue;
       }
       const auto twin = std::find_if(open.begin(), open.end(), [&](const Open& o) { return o.codes == codes; });
@@ -77,15 +78,19 @@ void find_sides(SplitTemplate& result) {
 }
 
 void index_vertices(SplitTemplate& result) {
-  for (unsigned k = 0; k < result.children.size(); ++k) {
+  for (const Child& child : result.children) {
     unsigned bits = 0;
-    for (unsigned c = 0; c < 4; ++c) {
-      const std::uint8_t code = result.children[k][c];
-      result.around[code].push_back(static_cast<std::uint8_t>(k * 4 + c));
-      bits |= 1U << code;
-    }
+    for (const std::uint8_t code : child) bits |= 1U << code;
     result.codes.push_back(static_cast<std::uint16_t>(bits));
   }
+  std::uint8_t count = 0;
+  for (std::uint8_t code = 0; code < SplitTemplate::kCodes; ++code) {
+    result.first_around[code] = count;
+    for (unsigned k = 0; k < 4 * result.children.size(); ++k) {
+      if (result.children[k / 4U][k & 3U] == code) result.all_around[count++] = static_cast<std::uint8_t>(k);
+    }
+  }
+  result.first_around[SplitTemplate::kCodes] = count;
 }
 
 using Facet = std::array<std::uint8_t, 3>;
@@ -143,7 +148,7 @@ SplitTemplate make_cone(std::span<const std::uint8_t> order, unsigned pierced) {
 
 SplitTemplate make(std::span<const std::uint8_t> order) {
   SplitTemplate result;
-  bisect({0, 1, 2, 3}, order, result.children);
+  bisect({0, 1, 2, 3}, order, result);
   find_sides(result);
   index_vertices(result);
   return result;
@@ -163,16 +168,48 @@ std::uint32_t key_of(std::span<const std::uint8_t> order) {
 
 }  // namespace
 
+SplitTemplates::SplitTemplates() : slots_(2 * std::size_t{kBlock}) {
+  blocks_.push_back(std::make_unique<SplitTemplate[]>(kBlock));
+}
+
+SplitTemplates::Slot& SplitTemplates::slot_of(std::uint32_t key) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t i = ((key * std::uint64_t{0x9E3779B97F4A7C15}) >> 32U) & mask;
+  while (slots_[i].key != 0 && slots_[i].key != key) i = (i + 1) & mask;
+  return slots_[i];
+}
+
+template <class Make>
+const SplitTemplate& SplitTemplates::find_or_make(std::uint32_t key, Make&& make) {
+  Slot* slot = &slot_of(key);
+  if (slot->key == 0) {
+    if (2 * (count_ + 1) > slots_.size()) {
+      rehash();
+      slot = &slot_of(key);
+    }
+    if (count_ == kBlock * blocks_.size()) blocks_.push_back(std::make_unique<SplitTemplate[]>(kBlock));
+    SplitTemplate& made = blocks_.back()[count_ % kBlock];
+    made = make();
+    made.number = static_cast<std::uint16_t>(count_);
+    *slot = {key, count_++};
+  }
+  return blocks_[slot->number / kBlock][slot->number % kBlock];
+}
+
+void SplitTemplates::rehash() {
+  std::vector<Slot> old(2 * slots_.size());
+  std::swap(old, slots_);
+  for (const Slot& slot : old) {
+    if (slot.key != 0) slot_of(slot.key) = slot;
+  }
+}
+
 const SplitTemplate& SplitTemplates::find(std::span<const std::uint8_t> order) {
-  const std::uint32_t key = key_of(order);
-  const auto found = templates_.find(key);
-  return found != templates_.end() ? found->second : templates_.emplace(key, make(order)).first->second;
+  return find_or_make(key_of(order), [&] { return make(order); });
 }
 
 const SplitTemplate& SplitTemplates::find_cone(std::span<const std::uint8_t> order, unsigned pierced) {
-  const std::uint32_t key = (key_of(order) * 16 + pierced) | 0x80000000U;
-  const auto found = templates_.find(key);
-  return found != templates_.end() ? found->second : templates_.emplace(key, make_cone(order, pierced)).first->second;
+  return find_or_make((key_of(order) * 16 + pierced) | 0x80000000U, [&] { return make_cone(order, pierced); });
 }
 
 }  // namespace v0

@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "cut/short_list.h"
 #include "incise/mesh/tet_tables.h"
 
 namespace incise {
@@ -21,13 +22,23 @@ struct SplitTemplate {
   /// A side of a child: child · 4 + side.
   using ChildSide = std::uint8_t;
   static constexpr std::uint8_t kFirstSplit = 4, kFirstPoint = 10, kMiddle = 14, kCodes = 15;
+  static constexpr std::size_t kMostChildren = 24;
+  static constexpr std::size_t kMostFacets = 6;
+  static constexpr std::size_t kMostInner = 2 * kMostChildren - 2;  // at least four sides of children are outer ones
 
-  std::vector<Child> children;                  ///< as positive as the parent
-  std::vector<std::array<ChildSide, 2>> inner;  ///< pairs of sides that meet inside the parent
-  std::array<std::vector<ChildSide>, 4> outer;  ///< sides that lie on each side of the parent
-  std::vector<std::uint16_t> codes;             ///< of each child, as bits
-  std::array<std::vector<std::uint8_t>, kCodes>
-      around;  ///< the children that have a vertex, ascending: child · 4 + corner
+  ShortList<Child, kMostChildren> children;                        ///< as positive as the parent
+  ShortList<std::array<ChildSide, 2>, kMostInner> inner;           ///< pairs of sides that meet inside the parent
+  std::array<ShortList<ChildSide, kMostFacets>, 4> outer;          ///< sides that lie on each side of the parent
+  std::array<ShortList<std::uint16_t, kMostFacets>, 4> on_side;    ///< the codes of each of these, as bits
+  ShortList<std::uint16_t, kMostChildren> codes;                   ///< of each child, as bits
+  std::array<std::uint8_t, kCodes + std::size_t{1}> first_around;  ///< by code: into `all_around`
+  std::array<std::uint8_t, 4 * kMostChildren> all_around;          ///< child · 4 + corner
+  std::uint16_t number = 0;                                        ///< among the templates of a `SplitTemplates`
+
+  /// The children that have a vertex, ascending: child · 4 + corner.
+  [[nodiscard]] std::span<const std::uint8_t> around(std::uint8_t code) const {
+    return {all_around.data() + first_around[code], all_around.data() + first_around[code + std::size_t{1}]};
+  }
 };
 
 /// Makes and keeps the templates. Paper §2.2 ("a tetrahedron can be divided into two smaller tetrahedrons according to
@@ -35,6 +46,7 @@ struct SplitTemplate {
 /// neighbours would triangulate their common face differently.
 class SplitTemplates {
  public:
+  SplitTemplates();
   /// The template for bisecting `order` (edge numbers, first bisected first, no repeats). The reference lives as long
   /// as this object. Cost: O(1) after the first use of an order.
   const SplitTemplate& find(std::span<const std::uint8_t> order);
@@ -44,7 +56,19 @@ class SplitTemplates {
   const SplitTemplate& find_cone(std::span<const std::uint8_t> order, unsigned pierced);
 
  private:
-  std::unordered_map<std::uint32_t, SplitTemplate> templates_;  // node-based: references stay valid; never iterated
+  /// So many templates stand in one piece of memory: few strokes need more.
+  static constexpr std::uint32_t kBlock = 512;
+  struct Slot {
+    std::uint32_t key = 0, number = 0;  // of no template, where the key is 0
+  };
+  [[nodiscard]] Slot& slot_of(std::uint32_t key);
+  template <class Make>
+  const SplitTemplate& find_or_make(std::uint32_t key, Make&& make);
+  void rehash();
+
+  std::vector<std::unique_ptr<SplitTemplate[]>> blocks_;  // references stay valid
+  std::vector<Slot> slots_;
+  std::uint32_t count_ = 0;
 };
 
 }  // namespace v0

@@ -21,23 +21,28 @@ void StarParts::find_parts(const TetMesh& mesh, std::vector<StarTet>& star) {
   }
   sorted_.clear();
   parts_.clear();
+  std::size_t found = 0;
   for (std::uint32_t seed = 0; seed < star.size(); ++seed) {
     if (star[seed].part != 0) continue;
+    ++found;
     const auto part = static_cast<std::uint32_t>(parts_.size() + 1);
     parts_.push_back({static_cast<std::uint32_t>(sorted_.size()), 0, {}});
     queue_.assign(1, seed);
     star[seed].part = part;
     for (std::size_t i = 0; i < queue_.size(); ++i) {
-      const StarTet at = star[queue_[i]];
+      const StarTet& at = star[queue_[i]];
       sorted_.push_back(at);
+      if (found == star.size()) continue;  // nothing is left to be found
+      const TetLinks& links = mesh.links(at.tet);
       for (unsigned s = 0; s < 4; ++s) {
-        const Link link = mesh.links(at.tet)[s];
+        const Link link = links[s];
         if (s == at.corner || link.is_boundary()) continue;
         const std::size_t slot = link.side().tet().value;
         const std::uint32_t next = slot < index_of_tet_.capacity() ? index_of_tet_[slot] : 0;
         if (next != 0 && star[next - 1].part == 0) {
           star[next - 1].part = part;
           queue_.push_back(next - 1);
+          ++found;
         }
       }
     }

@@ -50,6 +50,8 @@ void StrokeCut::forget() {
   waiting_.clear();
   pinched_.clear();
   must_finish_ = false;
+  has_let_go_ = true;
+  looked_at_ = nullptr;
 }
 
 std::shared_ptr<const StrokeCut::Pause> StrokeCut::pause() const {
@@ -94,7 +96,8 @@ Status StrokeCut::advance(const CutContext& context, std::unique_ptr<Strip> next
     place_front(context.mesh, *met_, rules, context.statistics);
     count_cut(context.statistics);
   }
-  if (std::size_t{context.mesh.tet_slots()} + kMostChildren * complex_.dirty().size() >= TetMesh::kMaxTets) {
+  if (std::size_t{context.mesh.tet_slots()} + SplitTemplate::kMostChildren * complex_.dirty().size() >=
+      TetMesh::kMaxTets) {
     return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
   }
   if (complex_.dirty().empty()) return {};
@@ -109,19 +112,37 @@ Status StrokeCut::advance(const CutContext& context, std::unique_ptr<Strip> next
 /// Finds what the strip meets and crosses; edges crossed twice are bisected in between and looked at again. Not where
 /// earlier strips have been: how they pass the new edges would not be known.
 void StrokeCut::collide(const CutContext& context, const Strip& strip) {
-  first_look_ = step_ + 1;
+  if (looked_at_ != &strip) look(context, strip);
+  looked_at_ = nullptr;  // the mesh will change
+  first_look_ = step_;
   for (unsigned round = 0;; ++round) {
-    ++step_;
-    surface_.follow(context.mesh, context.journal);
-    met_ = &walk_.find(context.mesh, strip, surface_, complex_, step_);
-    complex_.set_scope(*met_);
-    crossed_ = &crossings_.find(context.mesh, strip, *met_, complex_, step_);
     const std::vector<BetweenCrossings> twice =
         find_doubly_crossed(context.mesh, strip, *crossed_, complex_, kGrazeShare);
     if (twice.empty() || round == kMaxBisectionRounds || !bisect(context, twice)) {
       return;
     }
+    look(context, strip);
   }
+}
+
+void StrokeCut::prepare(const TetMesh& mesh, const Journal& journal) {
+  const auto is_own = [&](Side side) { return is_own_wall(mesh, side); };
+  if (std::exchange(has_let_go_, false)) surface_.take_in(mesh, is_own);
+  surface_.follow(mesh, journal, is_own);
+}
+
+/// Whether a wall is one that the sheet makes anew while the blade is beside it. In a body that moves the blade asks
+/// for those as well.
+bool StrokeCut::is_own_wall(const TetMesh& mesh, Side side) const {
+  return !keeps_pieces_ && tags_.own(mesh.link(side)) && is_inside_master(complex_, side);
+}
+
+/// Finds what a strip meets and crosses as the mesh stands.
+void StrokeCut::look(const CutContext& context, const Strip& strip) {
+  ++step_;
+  prepare(context.mesh, context.journal);
+  met_ = &walk_.find(context.mesh, strip, surface_, complex_, step_);
+  crossed_ = &crossings_.find(context.mesh, strip, *met_, complex_, step_);
 }
 
 bool StrokeCut::bisect(const CutContext& context, const std::vector<BetweenCrossings>& between) {
@@ -141,6 +162,7 @@ bool StrokeCut::bisect(const CutContext& context, const std::vector<BetweenCross
     // What is no master has been left by the blade: it would stay whole beside divided ones.
     if (!plan || !std::all_of(plan.ring.begin(), plan.ring.end(), is_master)) continue;
     for (const TetId tet : plan.ring) complex_.release(complex_.find(tet));
+    has_let_go_ = true;
     apply(transaction, plan);
   }
   return context.journal.append_if_changed(transaction.commit());
@@ -279,7 +301,7 @@ bool StrokeCut::is_reached(std::uint32_t edge) const {
 /// out of the cut, and the front looked at again.
 void StrokeCut::place_front(const TetMesh& mesh, std::span<const std::uint32_t> masters, const FrontRules& given,
                             CutStatistics& statistics) {
-  const OlderWalls older(mesh, surface_, complex_);
+  const OlderWalls older = older_walls(mesh);
   FrontRules rules = given;
   rules.spacing = spacing_;
   rules.beside = beside();
@@ -355,6 +377,7 @@ std::vector<bool> StrokeCut::find_apart(const TetMesh& mesh, std::span<const Str
 
 std::vector<StrokeCut::RecrossedColumn> StrokeCut::recrossed_columns(const TetMesh& mesh, const Strip& strip) {
   ++step_;
+  looked_at_ = nullptr;
   met_ = &walk_.find(mesh, strip, surface_, complex_, step_);
   crossed_ = &crossings_.find(mesh, strip, *met_, complex_, step_);
   const std::vector<bool> is_apart = find_apart(mesh, *crossed_);
@@ -376,11 +399,11 @@ std::vector<StrokeCut::RecrossedColumn> StrokeCut::recrossed_columns(const TetMe
   return columns;
 }
 
-bool StrokeCut::crosses_own_cut(const TetMesh& mesh, const Strip& strip, double least_apart) {
+bool StrokeCut::crosses_own_cut(const CutContext& context, const Strip& strip, double least_apart) {
   if (sheet_.strips().empty()) return false;
-  ++step_;
-  met_ = &walk_.find(mesh, strip, surface_, complex_, step_);
-  crossed_ = &crossings_.find(mesh, strip, *met_, complex_, step_);
+  const TetMesh& mesh = context.mesh;
+  look(context, strip);
+  looked_at_ = &strip;
   return std::any_of(crossed_->begin(), crossed_->end(), [&](const StripCrossing& crossing) {
     const ClosedEdge& edge = complex_.edges()[crossing.edge];
     if (crossing.count % 2 == 0 || !edge.is_crossed || std::abs(crossing.t - edge.t) < least_apart) {
@@ -440,12 +463,14 @@ bool StrokeCut::touches(const TetMesh& mesh, const SweptSurface& surface) const 
   for (const SweptTriangle& triangle : surface.triangles) {
     const std::array<SosPoint, 3> p = {surface.points[triangle.points[0]], surface.points[triangle.points[1]],
                                        surface.points[triangle.points[2]]};
-    for_each_side_near(mesh, surface_, {p[0].position, p[1].position, p[2].position}, [&](Side side) {
+    const auto look_at = [&](Side side) {
       const auto v = mesh.vertices(side);
       does_touch = does_touch ||
                    triangles_cross(p, {SosPoint{mesh.rest(v[0]), v[0].value}, SosPoint{mesh.rest(v[1]), v[1].value},
                                        SosPoint{mesh.rest(v[2]), v[2].value}});
-    });
+    };
+    for_each_side_near(mesh, surface_, {p[0].position, p[1].position, p[2].position}, look_at);
+    surface_.for_each_waiting(mesh, look_at);
   }
   return does_touch || locate(mesh, surface_, surface.points.back()).is_valid();
 }
@@ -478,7 +503,7 @@ void StrokeCut::choose_on(const TetMesh& mesh, std::span<const std::uint32_t> ma
 /// Where the sheet ends a little beyond the rim of an older cut, that cut ends here: what is crossed between the two
 /// would make slivers of no use.
 void StrokeCut::let_go_of_older_cut(const TetMesh& mesh) {
-  const OlderWalls older(mesh, surface_, complex_);
+  const OlderWalls older = older_walls(mesh);
   if (!older.exist()) return;
   std::vector<std::uint32_t> waiting;  // edges; each that is let go brings its neighbours here
   const auto wait = [&](const Master& master) {
@@ -523,18 +548,19 @@ bool StrokeCut::is_at_border(std::uint32_t edge) const {
 }
 
 /// The blade goes no further: its border is where it is, but for what lies at an older cut.
-void StrokeCut::settle_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics) {
+void StrokeCut::settle_front(const CutContext& context, const FrontRules& rules) {
   if (sheet_.strips().empty()) return;
-  let_go_of_older_cut(mesh);
+  prepare(context.mesh, context.journal);
+  let_go_of_older_cut(context.mesh);
   if (complex_.dirty().empty()) return;
   ++step_;
   const std::vector<std::uint32_t> changed = complex_.dirty();
-  place_front(mesh, changed, rules, statistics);
+  place_front(context.mesh, changed, rules, context.statistics);
 }
 
 /// What the sheet does to these masters is known: their vertices land, and their front points move to their last place.
 void StrokeCut::settle(const CutContext& context, const FrontRules& rules) {
-  settle_front(context.mesh, rules, context.statistics);
+  settle_front(context, rules);
   if (!complex_.dirty().empty()) rebuild(context, true);
   land(context);
   place_front_points(context.mesh, sheet_, wake_, kFinalMargin, complex_);
@@ -554,6 +580,7 @@ void StrokeCut::bake_behind(const CutContext& context, const FrontRules& rules, 
   if (wake_.settling().empty()) return;
   settle(context, rules);
   if (wake_.let_go(complex_) == 0) return;
+  surface_.take_in(context.mesh, [&](Side side) { return is_own_wall(context.mesh, side); });
   walk_.forget_released(complex_);
   std::erase_if(snapping_.coincident, [&](VertexId v) { return !complex_.is_on(v); });
 }

@@ -35,10 +35,15 @@ class StrokeCut {
   /// In a body that moves no step may join two pieces, whatever the blade does: at rest a sheet is finished before it
   /// comes back to what it has cut through.
   void keep_pieces(bool keeps_pieces) { keeps_pieces_ = keeps_pieces; }
+  /// The body has begun to move: `surface` has all walls from now on. Cost: O(walls of the band).
+  void enter_material(const TetMesh& mesh) {
+    keeps_pieces_ = true;
+    surface_.take_in(mesh, [](Side) { return false; });
+  }
   /// Starts afresh: the next strip is the first of a sheet. Walls get `tag`. `spacing`: the length of a typical edge.
   void begin(std::uint32_t tag, double spacing);
   /// Finds the mesh's surface ahead of the first touch. Cost: O(tets) once, then O(edits since).
-  void prepare(const TetMesh& mesh, const Journal& journal) { surface_.follow(mesh, journal); }
+  void prepare(const TetMesh& mesh, const Journal& journal);
   /// Cuts along one more strip, and appends what changed to the journal: at most one step, and one for each round of
   /// bisections of edges that the strip passes through twice.
   /// Errors: kOutOfMemory where ids would run out; the last strip is then not cut.
@@ -60,7 +65,7 @@ class StrokeCut {
   [[nodiscard]] std::vector<RecrossedColumn> recrossed_columns(const TetMesh& mesh, const Strip& strip);
   /// Whether a strip crosses an edge that the sheet has crossed elsewhere and is done with: the two would cancel there.
   /// Crossings nearer than `least_apart` of the edge are one. Adopts what the strip meets.
-  [[nodiscard]] bool crosses_own_cut(const TetMesh& mesh, const Strip& strip, double least_apart);
+  [[nodiscard]] bool crosses_own_cut(const CutContext& context, const Strip& strip, double least_apart);
   /// Whether the strip that was last looked at by one of the two above passes through what the blade has left: the
   /// sheet must be finished first, and is an older cut to it.
   [[nodiscard]] bool comes_back(const TetMesh& mesh, const Strip& strip);
@@ -91,9 +96,13 @@ class StrokeCut {
   [[nodiscard]] ClosedComplex& complex() { return complex_; }
   [[nodiscard]] const ClosedComplex& complex() const { return complex_; }
   [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
+  /// The walls that are not of the sheet under way; the surface must be up to date (`prepare`).
+  [[nodiscard]] OlderWalls older_walls(const TetMesh& mesh) const { return {mesh, surface_, complex_}; }
 
  private:
   void collide(const CutContext& context, const Strip& strip);
+  void look(const CutContext& context, const Strip& strip);
+  [[nodiscard]] bool is_own_wall(const TetMesh& mesh, Side side) const;
   bool bisect(const CutContext& context, const std::vector<BetweenCrossings>& between);
   void flag(const TetMesh& mesh, const Strip& strip);
   /// Where a strip crosses an edge, once.
@@ -126,7 +135,7 @@ class StrokeCut {
   void settle(const CutContext& context, const FrontRules& rules);
   [[nodiscard]] bool may_let_go(std::uint32_t edge) const;
   [[nodiscard]] bool is_at_border(std::uint32_t edge) const;
-  void settle_front(const TetMesh& mesh, const FrontRules& rules, CutStatistics& statistics);
+  void settle_front(const CutContext& context, const FrontRules& rules);
   [[nodiscard]] SnapRules snap_rules(const TetMesh& mesh);
   void choose_on(const TetMesh& mesh, std::span<const std::uint32_t> masters, const SnapRules& rules,
                  CutStatistics& statistics);
@@ -151,11 +160,13 @@ class StrokeCut {
   SideSigns left_sides_;
   const std::vector<StripCrossing>* crossed_ = nullptr;  // of the current strip
   const std::vector<std::uint32_t>* met_ = nullptr;      // likewise
+  const Strip* looked_at_ = nullptr;                     // the strip that both are of, where the mesh is still the same
   std::vector<bool> reached_;     // by master: through faces, from where the current strip itself is
   std::vector<Crossed> waiting_;  // crossings of what reaches on that nothing has reached yet
   std::vector<Side> pinched_;     // walls beside edges to be parted once the sheet is finished
   double spacing_ = 0.0;
   bool must_finish_ = false, keeps_pieces_ = false;
+  bool has_let_go_ = false;  // masters, whose walls the surface index is to take in
   StrokeTags tags_;
   std::uint32_t step_ = 0;
   std::uint32_t first_look_ = 0;  // the first of the steps that look at the current strip

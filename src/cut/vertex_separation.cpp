@@ -20,8 +20,14 @@ unsigned half_of(std::span<const StarTet> part) {
 
 }  // namespace
 
-VertexSeparation::VertexSeparation(RebuildState& state, OldMaterial& material, IncisionFaces& faces, Memory& memory)
-    : state_(state), material_(material), faces_(faces), memory_(memory), star_(state, material, memory.star) {
+VertexSeparation::VertexSeparation(RebuildState& state, OldMaterial& material, IncisionFaces& faces,
+                                   IncisionTable& table, Memory& memory)
+    : state_(state),
+      material_(material),
+      faces_(faces),
+      table_(table),
+      memory_(memory),
+      star_(state, material, memory.star) {
   memory_.renamed.clear();
   memory_.surface.clear();
 }
@@ -30,6 +36,7 @@ void VertexSeparation::separate() {
   std::vector<Side>& surface = memory_.surface;
   surface.clear();
   ++memory_.round;
+  ++rounds_;
   for (const std::uint32_t index : state_.dirty) divide_around(index);
   divide_apart();
   std::sort(surface.begin(), surface.end());
@@ -44,7 +51,7 @@ void VertexSeparation::divide_around(std::uint32_t index) {
   for (unsigned c = 0; c < 4; ++c) {
     const VertexId corner = complex[index].vertices[c];
     if (complex[index].is_kept && complex.is_half_baked(corner)) continue;  // it has the copy that it had
-    const bool is_apart = keeps_pieces && complex.has_copies(corner);
+    const bool is_apart = keeps_pieces && (complex.has_copies(corner) || has_gone_over(complex[index], c));
     if (((unsigned{complex[index].on} >> c) & 1U) != 0 || is_apart) divide_corner(index, corner);
   }
   for (unsigned e = 0; e < 6; ++e) {
@@ -55,6 +62,19 @@ void VertexSeparation::divide_around(std::uint32_t index) {
     if (point != Master::kNone) divide_front_point(complex.point(point));
   }
   if (complex[index].middle.is_valid()) divide_middle(index);
+}
+
+/// Whether a child has a corner that was of another piece than its material: that piece is in no child any more, and
+/// its vertex must not go over by its name alone.
+bool VertexSeparation::has_gone_over(const Master& master, unsigned corner) const {
+  const MaterialPieces& pieces = material_.pieces();
+  if (!pieces.has_several()) return false;
+  const auto tets = state_.complex.children(master);
+  const auto around = master.split->around(static_cast<std::uint8_t>(corner));
+  return std::any_of(around.begin(), around.end(), [&](unsigned at) {
+    const TetId tet = tets[at / 4U];
+    return pieces.are_apart(tet, state_.mesh.vertices(tet)[at & 3U]);
+  });
 }
 
 /// The vertices of faces that are left open since two pieces meet there.
@@ -100,7 +120,7 @@ void VertexSeparation::divide_corner(std::uint32_t master, VertexId vertex) {
 void VertexSeparation::divide_split_point(std::uint32_t at) {
   ClosedComplex& complex = state_.complex;
   const VertexId vertex = complex.edges()[at].split;
-  if (!is_first(vertex)) return;
+  if (!is_first(vertex) || is_as_before(at)) return;
   star_.gather_split_point(at);
   complex.edges()[at].split = divide(
       vertex,
@@ -113,7 +133,7 @@ void VertexSeparation::divide_split_point(std::uint32_t at) {
 }
 
 void VertexSeparation::divide_front_point(FrontPoint& point) {
-  if (!is_first(point.vertex)) return;
+  if (!is_first(point.vertex) || is_as_before(point)) return;
   star_.gather_front_point(point);
   point.vertex = divide(
       point.vertex, [&](std::span<const StarTet> part) { return home_of_corner(point.vertex, part); }, false, true);
@@ -121,10 +141,48 @@ void VertexSeparation::divide_front_point(FrontPoint& point) {
 
 void VertexSeparation::divide_middle(std::uint32_t index) {
   const VertexId middle = state_.complex[index].middle;
-  if (!is_first(middle)) return;
+  if (!is_first(middle) || (may_skip() && faces_.is_as_before(index))) return;
+  if (takes_whole_middle(state_.complex[index])) return;
   star_.gather_middle(index);
   state_.complex[index].middle = divide(
       middle, [&](std::span<const StarTet> part) { return home_of_corner(middle, part); }, false, true);
+}
+
+/// Whether stars need not be divided that are as they were: their parts have their copies. Not where faces may have
+/// been closed since they were found, nor where pieces are told by more than links.
+bool VertexSeparation::may_skip() const {
+  return rounds_ == 1 && state_.done.crumbs_kept == 0 && !state_.settings.keeps_pieces;
+}
+
+/// Whether the star of the point that splits an edge is as it was before this rebuild.
+bool VertexSeparation::is_as_before(std::uint32_t edge) const {
+  bool is_same = may_skip();
+  if (is_same) state_.complex.for_each_around(edge, [&](std::uint32_t m) { is_same &= faces_.is_as_before(m); });
+  return is_same;
+}
+
+bool VertexSeparation::is_as_before(const FrontPoint& point) const {
+  bool is_same = may_skip();
+  for (const std::uint32_t m : point.masters) is_same = is_same && (m == Master::kNone || faces_.is_as_before(m));
+  return is_same;
+}
+
+/// The point inside a cone that was made anew has one part where the table says so, which takes it as it is: there is
+/// nothing to divide. Not where faces may have been closed since they were found.
+bool VertexSeparation::takes_whole_middle(const Master& master) {
+  if (!may_skip() || !master.is_dirty || master.is_kept || ends_without_point(master)) return false;
+  const PassedFaces& faces = table_.find(master, state_.complex);
+  if (!faces.is_middle_whole) return false;
+  ClosedComplex& complex = state_.complex;
+  if (complex.has_copies(master.middle)) {
+    for (const VertexId copy : complex.copies_of(master.middle)) state_.transaction.remove_vertex(copy);
+    complex.drop_copies(master.middle);
+  }
+  const unsigned before = state_.mesh.shape_of(master.middle);
+  const unsigned bits =
+      (before & (shape::kPinched | shape::kFront)) | (faces.passed != 0 ? unsigned{shape::kWall} | shape::kFront : 0U);
+  if (bits != before) state_.transaction.set_shape(master.middle, static_cast<std::uint8_t>(bits));
+  return true;
 }
 
 /// Divides the star that was gathered. Returns what the closed vertex is called now.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cut/incision_faces.h"
+#include "cut/incision_table.h"
 #include "cut/master_star.h"
 #include "cut/old_material.h"
 #include "cut/star_parts.h"
@@ -34,7 +35,8 @@ class VertexSeparation {
     std::uint32_t round = 0;
   };
 
-  VertexSeparation(RebuildState& state, OldMaterial& material, IncisionFaces& faces, Memory& memory);
+  VertexSeparation(RebuildState& state, OldMaterial& material, IncisionFaces& faces, IncisionTable& table,
+                   Memory& memory);
 
   /// Divides the stars, each once. Cost: O(dirty masters and the stars of their vertices).
   void separate();
@@ -47,11 +49,16 @@ class VertexSeparation {
 
  private:
   void divide_around(std::uint32_t index);
+  [[nodiscard]] bool has_gone_over(const Master& master, unsigned corner) const;
   void divide_apart();
   void divide_corner(std::uint32_t master, VertexId vertex);
   void divide_split_point(std::uint32_t at);
   void divide_front_point(FrontPoint& point);
   void divide_middle(std::uint32_t index);
+  [[nodiscard]] bool may_skip() const;
+  [[nodiscard]] bool is_as_before(std::uint32_t edge) const;
+  [[nodiscard]] bool is_as_before(const FrontPoint& point) const;
+  [[nodiscard]] bool takes_whole_middle(const Master& master);
   VertexId divide(VertexId vertex, const StarParts::Home& home, bool makes_twins, bool may_be_named);
   [[nodiscard]] bool is_first(VertexId vertex);
   void note_visited(VertexId vertex);
@@ -65,7 +72,9 @@ class VertexSeparation {
   RebuildState& state_;
   OldMaterial& material_;
   IncisionFaces& faces_;
+  IncisionTable& table_;
   Memory& memory_;
+  unsigned rounds_ = 0;           // of this rebuild
   MasterStar star_;               // of the vertex that is being divided
   std::vector<VertexId> across_;  // of the corner that is being divided, see `find_across`
 };

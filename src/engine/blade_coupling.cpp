@@ -4,6 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "incise/mesh/bounds.h"
 
 namespace incise {
 inline namespace v0 {
@@ -11,11 +14,20 @@ namespace detail {
 
 namespace {
 
-constexpr double kGiveAt = 0.1;   // of the spacing: by how much the spring is pressed where the tissue yields
-constexpr double kAhead = 0.05;   // of the spacing: how far ahead of the front the edge has hold of the tissue
+constexpr double kGiveAt = 0.1;       // of the spacing: by how much a spring is pressed where the tissue yields
+constexpr double kNarrowestZone = 1;  // of the spacing: radius in which tissue bears the edge: some vertices
+constexpr double kWidestZone = 0.25;  // of the body's least extent: likewise
+constexpr double kMostEdges = 3;      // of the spacing: likewise; more vertices would only cost more
+constexpr double kYieldsAt = 0.95;    // of what it bears: vertices on the rim of a zone need not all be at theirs
+constexpr double kAhead = 0.05;       // of the spacing: how far ahead of the front the edge has hold of the tissue
 constexpr double kBehind = 0.25;  // of the spacing: how far behind the front an edge is told to be that does not yield
+constexpr double kSlides = 0.5;   // of the spacing: so far along the edge a point keeps its material
 constexpr double kSpan = 0.5;     // of the spacing: between points of the edge
 constexpr double kLetGo = 0.5;    // of the spacing: withdrawn so far, the blade has let go of the tissue
+constexpr double kMostBulge = 1.25;  // what tissue along the edge may be pressed together by: more is a ragged front
+constexpr std::size_t kTangentSpan = 3;  // points to both sides by which the direction of the edge is told
+constexpr unsigned kSteps = 16;          // in which the way ahead of a front is looked at
+constexpr unsigned kHalvings = 10;       // of a way, to find a place on it
 constexpr std::size_t kMostSamples = 64;
 constexpr std::size_t kMostTets = 200;  // that are looked at for material that has come into another tet
 
@@ -29,13 +41,20 @@ bool any_resists(const Materials& materials) {
                      [](const Materials::Entry& entry) { return resistance(entry.material) > 0; });
 }
 
+/// Of a way, what is across an axis of any length.
+Vec3 across(const Vec3& way, const Vec3& axis) {
+  const double length2 = axis.squaredNorm();
+  return length2 > 0 ? Vec3(way - way.dot(axis) / length2 * axis) : way;
+}
+
 Vec3 on_edge(const std::vector<Vec3>& edge, std::size_t segment, double share) {
   return edge[segment] + share * (edge[segment + 1] - edge[segment]);
 }
 
 }  // namespace
 
-void BladeCoupling::begin(const BladePose& pose, const Materials& materials, double length_unit, double spacing) {
+void BladeCoupling::begin(const BladePose& pose, const TetMesh& mesh, const Materials& materials, double length_unit,
+                          double spacing) {
   materials_ = &materials;
   unit_ = length_unit;
   spacing_ = spacing;
@@ -43,14 +62,19 @@ void BladeCoupling::begin(const BladePose& pose, const Materials& materials, dou
   direction_ = pose.direction.norm() > 0 ? Vec3(pose.direction.normalized()) : Vec3(Vec3::Zero());
   state_ = {};
   samples_.clear();
-  if (resists_) sample(pose, spacing);
+  if (!resists_) return;
+  const Box box = rest_bounds(mesh);
+  const double widest = std::min(kWidestZone * (box.hi - box.lo).minCoeff(), kMostEdges * spacing);
+  widest_zone_ = std::max(widest, kNarrowestZone * spacing);
+  sample(pose);
+  zone_ = {};
 }
 
 /// Points along the edge, its own among them: as many for all poses of the stroke.
-void BladeCoupling::sample(const BladePose& pose, double spacing) {
+void BladeCoupling::sample(const BladePose& pose) {
   const std::size_t segments = pose.edge.size() - 1, most = std::max<std::size_t>(1, kMostSamples / segments);
   for (std::size_t i = 0; i < segments; ++i) {
-    const double parts = (pose.edge[i + 1] - pose.edge[i]).norm() / (kSpan * spacing);
+    const double parts = (pose.edge[i + 1] - pose.edge[i]).norm() / (kSpan * spacing_);
     const auto count = std::min(most, static_cast<std::size_t>(std::max(1.0, parts)));
     for (std::size_t k = 0; k < count; ++k) {
       Sample& s = samples_.emplace_back();
@@ -73,6 +97,7 @@ void BladeCoupling::move_to(const BladePose& pose) {
     s.place = on_edge(pose.edge, s.segment, s.share);
     motion += s.place - s.before;
   }
+  const Vec3 before = direction_;
   if (pose.direction.norm() > 0) {
     direction_ = pose.direction.normalized();
   } else {  // along the edge nothing is cut
@@ -81,16 +106,60 @@ void BladeCoupling::move_to(const BladePose& pose) {
     if (chord2 > 0) motion -= motion.dot(chord) / chord2 * chord;
     if (motion.norm() > 1e-9 * spacing_) direction_ = motion.normalized();
   }
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const double back = i > 0 ? (samples_[i].place - samples_[i - 1].place).norm() : 0;
-    const double on = i + 1 < samples_.size() ? (samples_[i + 1].place - samples_[i].place).norm() : 0;
-    samples_[i].length = 0.5 * (back + on) * unit_;
+  turn_springs(before);
+}
+
+/// Springs press along the direction of cutting: of what they were pressed across it nothing is left.
+void BladeCoupling::turn_springs(const Vec3& before) {
+  const double kept = std::max(0.0, before.dot(direction_));
+  if (before.isZero(0) || before == direction_) return;
+  for (Sample& s : samples_) s.lag *= kept;
+  for (ProcessZone::Bearer& bearer : zone_.bearers()) bearer.lag *= kept;
+}
+
+/// The direction of the edge at rest, around a point that has hold of the tissue. Over some points: the front is seldom
+/// straight, and the edge is not longer for that.
+Vec3 BladeCoupling::tangent_at(std::size_t sample) const {
+  std::size_t first = sample, last = sample;
+  while (first > 0 && sample - first < kTangentSpan && samples_[first - 1].grip) --first;
+  while (last + 1 < samples_.size() && last - sample < kTangentSpan && samples_[last + 1].grip) ++last;
+  const Vec3 way = across(samples_[last].rest - samples_[first].rest, samples_[sample].rest - samples_[sample].front);
+  return way.norm() > 0 ? Vec3(way.normalized()) : Vec3(Vec3::Zero());
+}
+
+/// The edge is as long as the material along it is at rest: tissue that is pressed bulges, and no more of it is cut for
+/// that. Where the edge ends in the tissue, or goes through its skin, only what is within counts.
+void BladeCoupling::measure(const TetMesh& mesh) {
+  for (Sample& s : samples_) s.length = 0;
+  for (std::size_t i = 1; i < samples_.size(); ++i) {
+    Sample &a = samples_[i - 1], &b = samples_[i];
+    const Vec3 way = b.place - a.place;
+    if (a.grip && b.grip) {
+      const double length = 0.5 * std::clamp(tangent_at(i).dot(b.rest - a.rest), 0.0, kMostBulge * way.norm()) * unit_;
+      a.length += length;
+      b.length += length;
+    } else if (a.grip) {
+      a.length += length_within(i - 1, way, mesh) * unit_;
+    } else if (b.grip) {
+      b.length += length_within(i, -way, mesh) * unit_;
+    }
   }
 }
 
-/// N/m: pressed by `kGiveAt` of the spacing it bears what the tissue bears.
-double BladeCoupling::stiffness(const Sample& sample) const {
-  return sample.limit() / (kGiveAt * spacing_ * unit_);
+/// How far a way from where the point has hold of the tissue lies within, at rest.
+double BladeCoupling::length_within(std::size_t index, const Vec3& way, const TetMesh& mesh) const {
+  const Sample& sample = samples_[index];
+  const Vec3 from = sample.grip->place(mesh);
+  Vec3 last = sample.rest;
+  double in = 0, out = 1;
+  for (unsigned i = 0; i < kHalvings; ++i) {
+    const double half = 0.5 * (in + out);
+    const auto found = walk_to(mesh, BodyShape::kCurrent, from + half * way, sample.grip->tet);
+    if (found) last = found->place(mesh, BodyShape::kRest);
+    (found ? in : out) = half;
+  }
+  const Vec3 tangent = tangent_at(index);
+  return tangent.isZero(0) ? (last - sample.rest).norm() : std::abs(tangent.dot(last - sample.rest));
 }
 
 TetId BladeCoupling::any_grip() const {
@@ -104,6 +173,28 @@ void BladeCoupling::grip(Sample& sample, const TissuePoint& point, const TetMesh
   const Material& material = materials_->of(mesh.region(point.tet));
   sample.toughness = material.toughness;
   sample.friction = material.cut_friction;
+  sample.rupture = material.rupture;
+  sample.stiffens = material.stiffening > 0;
+  const double narrowest = kNarrowestZone * spacing_;
+  sample.radius = std::clamp(material.toughness / material.young / unit_, narrowest, widest_zone_);
+}
+
+/// The edge slides along itself without cutting: a point that does so has hold of other material.
+void BladeCoupling::slide(const TetMesh& mesh) {
+  for (Sample& s : samples_) {
+    if (!s.grip) continue;
+    s.slid += across(s.place - s.before, direction_);
+    if (s.slid.norm() <= kSlides * spacing_) continue;
+    const Vec3 at = s.grip->place(mesh) + std::exchange(s.slid, Vec3::Zero());
+    const std::optional<TissuePoint> found = walk_to(mesh, BodyShape::kCurrent, at, s.grip->tet);
+    if (found) {
+      const Vec3 before = s.rest;
+      grip(s, *found, mesh);
+      s.front += s.rest - before;
+    } else {
+      s.grip.reset();
+    }
+  }
 }
 
 /// Points of the edge that were outside and are in tissue now.
@@ -129,7 +220,7 @@ void BladeCoupling::enter(const TetMesh& mesh) {
 void BladeCoupling::enter(Sample& sample, const TissuePoint& inside, const TetMesh& mesh) {
   double out = 0, in = 1;
   TissuePoint entry = inside;
-  for (unsigned i = 0; i < 10; ++i) {
+  for (unsigned i = 0; i < kHalvings; ++i) {
     const double half = 0.5 * (out + in);
     const auto found = walk_to(mesh, BodyShape::kCurrent, sample.cut + half * (sample.place - sample.cut), entry.tet);
     if (found) entry = *found;
@@ -138,39 +229,110 @@ void BladeCoupling::enter(Sample& sample, const TissuePoint& inside, const TetMe
   sample.cut += out * (sample.place - sample.cut);
   sample.ahead = direction_.dot(entry.place(mesh) - sample.cut);
   grip(sample, entry, mesh);
+  sample.front = sample.rest;
+  sample.is_open = sample.runs = false;
+  sample.lag = sample.paid = 0;
+  sample.slid = Vec3::Zero();
+}
+
+/// The vertices that bear the edge now, and how much each of them bears.
+void BladeCoupling::find_zone(const TetMesh& mesh) {
+  std::vector<FrontPoint> points;
+  sample_of_.clear();
+  for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+    const Sample& s = samples_[i];
+    if (!s.grip || s.limit() <= 0) continue;
+    points.push_back({*s.grip, s.front, s.radius});
+    sample_of_.push_back(i);
+  }
+  zone_.find(mesh, points);
+  std::vector<double> lags(zone_.bearers().size());
+  for_each_share([&](Sample& s, ProcessZone::Bearer& bearer, double weight) {
+    bearer.limit += weight * s.limit();
+    lags[static_cast<std::size_t>(&bearer - zone_.bearers().data())] += weight * s.limit() * s.lag;
+  });
+  for (std::size_t i = 0; i < lags.size(); ++i) {
+    ProcessZone::Bearer& bearer = zone_.bearers()[i];
+    if (zone_.is_fresh(i) && bearer.limit > 0) bearer.lag = lags[i] / bearer.limit;
+  }
+}
+
+/// Calls `visit(sample, bearer, weight)`.
+template <class Visit>
+void BladeCoupling::for_each_share(const Visit& visit) {
+  for (const ProcessZone::Share& share : zone_.shares()) {
+    visit(samples_[sample_of_[share.point]], zone_.bearers()[share.bearer], share.weight);
+  }
 }
 
 void BladeCoupling::press(const BladePose& pose, const TetMesh& mesh, std::vector<Pull>& pulls) {
   move_to(pose);
+  slide(mesh);
   enter(mesh);
-  for (const Sample& s : samples_) {
-    if (!s.grip || s.limit() <= 0) continue;
+  measure(mesh);
+  find_zone(mesh);
+  std::vector<ProcessZone::Bearer>& bearers = zone_.bearers();
+  std::vector<double> ways(bearers.size()), bears(bearers.size());
+  for_each_share([&](Sample& s, ProcessZone::Bearer& bearer, double weight) {
+    const auto i = static_cast<std::size_t>(&bearer - bearers.data());
+    ways[i] += weight * s.limit() * direction_.dot(s.place - s.before);
+    bears[i] += weight * s.limit() * s.bears();
+  });
+  for (std::size_t i = 0; i < bearers.size(); ++i) {
+    ProcessZone::Bearer& bearer = bearers[i];
+    if (!(bearer.limit > 0)) continue;
+    bearer.target = mesh.current(bearer.vertex) + (bearer.lag + ways[i] / bearer.limit) * direction_;
     Pull pull;
-    pull.vertices = mesh.vertices(s.grip->tet);
-    pull.weights = s.grip->weights;
+    pull.vertices[0] = bearer.vertex;
     pull.axis = direction_;
-    pull.target = s.place + s.ahead * direction_;
-    pull.stiffness = stiffness(s);
+    pull.target = bearer.target;
+    pull.stiffness = bearer.limit / (kGiveAt * spacing_ * unit_);
     pull.pushes_only = true;
-    pull.limit = s.limit();
+    pull.limit = bears[i];
+    bearer.limit = bears[i];
+    bearer.stiffness = pull.stiffness;
     pulls.push_back(pull);
   }
+}
+
+/// By its share of the limit: a front at rest bears more than one that runs.
+double BladeCoupling::Sample::bears() const {
+  return runs ? 1 - rupture : 1 + (is_open ? rupture : 2 * rupture);
+}
+
+/// Springs that are pressed too far slip, which is work that pays for the front.
+void BladeCoupling::settle_springs(const TetMesh& mesh) {
+  for (ProcessZone::Bearer& bearer : zone_.bearers()) {
+    if (!(bearer.limit > 0)) continue;
+    const double lag = direction_.dot(bearer.target - mesh.current(bearer.vertex));
+    bearer.lag = std::min(lag, bearer.limit / bearer.stiffness / unit_);
+    bearer.slipped = lag - bearer.lag;
+    bearer.force = std::max(bearer.lag, 0.0) * unit_ * bearer.stiffness;
+  }
+  for (Sample& s : samples_) s.lag = 0;
+  for_each_share([&](Sample& s, ProcessZone::Bearer& bearer, double weight) {
+    s.lag += weight * bearer.lag;
+    const double share = weight * s.limit() * s.bears() / bearer.limit;
+    s.force += share * bearer.force;
+    s.paid += share * bearer.force * bearer.slipped / s.limit();
+  });
 }
 
 /// What does not yield stays behind the front: the engine cuts on where the edge is ahead of it alone.
 BladePose BladeCoupling::yield(const TetMesh& mesh) {
   state_ = {};
-  const double most = kGiveAt * spacing_;
   for (Sample& s : samples_) {
     s.force_before = std::exchange(s.force, 0.0);
     s.has_slipped = !s.grip;
-    s.retreat = 0;
+    s.retreat = s.advance = 0;
+    if (s.grip) s.lead = direction_.dot(s.place - s.grip->place(mesh)) + s.ahead;
+  }
+  settle_springs(mesh);
+  pool();
+  for (Sample& s : samples_) {
     if (!s.grip) continue;
-    const double lag = direction_.dot(s.place - s.grip->place(mesh)) + s.ahead;
-    const double pressed = std::min(most, std::max(lag, 0.0));
-    s.has_slipped = lag > most;
-    s.retreat = s.has_slipped ? most : std::max(lag, 0.0) + s.ahead + kBehind * spacing_;
-    s.force = stiffness(s) * pressed * unit_;
+    s.retreat = std::max(s.lead, 0.0) + s.ahead + kBehind * spacing_;
+    go_on(s, mesh);
     account(s);
   }
   retreat_outside();
@@ -179,9 +341,76 @@ BladePose BladeCoupling::yield(const TetMesh& mesh) {
   for (Sample& s : samples_) {
     s.cut = s.place - s.retreat * direction_;
     pose.edge.push_back(s.cut);
-    if (s.grip && direction_.dot(s.place - s.grip->place(mesh)) + s.ahead < -kLetGo * spacing_) s.grip.reset();
+    if (s.grip && s.lag <= 0 && s.lead < -kLetGo * spacing_) s.grip.reset();
   }
   return pose;
+}
+
+/// Points of the front that have come to the blade, or are ahead of it, cannot use what their springs have paid: it is
+/// for the others, whose zones overlap with theirs.
+void BladeCoupling::pool() {
+  double pool = 0, limits = 0;
+  for (Sample& s : samples_) {
+    if (!s.grip || s.limit() <= 0) continue;
+    if (s.lead > 0) {
+      limits += s.limit();
+    } else if (s.is_open && s.paid > 0) {
+      pool += std::exchange(s.paid, 0.0) * s.limit();
+    }
+  }
+  for (Sample& s : samples_) {
+    if (s.grip && s.lead > 0 && limits > 0) s.paid += pool / limits;
+  }
+}
+
+/// The front goes on where the tissue bears no more, as far as that is paid for: by its length of material at rest. In
+/// tissue that is pressed together that is less than its way through space.
+void BladeCoupling::go_on(Sample& s, const TetMesh& mesh) {
+  if (s.force >= kYieldsAt * s.bears() * s.limit()) s.runs = s.is_open = true;
+  if (!s.stiffens && s.runs) {  // what does not stiffen gives way to the edge at once
+    s.paid = std::max(s.paid, s.lead - kGiveAt * spacing_);
+  }
+  if (!s.runs || s.paid <= 0 || s.lead <= 0) {
+    s.runs = false;
+    return;
+  }
+  const double way = paid_way(s, mesh);
+  s.has_slipped = way > 0;
+  if (s.has_slipped) s.retreat = s.lead - way;
+  if (s.advance <= direction_.dot(s.place - s.before)) s.runs = false;
+}
+
+/// How far the front may go through space: the material that the blade has come to is looked at in steps. Where it
+/// begins in this frame counts, not where the front was: material flows along the edge.
+double BladeCoupling::paid_way(Sample& sample, const TetMesh& mesh) const {
+  const auto at = [&](double way) {
+    return walk_to(mesh, BodyShape::kCurrent, sample.place - (sample.lead - way) * direction_, sample.grip->tet);
+  };
+  std::optional<Vec3> first;
+  Vec3 last = sample.front;
+  double way = 0, beyond = 0;
+  const auto try_at = [&](double next) {
+    const std::optional<TissuePoint> found = at(next);
+    if (!found) return !first.has_value();
+    const Vec3 rest = found->place(mesh, BodyShape::kRest);
+    if (!first) first = rest;
+    if ((rest - *first).norm() > sample.paid) return false;
+    way = next;
+    last = rest;
+    return true;
+  };
+  for (unsigned i = 0; i <= kSteps; ++i) {
+    beyond = sample.lead * i / kSteps;
+    if (!try_at(beyond)) break;
+  }
+  for (unsigned i = 0; i < 5 && way < beyond; ++i) {
+    const double half = 0.5 * (way + beyond);
+    if (!try_at(half)) beyond = half;
+  }
+  if (!first) return sample.lead;  // no tissue there
+  sample.advance = (last - *first).norm();
+  sample.front = last;
+  return way;
 }
 
 /// Points outside the tissue go with the nearest one inside: the edge between them would cut where nothing bears it.
@@ -203,14 +432,22 @@ void BladeCoupling::account(Sample& sample) {
   if (sample.has_slipped) state_.friction_work += sample.friction * sample.length * std::max(way, 0.0);
 }
 
+/// What was opened is paid for, wherever the edge was told to be: tets open as wholes. It is taken from the points that
+/// went on, as far as they went, or where none did, from all.
 void BladeCoupling::pay_for(double area) {
-  double toughness = 0, length = 0;
+  double planned = 0, length = 0;
   for (const Sample& s : samples_) {
-    if (!s.has_slipped || s.length <= 0 || s.limit() <= 0) continue;
-    toughness += s.toughness * s.length;
+    if (!s.grip || s.limit() <= 0) continue;
+    planned += s.advance * s.length;
     length += s.length;
   }
-  if (length > 0) state_.fracture_work += toughness / length * area * unit_ * unit_;
+  if (!(length > 0)) return;
+  for (Sample& s : samples_) {
+    if (!s.grip || s.limit() <= 0) continue;
+    const double opened = planned > 0 ? s.advance * area * unit_ / planned : area * unit_ / length;
+    s.paid -= opened;
+    state_.fracture_work += s.toughness * s.length * opened * unit_;
+  }
 }
 
 void BladeCoupling::take_hold(const TetMesh& mesh, std::span<const TetId> fresh) {
@@ -232,6 +469,7 @@ void BladeCoupling::take_hold(Sample& sample, const TetMesh& mesh, std::span<con
   sample.grip.reset();
   if (!found) return;
   if (sample.has_slipped) sample.ahead = kAhead * spacing_;
+  sample.slid = Vec3::Zero();
   grip(sample, *found, mesh);
 }
 

@@ -150,6 +150,7 @@ Engine::Conductor::Conductor(TetMesh mesh, EngineOptions options)
       box_(rest_box_) {
   if (!is_paper()) {
     maintainer_.set_original(mesh_);
+    cutter_.prepare(mesh_, journal_);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/blade_coupling.h"
+#include "engine/hook_grip.h"
 #include "engine/sutures.h"
 #include "engine/wall_area.h"
 #include "incise/core/hash.h"
@@ -25,17 +26,11 @@ Error bad(std::string message) {
 /// Of the mean edge at load: as far outside of the tissue an end of a suture may be.
 constexpr double kSutureReach = 0.25;
 
-/// What a hook has hold of, and where from it.
-struct Grip {
-  std::vector<VertexId> vertices;
-  std::vector<Vec3> offsets;
-  std::size_t first_pull = 0, pulls = 0;  // in this frame
-};
-
 double stiffest(const Materials& materials) {
-  double young = materials.fallback.young;
-  for (const Materials::Entry& entry : materials.by_region) young = std::max(young, entry.material.young);
-  return young;
+  const auto soft = [](const Material& material) { return material.rigid ? 0.0 : material.young; };
+  double young = soft(materials.fallback);
+  for (const Materials::Entry& entry : materials.by_region) young = std::max(young, soft(entry.material));
+  return young > 0 ? young : materials.fallback.young;  // where all is bone
 }
 
 Status check(const SimulationOptions& options) {
@@ -51,9 +46,13 @@ Status check(const SimulationOptions& options) {
 
 Status check(const Hook& hook) {
   const std::string name = "hook " + std::to_string(hook.id);
-  if (!hook.position.allFinite()) return bad(name + ": its position is not finite");
+  if (!(hook.position.array().abs() <= kGreatestExtent).all()) {  // beyond it squares of lengths overflow
+    return bad(name + ": its position is not finite, or beyond 1e+30");
+  }
   if (!(hook.radius > 0 && std::isfinite(hook.radius))) return bad(name + ": its radius must be above 0");
   if (!(hook.stiffness > 0 && std::isfinite(hook.stiffness))) return bad(name + ": its stiffness must be above 0 N/m");
+  if (!(hook.strength > 0)) return bad(name + ": its strength must be above 0 N");
+  if (!(hook.closed >= 0 && hook.closed < 1)) return bad(name + ": it must be closed by at least 0 and less than 1");
   return {};
 }
 
@@ -69,6 +68,17 @@ Status check(const FrameInput& input) {
     if (Status status = check(tool); !status) return status;
   }
   return {};
+}
+
+/// Where a mesh stands, if not at rest: the engine takes every mesh for one at rest.
+std::vector<Vec3> places_off_rest(const TetMesh& mesh) {
+  bool is_off = false;
+  std::vector<Vec3> places(mesh.vertex_slots(), Vec3::Zero());
+  mesh.for_each_vertex([&](VertexId v) {
+    places[v.value] = mesh.current(v);
+    is_off = is_off || mesh.current(v) != mesh.rest(v);
+  });
+  return is_off ? places : std::vector<Vec3>();
 }
 
 /// The tets that the latest steps of cutting made; some may be gone again. Those of maintenance list their edits.
@@ -105,15 +115,15 @@ struct Simulation::State {
   detail::BladeCoupling coupling;
   ToolContacts tool_contacts;
   std::size_t first_tool_pull = 0;  // of the last frame
-  std::map<std::uint32_t, Grip> grips;
+  std::map<std::uint32_t, detail::HookGrip> grips;
   HapticSnapshot snapshot;
 
   Status start_blade(const FrameInput& input);
   Status press(const FrameInput& input, FrameReport& report);
   void hold_with_hooks(const FrameInput& input, std::vector<Pull>& pulls);
-  Grip grab(const Hook& hook) const;
   void add_flat(const FrameInput& input, std::vector<Tool>& tools) const;
   std::vector<Vec3> hook_forces(const FrameInput& input) const;
+  void tear_hooks(const FrameInput& input, std::vector<std::uint32_t>& torn);
   template <class Add>
   Result<std::uint32_t> add_suture(const Add& add);
   Status tie();
@@ -139,6 +149,7 @@ Result<FrameReport> Simulation::frame(const FrameInput& input) {
   if (Status status = s.press(input, report); !status) return status.error();
   if (Status status = s.relax(report); !status) return status.error();
   report.hook_forces = s.hook_forces(input);
+  s.tear_hooks(input, report.torn_hooks);
   if (Status status = s.tear(report.torn_sutures); !status) return status.error();
   if (Status status = s.cut(input, report); !status) return status.error();
   if (Status status = s.maintain(report); !status) return status.error();
@@ -164,7 +175,7 @@ Status Simulation::State::start_blade(const FrameInput& input) {
                ? Status{}
                : Status{bad("all poses of a stroke must have the same number of points")};
   }
-  coupling.begin(pose, options.materials, options.body.length_unit, spacing);
+  coupling.begin(pose, engine.mesh(), options.materials, options.body.length_unit, spacing);
   BladePose first = pose;
   if (coupling.resists()) first = coupling.yield(engine.mesh());
   first.direction = pose.direction;
@@ -194,24 +205,6 @@ Status Simulation::State::press(const FrameInput& input, FrameReport& report) {
   return solver->set_pulls(std::move(pulls));
 }
 
-Grip Simulation::State::grab(const Hook& hook) const {
-  Grip grip;
-  VertexId nearest;
-  double least = 0;
-  engine.mesh().for_each_vertex([&](VertexId v) {
-    if (!engine.mesh().tet_of(v).is_valid()) return;
-    const double distance2 = (solver->positions()[v.value] - hook.position).squaredNorm();
-    if (!nearest.is_valid() || distance2 < least) {
-      nearest = v;
-      least = distance2;
-    }
-    if (distance2 <= hook.radius * hook.radius) grip.vertices.push_back(v);
-  });
-  if (grip.vertices.empty() && nearest.is_valid()) grip.vertices.push_back(nearest);
-  for (const VertexId v : grip.vertices) grip.offsets.push_back(solver->positions()[v.value] - hook.position);
-  return grip;
-}
-
 void Simulation::State::hold_with_hooks(const FrameInput& input, std::vector<Pull>& pulls) {
   std::erase_if(grips, [&](const auto& grip) {
     return std::none_of(input.hooks.begin(), input.hooks.end(),
@@ -219,30 +212,24 @@ void Simulation::State::hold_with_hooks(const FrameInput& input, std::vector<Pul
   });
   for (const Hook& hook : input.hooks) {
     auto at = grips.find(hook.id);
-    if (at == grips.end()) at = grips.emplace(hook.id, grab(hook)).first;
-    Grip& grip = at->second;
-    grip.first_pull = pulls.size();
-    for (std::size_t i = 0; i < grip.vertices.size(); ++i) {
-      if (!engine.mesh().is_live(grip.vertices[i])) continue;
-      Pull pull;
-      pull.vertices[0] = grip.vertices[i];
-      pull.target = hook.position + grip.offsets[i];
-      pull.stiffness = hook.stiffness;
-      pulls.push_back(pull);
+    if (at == grips.end()) {
+      at = grips.emplace(hook.id, detail::HookGrip(engine.mesh(), solver->positions(), hook)).first;
     }
-    grip.pulls = pulls.size() - grip.first_pull;
+    at->second.add_to(engine.mesh(), hook, pulls);
   }
 }
 
 /// What the tissue does to each hook.
 std::vector<Vec3> Simulation::State::hook_forces(const FrameInput& input) const {
   std::vector<Vec3> forces;
-  for (const Hook& hook : input.hooks) {
-    const Grip& grip = grips.at(hook.id);
-    Vec3& force = forces.emplace_back(Vec3::Zero());
-    for (std::size_t i = 0; i < grip.pulls; ++i) force -= solver->pull_force(grip.first_pull + i);
-  }
+  for (const Hook& hook : input.hooks) forces.push_back(grips.at(hook.id).force(*solver));
   return forces;
+}
+
+void Simulation::State::tear_hooks(const FrameInput& input, std::vector<std::uint32_t>& torn) {
+  for (const Hook& hook : input.hooks) {
+    if (grips.at(hook.id).give_way(*solver, hook, options.body.length_unit)) torn.push_back(hook.id);
+  }
 }
 
 /// Walls are kept on their sides of the blade that is between them.
@@ -411,8 +398,12 @@ Result<Simulation> Simulation::create(TetMesh mesh, SimulationOptions options, s
   if (!(options.body.length_unit > 0 && std::isfinite(options.body.length_unit))) {
     return bad("the length unit must be above 0 m");
   }
+  const std::vector<Vec3> drawn_out = places_off_rest(mesh);
   Result<Engine> engine = Engine::create(std::move(mesh), options.engine);
   if (!engine) return engine.error();
+  if (!drawn_out.empty()) {
+    if (Status status = engine->set_positions(drawn_out); !status) return status.error();
+  }
   auto state = std::make_unique<State>(std::move(engine).value(), std::move(solver), std::move(options));
   const SimulationOptions& o = state->options;
   state->contact_stiffness =
@@ -427,6 +418,7 @@ Simulation::~Simulation() = default;
 
 Result<unsigned> Simulation::settle(unsigned max_frames, double speed) {
   State& s = *state_;
+  if (!(speed >= 0)) return bad("the speed at which a body counts as at rest must be at least 0 m/s");
   for (unsigned i = 0; i < max_frames; ++i) {
     Result<AdvanceReport> advanced = s.solver->advance(s.options.frame_seconds);
     if (!advanced) return advanced.error();

@@ -99,6 +99,10 @@ double LabelField::plane_slope(double width) const {
   return (2.0 / 3) * kDeviation / std::max(smooth_ * volume_.spacing().minCoeff(), width);
 }
 
+Vec3 LabelField::reach() const {
+  return kReach / kDeviation * smooth_ * volume_.spacing();
+}
+
 void LabelField::sample(const Vec3& p, double width, Shares& out) const {
   const Vec3& spacing = volume_.spacing();
   const auto taps = [&](Eigen::Index a) {

@@ -54,6 +54,9 @@ class LabelField {
   /// How fast the value of a label changes across a plane interface, 1/mm: along the axis of the smallest voxels.
   [[nodiscard]] double plane_slope(double width) const;
 
+  /// How far the kernel of width 0 reaches along each axis, mm.
+  [[nodiscard]] Vec3 reach() const;
+
   /// The shares at a point, mm. `width`: the kernel is at least so wide, mm (standard deviation); 0: as smooth as ever.
   /// Cost: about 0.5 µs.
   void sample(const Vec3& p, double width, Shares& out) const;

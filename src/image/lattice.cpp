@@ -98,14 +98,19 @@ double cubes_along(const LabelVolume& volume, double size) {
   return volume.find_extent(lo, hi) ? (hi - lo).maxCoeff() / size + 4 : 0;
 }
 
+int count_halvings(double voxel, double size, int most_halvings) {
+  int halvings = 0;
+  while (halvings < most_halvings && size / (2 << halvings) > 0.99 * voxel) ++halvings;
+  return halvings;
+}
+
 Octree make_octree(const LabelField& field, const LatticeOptions& options) {
   const LabelVolume& volume = field.volume();
   Vec3 lo, hi;
   (void)volume.find_extent(lo, hi);
   const double root = options.size * (1 << kDoublings);
   const double voxel = volume.spacing().minCoeff();
-  int halvings = 0;
-  while (halvings < options.most_halvings && options.size / (2 << halvings) > 0.99 * voxel) ++halvings;
+  const int halvings = count_halvings(voxel, options.size, options.most_halvings);
   const Vec3 pad = 0.5 * volume.spacing() + Vec3::Constant(2 * options.size);
   std::array<std::int32_t, 3> roots{};
   for (std::size_t a = 0; a < 3; ++a) {

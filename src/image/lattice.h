@@ -18,6 +18,9 @@ struct LatticeOptions {
 /// The most halvings and doublings of `size`.
 inline constexpr int kMostHalvings = 4, kDoublings = 2;
 
+/// How often `size` is halved at most: cubes of less than half a voxel tell nothing more.
+[[nodiscard]] int count_halvings(double voxel, double size, int most_halvings);
+
 /// The leaves of the lattice around all labels of a volume: fine where labels are thin, coarse away from interfaces.
 /// `volume` has some label beside the background.
 [[nodiscard]] Octree make_octree(const LabelField& field, const LatticeOptions& options);

@@ -79,10 +79,18 @@ bool Peeler::peel(Care& care) {
       star_ = care.walker.star(mesh, vertex);
       move_vertex(care, vertex, place, star_);
       care.changed = star_;
+      add_heir(care.changed);
       return true;
     }
   }
   return false;
+}
+
+/// The tet behind is made anew, and its new faces are open: behind a spike it need not be at the vertex that moved.
+void Peeler::add_heir(std::vector<TetId>& changed) const {
+  for (const TetId heir : produced_) {
+    if (std::find(changed.begin(), changed.end(), heir) == changed.end()) changed.push_back(heir);
+  }
 }
 
 void Peeler::add_candidates(const TetMesh& mesh, TetId tet) {
@@ -231,7 +239,8 @@ bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
     return false;
   }
   place = mesh.rest(vertex) + step;
-  const double bound = std::max(worst_of(care, star_) * (1.0 + kLeastGain), kLeastRatio);
+  const double before = std::min(worst_of(care, star_), inradius_ratio(mesh, mesh.vertices(tet_)));
+  const double bound = std::max(before * (1.0 + kLeastGain), kLeastRatio);
   care.spend(star_.size());
   const double edge = longest_edge(mesh, tet_);
   if ((mesh.shape_of(vertex) & shape::kSkin) != 0 &&

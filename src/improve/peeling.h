@@ -14,7 +14,7 @@ class Peeler {
  public:
   /// Tries to take away a tet with two boundary faces on one surface, or with three of which at least two are; or the
   /// end of a spike between walls that is thinner than both together may leave their place. Where it was accepted
-  /// `care.changed` holds the tets around the vertex that moved for it.
+  /// `care.changed` holds the tets around the vertex that moved for it, and the one behind.
   ///
   /// The faces that come to light continue the surface. One of their vertices moves by the little that restores the
   /// volume. Accepted where the worst tet around becomes better, the surface stays in place and no edge gets more than
@@ -30,6 +30,7 @@ class Peeler {
   [[nodiscard]] bool keeps_surface(const Care& care);
   [[nodiscard]] bool ends_in_spike(const Care& care);
   bool peel(Care& care);
+  void add_heir(std::vector<TetId>& changed) const;
   void add_candidates(const TetMesh& mesh, TetId tet);
   [[nodiscard]] bool find_volume_step(const Care& care, VertexId vertex, Vec3& step) const;
   [[nodiscard]] bool find_step_at_spike(const Care& care, VertexId vertex, Vec3& step) const;

@@ -2,6 +2,7 @@
 // MEDIT .mesh, ASCII. Keywords and rows as in "MEDIT: An interactive mesh visualization software", INRIA RT-0253.
 #include "incise/core/id.h"
 #include "io/reader.h"
+#include "io/region_names.h"
 
 namespace incise {
 inline namespace v0 {
@@ -86,10 +87,20 @@ class MeditReader {
     }
   }
 
+  void find_names() {
+    const std::string_view head = in_.bytes().substr(0, in_.position());
+    const std::string mark = "\n" + std::string(kMeditRegion) + " ";
+    for (std::size_t at = head.find(mark); at != std::string_view::npos; at = head.find(mark, at + 1)) {
+      const std::size_t from = at + mark.size();
+      take_entry(head.substr(from, head.find('\n', from) - from), job_.out.data.region_names);
+    }
+  }
+
   bool vertices() {
     std::int64_t n = 0;
     if (has_vertices_) return in_.fail("there are two Vertices sections");
     find_mark();
+    find_names();
     if (!in_.count(n, 3, "number of vertices")) return false;
     has_vertices_ = true;
     auto& points = job_.soup().points;

@@ -142,6 +142,7 @@ Result<LoadedMesh> build_mesh(MeshFile file, const std::filesystem::path& path) 
   LoadedMesh loaded;
   loaded.file_vertex = drop_mid_nodes(file);
   loaded.source = describe(file, path);
+  loaded.region_names = std::move(file.data.region_names);
   TetSoup soup = std::move(file.data.soup);
   take_cuts(file.data, soup);
   if (!soup.origins.empty()) loaded.file_vertex.clear();  // the mesh's own origins are what the file says

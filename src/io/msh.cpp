@@ -7,6 +7,7 @@
 
 #include "incise/core/id.h"
 #include "io/reader.h"
+#include "io/region_names.h"
 #include "io/writer.h"
 
 namespace incise {
@@ -462,6 +463,23 @@ class MshLabels {
     return data_rows(of_elements, name, sizes[1], sizes[2]);
   }
 
+  // $PhysicalNames: dimension, number and name of each group, as text in binary files too. Those of volumes are kept.
+  bool names() {
+    Cursor& text = msh_.in.text;
+    std::int64_t n = 0;
+    if (!text.count(n, 5, "number of physical names")) return false;
+    text.line();
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::int64_t dimension = 0, number = 0;
+      if (!text.integer(dimension, "dimension") || !text.integer(number, "physical tag")) return false;
+      std::string_view name = trim(text.line());
+      if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+      std::int32_t region = 0;
+      if (dimension == 3 && to_label(number, region)) take_region_name(region, name, msh_.job.out.data.region_names);
+    }
+    return true;
+  }
+
   // Of a file that Incise wrote: the blocks of entities took elements out of their order.
   void restore_order() {
     auto& data = msh_.job.out.data;
@@ -595,6 +613,7 @@ class MshReader {
              end_section("EndElements");
     }
     if (name == "Entities" && msh_.version == 4) return blocks_.entities() && end_section("EndEntities");
+    if (name == "PhysicalNames") return labels_.names() && end_section("EndPhysicalNames");
     if (name == "ElementData") return labels_.data(true) && end_section("EndElementData");
     if (name == "NodeData") return labels_.data(false) && end_section("EndNodeData");
     return skip_section(name);

@@ -40,6 +40,8 @@ struct Job {
 
 /// A MEDIT file that Incise wrote has a comment that begins so, before its vertices; then the names of what it carries.
 inline constexpr std::string_view kMeditMark = "# incise:";
+/// Another, for each region that has a name, before its number and name.
+inline constexpr std::string_view kMeditRegion = "# incise region";
 
 // One reader per format, named in formats.cpp alone: bool read_x(Job& job), which returns false with `job.error` set.
 

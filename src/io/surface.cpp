@@ -2,6 +2,7 @@
 // Triangle surfaces: STL, OBJ, OFF, PLY.
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -86,36 +87,81 @@ void add_fan(SurfaceSoup& out, const std::vector<std::uint32_t>& polygon) {
   for (std::size_t k = 2; k < polygon.size(); ++k) out.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
 }
 
-// "7", "7/1", "7//3", "-1": the vertex counts from 1, or back from the last.
-bool obj_index(std::string_view word, std::size_t n, std::uint32_t& out) {
-  std::int64_t value = 0;
-  if (!parse_int(word.substr(0, word.find('/')), value)) return false;
-  if (value < 0) value += static_cast<std::int64_t>(n) + 1;
-  return to_index(value, n, out, 1);
+// The numbers of one corner of a face, from 0: place, texture coordinate and normal.
+using ObjCorner = std::array<std::uint32_t, 3>;
+
+// "7", "7/1", "7//3", "-1": numbers count from 1, or back from the last. What is wrong with the second and the third is
+// as if it were not there.
+bool obj_corner(std::string_view word, const std::array<std::size_t, 3>& counts, ObjCorner& out) {
+  out = {kInvalidIndex, kInvalidIndex, kInvalidIndex};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string_view number = word.substr(0, word.find('/'));
+    std::int64_t value = 0;
+    bool is_there = parse_int(number, value);
+    if (value < 0) value += static_cast<std::int64_t>(counts[i]) + 1;
+    is_there = is_there && to_index(value, counts[i], out[i], 1);
+    if (!is_there) out[i] = kInvalidIndex;
+    if (i == 0 && !is_there) return false;
+    if (number.size() == word.size()) break;
+    word.remove_prefix(number.size() + 1);
+  }
+  return true;
+}
+
+// Appends a polygon as a fan, with what its corners have besides places.
+void add_obj_fan(SurfaceSoup& out, const std::vector<ObjCorner>& polygon) {
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    const auto row = [&](std::size_t i) {
+      return std::array<std::uint32_t, 3>{polygon[0][i], polygon[k - 1][i], polygon[k][i]};
+    };
+    out.triangles.push_back(row(0));
+    out.texture_triangles.push_back(row(1));
+    out.normal_triangles.push_back(row(2));
+  }
+}
+
+bool read_obj_face(Cursor& in, SurfaceSoup& out) {
+  std::vector<ObjCorner> polygon;
+  while (!in.at_line_end()) {
+    const std::string_view corner = in.word_in_line();
+    if (!obj_corner(corner, {out.points.size(), out.texture.size(), out.normals.size()}, polygon.emplace_back())) {
+      return in.fail("face corner " + in_quotes(corner) + " names no vertex before it");
+    }
+  }
+  if (polygon.size() < 3) return in.fail("a face needs at least 3 corners");
+  add_obj_fan(out, polygon);
+  return true;
+}
+
+bool read_obj_row(Cursor& in, std::string_view word, SurfaceSoup& out) {
+  if (word == "f") return read_obj_face(in, out);
+  if (word == "vt") {
+    auto& at = out.texture.emplace_back();
+    if (!in.real_in_line(at[0], "texture coordinate")) return false;
+    return in.at_line_end() || in.real_in_line(at[1], "texture coordinate");
+  }
+  if (word != "v" && word != "vn") return true;
+  Vec3& p = word == "v" ? out.points.emplace_back() : out.normals.emplace_back();
+  for (int k = 0; k < 3; ++k) {
+    if (!in.real_in_line(p[k], "coordinate")) return false;
+  }
+  return true;
+}
+
+bool has_any(const std::vector<std::array<std::uint32_t, 3>>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const auto& row) {
+    return std::any_of(row.begin(), row.end(), [](std::uint32_t v) { return v != kInvalidIndex; });
+  });
 }
 
 bool read_obj(Cursor& in, SurfaceSoup& out) {
   in.set_comment('#');
   while (in.skip_space()) {
-    const std::string_view word = in.word_in_line();
-    if (word == "v") {
-      Vec3& p = out.points.emplace_back();
-      for (int k = 0; k < 3; ++k) {
-        if (!in.real_in_line(p[k], "coordinate")) return false;
-      }
-    } else if (word == "f") {
-      std::vector<std::uint32_t> polygon;
-      while (!in.at_line_end()) {
-        const std::string_view corner = in.word_in_line();
-        if (!obj_index(corner, out.points.size(), polygon.emplace_back())) {
-          return in.fail("face corner " + in_quotes(corner) + " names no vertex before it");
-        }
-      }
-      if (polygon.size() < 3) return in.fail("a face needs at least 3 corners");
-      add_fan(out, polygon);
-    }
+    if (!read_obj_row(in, in.word_in_line(), out)) return false;
     in.line();
   }
+  if (!has_any(out.texture_triangles)) out.texture_triangles.clear();
+  if (!has_any(out.normal_triangles)) out.normal_triangles.clear();
   return true;
 }
 
@@ -216,9 +262,31 @@ std::string write_obj(const SurfaceSoup& s) {
     out += "v ";
     append_point(out, p);
   }
-  for (const auto& triangle : s.triangles) {
+  for (const auto& at : s.texture) {
+    out += "vt ";
+    append_double(out, at[0]);
+    out += ' ';
+    append_double(out, at[1]);
+    out += '\n';
+  }
+  for (const Vec3& normal : s.normals) {
+    out += "vn ";
+    append_point(out, normal);
+  }
+  const auto append_number = [&out](const auto& rows, std::size_t i, std::size_t k) {
+    if (!rows.empty() && rows[i][k] != kInvalidIndex) append_int(out, std::int64_t{rows[i][k]} + 1);
+  };
+  for (std::size_t i = 0; i < s.triangles.size(); ++i) {
     out += 'f';
-    append_row(out, triangle, 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      out += ' ';
+      append_int(out, std::int64_t{s.triangles[i][k]} + 1);
+      if (!s.texture_triangles.empty() || !s.normal_triangles.empty()) out += '/';
+      append_number(s.texture_triangles, i, k);
+      if (!s.normal_triangles.empty()) out += '/';
+      append_number(s.normal_triangles, i, k);
+    }
+    out += '\n';
   }
   return out;
 }
@@ -261,9 +329,15 @@ std::string write_stl(const SurfaceSoup& s) {
 }
 
 bool is_sound(const SurfaceSoup& s) {
-  return std::all_of(s.triangles.begin(), s.triangles.end(), [&s](const auto& t) {
-    return std::all_of(t.begin(), t.end(), [&s](std::uint32_t v) { return v < s.points.size(); });
-  });
+  const auto are_below = [&s](const auto& rows, std::size_t count, bool may_lack) {
+    return (rows.size() == s.triangles.size() || (may_lack && rows.empty())) &&
+           std::all_of(rows.begin(), rows.end(), [&](const auto& row) {
+             return std::all_of(row.begin(), row.end(),
+                                [&](std::uint32_t v) { return v < count || (may_lack && v == kInvalidIndex); });
+           });
+  };
+  return are_below(s.triangles, s.points.size(), false) && are_below(s.texture_triangles, s.texture.size(), true) &&
+         are_below(s.normal_triangles, s.normals.size(), true);
 }
 
 }  // namespace
@@ -300,6 +374,35 @@ Status write_surface(const std::filesystem::path& path, const SurfaceSoup& surfa
                  "no surface can be written as " + in_quotes(extension.name) + "; use .obj, .stl, .ply or .off"};
   }
   return store_packed({path}, {std::move(bytes)}, extension.gzipped);
+}
+
+FineSurface to_fine_surface(const SurfaceSoup& surface) {
+  SurfaceSoup welded = surface;
+  weld(welded);
+  const bool has_texture = !welded.texture_triangles.empty();
+  const bool has_normals =
+      !welded.normal_triangles.empty() &&
+      std::all_of(welded.normal_triangles.begin(), welded.normal_triangles.end(), [&](const auto& row) {
+        return std::all_of(row.begin(), row.end(),
+                           [&](std::uint32_t n) { return n != kInvalidIndex && welded.normals[n].norm() > 0; });
+      });
+  FineSurface fine;
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers;  // of corners that are alike
+  for (std::size_t i = 0; i < welded.triangles.size(); ++i) {
+    auto& triangle = fine.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t at = has_texture ? welded.texture_triangles[i][k] : kInvalidIndex;
+      const std::uint32_t normal = has_normals ? welded.normal_triangles[i][k] : kInvalidIndex;
+      const auto [found, is_new] =
+          numbers.try_emplace({welded.triangles[i][k], at, normal}, static_cast<std::uint32_t>(numbers.size()));
+      triangle[k] = found->second;
+      if (!is_new) continue;
+      fine.points.push_back(welded.points[welded.triangles[i][k]]);
+      if (has_texture) fine.texture.push_back(at == kInvalidIndex ? std::array<double, 2>{} : welded.texture[at]);
+      if (has_normals) fine.normals.push_back(welded.normals[normal].normalized());
+    }
+  }
+  return fine;
 }
 
 std::size_t weld(SurfaceSoup& surface) {

@@ -14,6 +14,7 @@
 #include "incise/io/base64.h"
 #include "io/cells.h"
 #include "io/gzip.h"
+#include "io/region_names.h"
 
 namespace incise {
 inline namespace v0 {
@@ -88,6 +89,7 @@ class VtuReader {
                            " holds no tets; Incise reads UnstructuredGrid: mesh the volume first",
                        ErrorCode::kUnsupported);
     }
+    read_names(find_array(grid.child("FieldData"), std::string(kVtuNames).c_str()));
     for (const pugi::xml_node piece : grid.children("Piece")) {
       if (!read_piece(piece)) return false;
     }
@@ -160,6 +162,24 @@ class VtuReader {
     return read_points(piece, n_points) && read_cells(piece, first, n_points, n_cells) &&
            read_labels(piece.child("CellData"), n_cells, true) &&
            read_labels(piece.child("PointData"), n_points, false);
+  }
+
+  // Lines, byte by byte. Other encodings are passed over: names are no geometry.
+  void read_names(const pugi::xml_node& array) {
+    if (std::strcmp(array.attribute("format").value(), "ascii") != 0) return;
+    Error ignored;
+    Cursor in(array.child_value(), job_.name, ignored);
+    std::string entry;
+    for (std::string_view word = in.word(); !word.empty(); word = in.word()) {
+      std::int64_t byte = 0;
+      if (!parse_int(word, byte) || byte < 0 || byte > 255) return;
+      if (byte != '\n') {
+        entry += static_cast<char>(byte);
+        continue;
+      }
+      take_entry(entry, job_.out.data.region_names);
+      entry.clear();
+    }
   }
 
   bool read_points(const pugi::xml_node& piece, std::size_t n) {

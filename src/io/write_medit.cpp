@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "io/reader.h"
+#include "io/region_names.h"
 #include "io/writer.h"
 
 namespace incise {
@@ -36,6 +37,7 @@ std::string write_medit(const MeshData& data, MshVariant /*variant*/) {
   Text out;
   out << "MeshVersionFormatted 2\nDimension 3\n";
   medit_mark(out, data);
+  for (const auto& [region, name] : data.region_names) out << kMeditRegion << ' ' << to_entry(region, name) << '\n';
   out << "Vertices\n" << data.soup.points.size() << '\n';
   for (std::size_t i = 0; i < data.soup.points.size(); ++i) {
     const std::int32_t origin = data.origin_vertex.empty() ? -1 : data.origin_vertex[i];

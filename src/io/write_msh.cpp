@@ -6,6 +6,7 @@
 #include <map>
 
 #include "incise/geom/box.h"
+#include "io/region_names.h"
 #include "io/writer.h"
 
 namespace incise {
@@ -97,10 +98,25 @@ void add_all_data(MshText& out, const MeshData& data, bool with_regions, const O
   for (const NamedLabels& array : point_arrays(data)) add_data(out, "NodeData", array.name, array.values);
 }
 
+void add_names_22(MshText& out, const RegionNames& names) {
+  std::string lines;
+  std::size_t count = 0;
+  for (const auto& [region, name] : names) {
+    if (region <= 0) continue;
+    ++count;
+    lines +=
+        std::to_string(kVolumeDimension) + " " + std::to_string(region) + " \"" + written_name(names, region) + "\"\n";
+  }
+  if (count == 0) return;
+  out.text("$PhysicalNames\n").text(std::to_string(count)).text("\n").text(lines).text("$EndPhysicalNames\n");
+}
+
 std::string write_msh_22(const MeshData& data) {
   MshText out(false);
   const auto& soup = data.soup;
-  out.text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n").size(soup.points.size()).end_row();
+  out.text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+  add_names_22(out, data.region_names);
+  out.text("$Nodes\n").size(soup.points.size()).end_row();
   for (std::size_t i = 0; i < soup.points.size(); ++i) out.size(i + 1).point(soup.points[i]).end_row();
   out.text("$EndNodes\n$Elements\n").size(soup.tets.size() + data.triangles.size()).end_row();
   const auto add = [&out](std::size_t number, int type, std::int32_t physical, const auto& vertices) {
@@ -173,16 +189,16 @@ class Msh41Writer {
   void add_names() {
     std::string lines;
     std::size_t count = 0;
-    const auto add = [&](int dimension, const Entities& entities, std::string_view prefix) {
+    const auto add = [&](int dimension, const Entities& entities, const auto& name_of) {
       for (const auto& [label, entity] : entities) {
         if (label <= 0) continue;
         ++count;
-        lines += std::to_string(dimension) + " " + std::to_string(label) + " \"" + std::string(prefix) +
-                 std::to_string(label) + "\"\n";
+        lines += std::to_string(dimension) + " " + std::to_string(label) + " \"" + name_of(label) + "\"\n";
       }
     };
-    add(kSurfaceDimension, surfaces_, has_strokes(data_) ? "stroke_" : "face_");
-    add(kVolumeDimension, volumes_, "region_");
+    const std::string face = has_strokes(data_) ? "stroke_" : "face_";
+    add(kSurfaceDimension, surfaces_, [&](std::int32_t label) { return face + std::to_string(label); });
+    add(kVolumeDimension, volumes_, [&](std::int32_t label) { return written_name(data_.region_names, label); });
     if (count == 0) return;
     out_.text("$PhysicalNames\n").text(std::to_string(count)).text("\n").text(lines).text("$EndPhysicalNames\n");
   }

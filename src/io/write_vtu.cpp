@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // .vtu, of VTK's XML formats.
+#include "io/region_names.h"
 #include "io/writer.h"
 
 #if INCISE_WITH_VTU
@@ -23,8 +24,10 @@ class VtuWriter {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\"";
     if (has_gzip()) out_ += " compressor=\"vtkZLibDataCompressor\"";
-    out_ += ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" + std::to_string(soup.points.size()) +
-            "\" NumberOfCells=\"" + std::to_string(n_cells()) + "\">\n<Points>\n";
+    out_ += ">\n<UnstructuredGrid>\n";
+    names();
+    out_ += "<Piece NumberOfPoints=\"" + std::to_string(soup.points.size()) + "\" NumberOfCells=\"" +
+            std::to_string(n_cells()) + "\">\n<Points>\n";
     points();
     out_ += "</Points>\n<Cells>\n";
     cells();
@@ -38,6 +41,17 @@ class VtuWriter {
 
  private:
   [[nodiscard]] std::size_t n_cells() const { return data_.soup.tets.size() + data_.triangles.size(); }
+
+  // Field data: a line such as "3 fat" for each region that has a name, byte by byte: arrays of strings stop meshio.
+  void names() {
+    std::string lines;
+    for (const auto& [region, name] : data_.region_names) lines += to_entry(region, name) + "\n";
+    if (lines.empty()) return;
+    out_ += "<FieldData>\n<DataArray type=\"UInt8\" Name=\"" + std::string(kVtuNames) + "\" NumberOfTuples=\"" +
+            std::to_string(lines.size()) + "\" format=\"ascii\">\n";
+    for (const char c : lines) out_ += std::to_string(static_cast<unsigned char>(c)) + (c == '\n' ? "\n" : " ");
+    out_ += "</DataArray>\n</FieldData>\n";
+  }
 
   void points() {
     std::vector<double> flat;

@@ -7,7 +7,9 @@
 #include "cut/cut_context.h"
 #include "cut/spacing.h"
 #include "cut/sweep.h"
+#include "lab/bielser.h"
 #include "lab/minimal.h"
+#include "lab/moving.h"
 #include "lab/removal.h"
 #include "lab/snapping.h"
 
@@ -24,6 +26,12 @@ Status cut_sheet(LabMethod method, const CutContext& context, const Sheet& sheet
       return lab::snap_nodes(context, sheet, tag, threads);
     case LabMethod::kMinimal:
       return lab::divide_minimally(context, sheet, tag, threads);
+    case LabMethod::kMoving:
+      return lab::move_and_divide(context, sheet, tag, threads);
+    case LabMethod::kSeventeen:
+      return lab::divide_into_17(context, sheet, tag, threads);
+    case LabMethod::kAdaptive:
+      return lab::divide_adaptively(context, sheet, tag, threads);
   }
   return Error{ErrorCode::kBadArgument, "there is no such method", {}};
 }

@@ -27,11 +27,13 @@ struct Snap {
   }
 };
 
-std::vector<Snap> plan_snaps(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near) {
+std::vector<Snap> plan_snaps(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, double reach) {
   std::vector<VertexId> vertices;
   for (std::uint32_t i = 0; i < near.edges.size(); ++i) {
     const CutEdge& edge = near.edges[i];
-    if (edge.is_flagged()) vertices.push_back(edge.crossings.t <= 0.5 ? edge.a : edge.b);
+    if (!edge.is_flagged()) continue;
+    const bool is_first = edge.crossings.t <= 0.5;
+    if ((is_first ? edge.crossings.t : 1 - edge.crossings.t) <= reach) vertices.push_back(is_first ? edge.a : edge.b);
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -42,14 +44,6 @@ std::vector<Snap> plan_snaps(const TetMesh& mesh, const Sheet& sheet, const Neig
   }
   std::sort(snaps.begin(), snaps.end());
   return snaps;
-}
-
-void move(Transaction& transaction, const std::vector<Snap>& snaps, CutStatistics& statistics) {
-  for (const Snap& snap : snaps) {
-    const MoveVertexPlan plan = plan_move_vertex(transaction.mesh(), snap.vertex, snap.place);
-    if (plan) apply(transaction, plan);
-    ++(plan ? statistics.snapped_vertices : statistics.bent_vertices);
-  }
 }
 
 SosPoint centre_of(const TetMesh& mesh, TetId tet) {
@@ -85,6 +79,15 @@ std::vector<IncisionFace> find_faces(const TetMesh& mesh, const Sheet& sheet, co
 
 }  // namespace
 
+void move_onto(Transaction& transaction, const Sheet& sheet, const Neighbourhood& near, double reach,
+               CutStatistics& statistics) {
+  for (const Snap& snap : plan_snaps(transaction.mesh(), sheet, near, reach)) {
+    const MoveVertexPlan plan = plan_move_vertex(transaction.mesh(), snap.vertex, snap.place);
+    if (plan) apply(transaction, plan);
+    ++(plan ? statistics.snapped_vertices : statistics.bent_vertices);
+  }
+}
+
 Status snap_nodes(const CutContext& context, const Sheet& sheet, std::uint32_t tag, unsigned threads) {
   const TetMesh& mesh = context.mesh;
   Neighbourhood near;
@@ -92,7 +95,8 @@ Status snap_nodes(const CutContext& context, const Sheet& sheet, std::uint32_t t
   context.statistics.cut_tets += static_cast<std::uint64_t>(
       std::count_if(near.tets.begin(), near.tets.end(), [](const NearTet& tet) { return tet.flagged != 0; }));
   Transaction transaction(context.mesh);
-  move(transaction, plan_snaps(mesh, sheet, near), context.statistics);
+  constexpr double kAny = 0.5;
+  move_onto(transaction, sheet, near, kAny, context.statistics);
   const std::vector<IncisionFace> faces = find_faces(mesh, sheet, find_near_tets(mesh, sheet, threads));
   open_faces(transaction, faces, tag, context.statistics);
   commit(context, transaction, sides_of(faces));

@@ -5,10 +5,18 @@
 
 #include "cut/cut_context.h"
 #include "cut/sweep.h"
+#include "incise/mesh/transaction.h"
+#include "paper/neighbourhood.h"
 
 namespace incise {
 inline namespace v0 {
 namespace lab {
+
+/// Moves of each crossed edge the nearer end to the nearest point of the sheet, the nearest vertex first, where no tet
+/// turns over; those alone that cross it within `reach`, in (0, 0.5], of its length. `near` as `find_crossings` has
+/// left it. Counts go to `statistics`. Cost: O(crossed edges · log + stars).
+void move_onto(Transaction& transaction, const Sheet& sheet, const Neighbourhood& near, double reach,
+               CutStatistics& statistics);
 
 /// Moves vertices onto the sheet instead of dividing tets: of each crossed edge the nearer end, to the nearest point of
 /// the sheet, the nearest vertex first, where no tet turns over; then opens the faces between tets whose centres lie on

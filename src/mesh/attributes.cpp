@@ -19,6 +19,8 @@ constexpr TetVertices kNoVertices{};
 constexpr std::uint32_t kMaxWidth = 64;
 /// Volumes that differ by less than this share are equal up to rounding.
 constexpr double kVolumeRounding = 1e-9;
+/// Of a vertex's lumped volume: where less than this is left of it the difference has lost its digits, or all of them.
+constexpr double kDigitsLost = 1e-6;
 
 /// A sorted table of the elements that a step names; find() in O(log n).
 template <class IdType, class T>
@@ -28,6 +30,9 @@ class StepTable {
   void sort() {
     std::stable_sort(entries_.begin(), entries_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   }
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  [[nodiscard]] IdType key(std::size_t i) const { return entries_[i].first; }
+  [[nodiscard]] const T& value(std::size_t i) const { return entries_[i].second; }
   [[nodiscard]] const T* find(IdType id) const {
     const auto at = first(id);
     return at != entries_.end() && at->first == id ? &at->second : nullptr;
@@ -119,6 +124,47 @@ class Attributes::Stepper {
     return lumped > 0 ? at(attribute, vertex.value)[k] / lumped : 0.0;
   }
 
+  /// Enters the vertices that hand on all but a sliver, with the share that they keep: it is summed, since a difference
+  /// would be rounding, or 0, or less. `losses`: lumped volumes, in the order of the vertices; `keeps(v, corner)`:
+  /// whether a vertex keeps what a corner of it holds.
+  template <class Keeps>
+  void find_spent(std::span<const std::pair<VertexId, double>> losses, const Keeps& keeps) {
+    for (std::size_t i = 0; i < losses.size();) {
+      const VertexId v = losses[i].first;
+      double left = all_.lumped_[v];
+      for (; i < losses.size() && losses[i].first == v; ++i) left -= losses[i].second;
+      if (all_.lumped_[v] > 0 && left < kDigitsLost * all_.lumped_[v]) {
+        const double kept = lumped_star(v, [&](std::uint32_t corner) { return keeps(v, corner); });
+        spent_.add(v, std::clamp(kept / all_.lumped_[v], 0.0, 1.0));
+      }
+    }
+  }
+  /// The lumped volume of those corners at a vertex that count; the same sum whatever the order of the lists.
+  template <class Counts>
+  [[nodiscard]] double lumped_star(VertexId v, const Counts& counts) const {
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t i = all_.first_corner_[v]; i != kInvalidIndex; i = all_.next_corner_[i]) {
+      if (counts(i)) corners.push_back(i);
+    }
+    std::sort(corners.begin(), corners.end());
+    double sum = 0;
+    for (const std::uint32_t i : corners) sum += 0.25 * all_.volume(all_.tets_[TetId(i >> 2U)]);
+    return sum;
+  }
+  /// Takes a quarter away; from spent vertices all at once.
+  void take(Attribute& attribute, std::uint32_t k, VertexId v, double quarter) {
+    if (spent_.find(v) == nullptr) at(attribute, v.value)[k] -= quarter;
+  }
+  void spend(Attribute& attribute, std::uint32_t k) {
+    for (std::size_t i = 0; i < spent_.size(); ++i) at(attribute, spent_.key(i).value)[k] *= spent_.value(i);
+  }
+  /// The lumped volumes of spent vertices, once they have their new tets.
+  void lump_spent() {
+    for (std::size_t i = 0; i < spent_.size(); ++i) {
+      all_.lumped_[spent_.key(i)] = lumped_star(spent_.key(i), [](std::uint32_t /*corner*/) { return true; });
+    }
+  }
+
   /// Moves a vertex with its copies; shrinking tets around it hand material to growing ones.
   void exchange(std::span<const MovedVertex> twins) {
     group_.clear();
@@ -208,6 +254,7 @@ class Attributes::Stepper {
   StepTable<VertexId, VertexId> roots_;   // of copies: the vertex that was there before the copies
   StepTable<VertexId, VertexId> copies_;  // of roots
   std::vector<Weights> quarters_;
+  StepTable<VertexId, double> spent_;  // the share of its value that a vertex keeps
 
  private:
   // Of the vertices that move:
@@ -320,6 +367,36 @@ class Attributes::Stepper::ByLists : private Stepper {
       }
     }
     find_pool();
+    tabulate_losses();
+    find_spent(losses_, [&](VertexId v, std::uint32_t corner) { return keeps(v, corner); });
+  }
+  /// Whether a consumed tet hands on what it holds; one without children leaves it with its corners.
+  [[nodiscard]] bool hands_on(std::size_t consumed) const {
+    return families_[consumed].children > 0 || families_[consumed].is_pooled;
+  }
+  /// The lumped volumes that vertices hand on, in their order.
+  void tabulate_losses() {
+    for (std::size_t i = 0; i < step_.consumed.size(); ++i) {
+      if (!hands_on(i)) continue;
+      for (const VertexId v : step_.consumed[i].vertices) losses_.emplace_back(v, 0.25 * families_[i].volume);
+    }
+    for (std::uint32_t i = 0; i < step_.rewired.size(); ++i) {
+      const RewiredTet& tet = step_.rewired[i];
+      rewired_.add(tet.id, i);
+      const double quarter = 0.25 * all_.volume(tet.old_vertices);
+      for (unsigned c = 0; c < 4; ++c) {
+        if (tet.old_vertices[c] != tet.vertices[c]) losses_.emplace_back(tet.old_vertices[c], quarter);
+      }
+    }
+    rewired_.sort();
+    std::stable_sort(losses_.begin(), losses_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  }
+  /// Whether a vertex keeps what a corner of it holds.
+  [[nodiscard]] bool keeps(VertexId v, std::uint32_t corner) const {
+    const TetId tet(corner >> 2U);
+    if (const std::uint32_t* parent = parents_.find(tet)) return !hands_on(*parent);
+    const std::uint32_t* changed = rewired_.find(tet);
+    return changed == nullptr || step_.rewired[*changed].vertices[corner & 3U] == v;
   }
   /// Children that a front made anew fill the tets before them together, not each its own parent. Those families share
   /// what they hold, if together they keep their volume.
@@ -387,14 +464,13 @@ class Attributes::Stepper::ByLists : private Stepper {
   void hand_on(Attribute& attribute) {
     for (std::uint32_t k = 0; k < attribute.spec.width; ++k) {
       take_quarters(attribute, k);
+      spend(attribute, k);
       for (std::size_t i = 0; i < step_.consumed.size(); ++i) {
-        if (families_[i].children == 0 && !families_[i].is_pooled) {
+        if (!hands_on(i)) {
           leave_behind(attribute, k, i);
           continue;
         }
-        for (unsigned c = 0; c < 4; ++c) {
-          at(attribute, step_.consumed[i].vertices[c].value)[k] -= quarters_[i][c];
-        }
+        for (unsigned c = 0; c < 4; ++c) take(attribute, k, step_.consumed[i].vertices[c], quarters_[i][c]);
       }
       const auto held = [&](std::size_t i) {
         const Weights& q = quarters_[i];
@@ -411,7 +487,7 @@ class Attributes::Stepper::ByLists : private Stepper {
         const RewiredTet& tet = step_.rewired[i];
         for (unsigned c = 0; c < 4; ++c) {
           if (tet.old_vertices[c] == tet.vertices[c]) continue;
-          at(attribute, tet.old_vertices[c].value)[k] -= rewired_quarters_[i][c];
+          take(attribute, k, tet.old_vertices[c], rewired_quarters_[i][c]);
           at(attribute, tet.vertices[c].value)[k] += rewired_quarters_[i][c];
         }
       }
@@ -472,6 +548,7 @@ class Attributes::Stepper::ByLists : private Stepper {
       lump(tet.old_vertices, -volume);
       lump(tet.vertices, volume);
     }
+    lump_spent();
   }
 
   StepTable<VertexId, bool> died_;
@@ -480,6 +557,8 @@ class Attributes::Stepper::ByLists : private Stepper {
   std::vector<double> volumes_;              // by produced
   double pool_volume_ = 0;                   // of the children in pooled families; 0 where there are none
   std::vector<Weights> rewired_quarters_;
+  std::vector<std::pair<VertexId, double>> losses_;
+  StepTable<TetId, std::uint32_t> rewired_;  // index into step_.rewired
 };
 
 /// One edit after the other.

@@ -12,5 +12,13 @@ Box rest_bounds(const TetMesh& mesh) {
   return box;
 }
 
+Box current_bounds(const TetMesh& mesh) {
+  Box box;
+  mesh.for_each_vertex([&](VertexId v) {
+    if (mesh.tet_of(v).is_valid()) box.extend(mesh.current(v));
+  });
+  return box;
+}
+
 }  // namespace v0
 }  // namespace incise

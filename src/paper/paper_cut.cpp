@@ -12,6 +12,7 @@
 #include "cut/constants.h"
 #include "cut/far_blade.h"
 #include "cut/spacing.h"
+#include "incise/mesh/bounds.h"
 #include "paper/constants.h"
 #include "paper/contact.h"
 

@@ -215,8 +215,8 @@ class Subdivider {
     }
   }
   /// Pairs the parts of a face that two subdivided tets share.
-  void link_faces(std::uint32_t parent, const std::vector<SplitTemplate::ChildSide>& outer, std::uint32_t neighbour,
-                  const std::vector<SplitTemplate::ChildSide>& facing) {
+  void link_faces(std::uint32_t parent, std::span<const SplitTemplate::ChildSide> outer, std::uint32_t neighbour,
+                  std::span<const SplitTemplate::ChildSide> facing) {
     for (const auto child_side : outer) {
       const Side here = side_of(parent, child_side);
       for (const auto other_side : facing) {

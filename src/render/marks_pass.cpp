@@ -114,7 +114,9 @@ void MarksPass::set_up() {
 void MarksPass::gather_lines(const app::Picture& picture) {
   lines_.clear();
   const app::SurfaceFrame& surface = picture.surface;
-  if (surface.topology && picture.options.shows_front) {
+  // Beside tissue that looks like tissue a line of the mesh's would be out of place.
+  const bool is_mesh = picture.options.color != app::ColorBy::kTissue || picture.options.shows_wireframe;
+  if (surface.topology && picture.options.shows_front && is_mesh) {
     for (const auto& [from, to] : surface.topology->front_edges) {
       if (from >= surface.positions.size() || to >= surface.positions.size()) continue;
       lines_.push_back({surface.positions[from], surface.positions[to], kFrontWidth, kFrontStyle, 0, 0});
@@ -126,9 +128,12 @@ void MarksPass::gather_lines(const app::Picture& picture) {
       lines_.push_back({surface.positions[from], surface.positions[to], kContourWidth, kContourStyle, 2, 0});
     }
   }
+  const bool has_instruments = !picture.marks.instruments.empty();
   for (const app::Marks::Line& line : picture.marks.lines) {
-    lines_.push_back({line.from, line.to, in_pixels(line.width), style_of(line.ink), line.is_on_top ? 1U : 0U,
-                      line.is_dashed ? 1U : 0U});
+    // The instrument itself is seen; of its edge only what is inside the tissue is not.
+    const bool is_inside = has_instruments && line.is_on_top && line.ink == app::Ink::kBlade;
+    const std::uint32_t depth = is_inside ? 3 : line.is_on_top ? 1 : 0;
+    lines_.push_back({line.from, line.to, in_pixels(line.width), style_of(line.ink), depth, line.is_dashed ? 1U : 0U});
   }
 }
 
@@ -197,7 +202,8 @@ void MarksPass::draw_lines(app::Theme theme, const ViewMatrices& view) const {
   use(line_program_, theme, view);
   glBindVertexArray(line_array_.id());
   const auto count = static_cast<GLsizei>(lines_.size());
-  if (std::any_of(lines_.begin(), lines_.end(), [](const Line& line) { return line.is_top != 0; })) {
+  if (std::any_of(lines_.begin(), lines_.end(),
+                  [](const Line& line) { return line.is_top == 1 || line.is_top == 3; })) {
     glUniform1i(location(line_program_, "is_behind"), 1);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);

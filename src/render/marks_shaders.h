@@ -20,7 +20,7 @@ inline constexpr const char* kLineVertex = R"(
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
 layout(location = 2) in float width;
-layout(location = 3) in uvec3 traits;  // style, depth (1: on top, 2: well before a surface), dashed
+layout(location = 3) in uvec3 traits;  // style, depth (1: on top, 2: well before a surface, 3: only behind one), dashed
 uniform bool is_behind;
 noperspective out vec2 place;  // pixels along the line from its start, and across
 flat out vec2 sizes;           // length and half width in pixels
@@ -30,7 +30,7 @@ const float kMuchNearer = 6e-3;  // rims of wounds: lips may overlap
 
 void main() {
   gl_Position = vec4(2, 2, 2, 1);  // seen by nobody
-  if (is_behind && traits.y != 1u) return;
+  if (is_behind ? traits.y != 1u && traits.y != 3u : traits.y == 3u) return;
   vec4 a = to_clip * (to_view * vec4(from, 1)), b = to_clip * (to_view * vec4(to, 1));
   float da = a.z + a.w, db = b.z + b.w;  // below 0: nearer than the near plane
   if (da < 0.0 && db < 0.0) return;

@@ -10,6 +10,8 @@
 #include "render/canvas.h"
 #include "render/marks_pass.h"
 #include "render/occlusion_pass.h"
+#include "render/shadow_pass.h"
+#include "render/solids_pass.h"
 #include "render/surface_pass.h"
 #include "render/thread_timer.h"
 #include "render/view_matrices.h"
@@ -21,7 +23,9 @@ namespace render {
 namespace {
 
 constexpr unsigned kMostSamples = 16;
-constexpr int kVersion = 33;  // of OpenGL
+constexpr int kVersion = 33;               // of OpenGL
+constexpr double kInstrumentLength = 140;  // mm, at most
+constexpr float kShadowReach = 1.25F;      // of the body's half diagonal
 
 Error bad_argument(const std::string& what) {
   return {ErrorCode::kBadArgument, what, {}};
@@ -61,6 +65,10 @@ void extend(Box& box, const app::Marks& marks) {
   for (const auto& triangle : marks.triangles) {
     for (const auto& corner : triangle.corners) extend(box, corner);
   }
+  // What is nearer than the body must not be cut off.
+  for (const auto& one : marks.instruments) {
+    extend(box, one.tip.cast<float>(), static_cast<float>(kInstrumentLength * one.millimetre));
+  }
 }
 
 double size_of(const Box& box, const app::Camera& camera) {
@@ -68,9 +76,17 @@ double size_of(const Box& box, const app::Camera& camera) {
   return size > 0 ? size : camera.distance;
 }
 
+/// Where colours tell a number, a shadow would tell another.
+bool has_shadows(const app::ViewOptions& options) {
+  return options.shows_shadows && options.color == app::ColorBy::kTissue;
+}
+
 Result<ViewMatrices> make_view(const app::Picture& picture, const app::Viewport& viewport, const Box& body) {
   Box scene = body;
   extend(scene, picture.marks);
+  if (picture.ground) {
+    for (const app::SolidCorner& corner : *picture.ground) extend(scene, corner.at);
+  }
   ViewMatrices view;
   view.to_view = picture.camera.to_view().cast<float>();
   view.to_clip = to_clip(picture.camera, viewport, scene).cast<float>();
@@ -110,18 +126,33 @@ struct Renderer::State {
   SurfacePass surface;
   OcclusionPass occlusion;
   MarksPass marks;
+  SolidsPass solids;
+  ShadowPass shadows;
   DrawStatistics statistics;
 
   Status draw(const app::Picture& picture, const app::Viewport& viewport, unsigned framebuffer);
 
  private:
   Status draw_body(const app::ViewOptions& options, const ViewMatrices& view);
+  Status draw_shadows(const app::Picture& picture, const ViewMatrices& view, const Box& body);
   Status draw_passes(const app::Picture& picture, const ViewMatrices& view);
 };
 
+Status Renderer::State::draw_shadows(const app::Picture& picture, const ViewMatrices& view, const Box& body) {
+  if (!has_shadows(picture.options) || body.is_empty()) return {};
+  const Vec3 centre = 0.5 * (body.lo + body.hi), half = 0.5 * (body.hi - body.lo);
+  const float radius = kShadowReach * static_cast<float>(half.norm());
+  if (!(radius > 0)) return {};
+  if (Status status = shadows.begin(view, centre.cast<float>(), radius); !status.ok()) return status;
+  if (picture.options.shows_surface && statistics.triangles > 0) surface.draw_shadows();
+  solids.draw_shadows();
+  shadows.end();
+  return {};
+}
+
 Status Renderer::State::draw_body(const app::ViewOptions& options, const ViewMatrices& view) {
   if (!options.shows_surface) return {};
-  surface.draw_opaque(options, view);
+  surface.draw_opaque(options, view, has_shadows(options) ? &shadows : nullptr);
   if (!options.shows_occlusion) return {};
   return occlusion.draw(canvas, view, options.color == app::ColorBy::kTissue);
 }
@@ -131,9 +162,11 @@ Status Renderer::State::draw_passes(const app::Picture& picture, const ViewMatri
   const app::ViewOptions& options = picture.options;
   prepare(canvas);
   background.draw(options.theme);
+  if (options.shows_surface) solids.draw_opaque(view, has_shadows(options) ? &shadows : nullptr);
   if (statistics.triangles > 0) {
     if (const Status status = draw_body(options, view); !status.ok()) return status;
   }
+  if (options.shows_surface) solids.draw_ghosts(view);
   marks.draw(options.theme, view);
   if (statistics.triangles == 0) return {};
   if (options.shows_surface && options.skin_opacity < 1) surface.draw_translucent(options, view);
@@ -152,7 +185,9 @@ Status Renderer::State::draw(const app::Picture& picture, const app::Viewport& v
   if (Status status = canvas.fit(viewport, wanted_samples); !status.ok()) return status;
   if (Status status = surface.upload(picture.surface, statistics); !status.ok()) return status;
   marks.upload(picture, statistics);
+  solids.upload(picture, statistics);
   watch.lap();
+  if (Status status = draw_shadows(picture, *view, body); !status.ok()) return status;
   const Status status = draw_passes(picture, *view);
   canvas.show(framebuffer);
   glDisable(GL_DEPTH_TEST);
@@ -181,7 +216,13 @@ Result<Renderer> Renderer::create(unsigned samples) {
   if (!occlusion.ok()) return occlusion.error();
   auto marks = MarksPass::create();
   if (!marks.ok()) return marks.error();
+  auto solids = SolidsPass::create();
+  if (!solids.ok()) return solids.error();
+  auto shadows = ShadowPass::create();
+  if (!shadows.ok()) return shadows.error();
   auto state = std::make_unique<State>();
+  state->solids = std::move(solids).value();
+  state->shadows = std::move(shadows).value();
   state->wanted_samples = samples;
   state->background = std::move(background).value();
   state->surface = std::move(surface).value();

@@ -3,9 +3,12 @@
 
 #include <epoxy/gl.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "app/view/color_map.h"
 #include "render/ink_style.h"
@@ -18,7 +21,25 @@ namespace render {
 namespace {
 
 constexpr int kPaletteWidth = 256;
-enum Unit : int { kLooksUnit, kPaletteUnit };
+constexpr int kNoiseSide = 32;
+enum Unit : int { kLooksUnit, kPaletteUnit, kNoiseUnit, kShadowUnit };
+
+/// Random values on a grid, smoothed by the filter of the texture.
+GlObject make_noise() {
+  std::vector<unsigned char> values(std::size_t{kNoiseSide} * kNoiseSide * kNoiseSide);
+  std::uint32_t state = 1;
+  for (unsigned char& value : values) {
+    state = state * 1664525U + 1013904223U;  // the high bits of it are random enough for tissue
+    value = static_cast<unsigned char>(state >> 24U);
+  }
+  GlObject noise = make_texture();
+  glBindTexture(GL_TEXTURE_3D, noise.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, kNoiseSide, kNoiseSide, kNoiseSide, 0, GL_RED, GL_UNSIGNED_BYTE, values.data());
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return noise;
+}
 
 GlObject make_palette() {
   std::array<std::array<app::Color, kPaletteWidth>, 2> rows;
@@ -34,9 +55,9 @@ GlObject make_palette() {
   return palette;
 }
 
-void attach(unsigned place, unsigned buffer) {
+void attach(unsigned place, unsigned buffer, int floats) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer);
-  glVertexAttribPointer(place, 3, GL_FLOAT, GL_FALSE, sizeof(Eigen::Vector3f), nullptr);
+  glVertexAttribPointer(place, floats, GL_FLOAT, GL_FALSE, 0, nullptr);
   glEnableVertexAttribArray(place);
 }
 
@@ -50,6 +71,14 @@ Result<SurfacePass> SurfacePass::create() {
   if (!some.ok()) return some.error();
   auto wire = make_program("wireframe", "#define WIRE\n", kSurfaceVertex, kSurfaceFragment);
   if (!wire.ok()) return wire.error();
+  const std::string shaded = std::string(kShadowFunction) + kSurfaceFragment;
+  auto all_shaded = make_program("surface with shadows", kShadowLookup, kSurfaceVertex, shaded);
+  if (!all_shaded.ok()) return all_shaded.error();
+  auto some_shaded = make_program("part of the surface with shadows",
+                                  std::string(kShadowLookup) + "#define ONLY_SOME\n", kSurfaceVertex, shaded);
+  if (!some_shaded.ok()) return some_shaded.error();
+  pass.all_shaded_ = std::move(all_shaded).value();
+  pass.some_shaded_ = std::move(some_shaded).value();
   pass.all_ = std::move(all).value();
   pass.some_ = std::move(some).value();
   pass.wire_ = std::move(wire).value();
@@ -60,14 +89,17 @@ Result<SurfacePass> SurfacePass::create() {
 void SurfacePass::set_up() {
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_looks_);
   palette_ = make_palette();
+  noise_ = make_noise();
   positions_ = MirroredBuffer(GL_ARRAY_BUFFER);
   normals_ = MirroredBuffer(GL_ARRAY_BUFFER);
+  places_ = MirroredBuffer(GL_ARRAY_BUFFER);
   triangles_ = MirroredBuffer(GL_ELEMENT_ARRAY_BUFFER);
   looks_ = MirroredBuffer(GL_TEXTURE_BUFFER);
   array_ = make_vertex_array();
   glBindVertexArray(array_.id());
-  attach(0, positions_.id());
-  attach(1, normals_.id());
+  attach(0, positions_.id(), 3);
+  attach(1, normals_.id(), 3);
+  attach(2, places_.id(), 4);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
   glBindBuffer(GL_TEXTURE_BUFFER, looks_.id());
   looks_texture_ = make_texture();
@@ -111,6 +143,8 @@ Status SurfacePass::upload(const app::SurfaceFrame& frame, DrawStatistics& stati
   const bool is_new = frame.topology != topology_;
   if (is_new) {
     bytes += triangles_.update(topology.triangles.data(), topology.triangles.size(), sizeof topology.triangles[0]);
+    find_places(frame);
+    bytes += places_.update(place_of_.data(), place_of_.size(), sizeof place_of_[0]);
     look_bytes = looks_.update(topology.looks.data(), topology.looks.size(), sizeof(app::TriangleLook));
   }
   topology_ = frame.topology;
@@ -129,6 +163,21 @@ Status SurfacePass::upload(const app::SurfaceFrame& frame, DrawStatistics& stati
   return {};
 }
 
+/// A surface without a rest shape is at rest as it is first seen.
+void SurfacePass::find_places(const app::SurfaceFrame& frame) {
+  const app::SurfaceTopology& topology = *frame.topology;
+  const std::size_t points = frame.positions.size();
+  const std::vector<Eigen::Vector3f>& rest = topology.rest.size() == points ? topology.rest : frame.positions;
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& at : rest) box.extend(at);
+  extent_ = box.isEmpty() || !(box.diagonal().norm() > 0) ? 1.0F : box.diagonal().norm();
+  place_of_.resize(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const float depth = topology.depths.size() == points ? topology.depths[i] : 0.0F;
+    place_of_[i] << rest[i] / extent_, depth / extent_;
+  }
+}
+
 void SurfacePass::use(const GlObject& program, const app::ViewOptions& options, const ViewMatrices& view,
                       Only only) const {
   const Grounds grounds = grounds_of(options.theme);
@@ -138,13 +187,19 @@ void SurfacePass::use(const GlObject& program, const app::ViewOptions& options, 
   glUniform1i(location(program, "looks"), kLooksUnit);
   glUniform1i(location(program, "palette"), kPaletteUnit);
   glUniform1i(location(program, "color_by"), static_cast<int>(options.color));
+  glUniform1i(location(program, "tissue_look"), static_cast<int>(options.look));
+  glUniform1ui(location(program, "red_from"), app::quality_byte(app::kRedRatio));
   glUniform1i(location(program, "only"), static_cast<int>(only));
   glUniform1i(location(program, "shows_newest"), options.shows_newest ? 1 : 0);
   glUniform1i(location(program, "is_flat_light"), options.color == app::ColorBy::kTissue ? 0 : 1);
   glUniform1f(location(program, "opacity"), only == Only::kSkin ? static_cast<float>(options.skin_opacity) : 1.0F);
   glUniform1f(location(program, "rim"), grounds.rim);
+  glUniform1f(location(program, "extent"), extent_);
+  glUniform1i(location(program, "noise"), kNoiseUnit);
   glUniform3f(location(program, "lone_wire"), options.shows_surface ? -1.0F : grounds.lone_wire[0],
               grounds.lone_wire[1], grounds.lone_wire[2]);
+  glActiveTexture(GL_TEXTURE0 + kNoiseUnit);
+  glBindTexture(GL_TEXTURE_3D, noise_.id());
   glActiveTexture(GL_TEXTURE0 + kPaletteUnit);
   glBindTexture(GL_TEXTURE_2D, palette_.id());
   glActiveTexture(GL_TEXTURE0 + kLooksUnit);
@@ -157,9 +212,13 @@ void SurfacePass::draw() const {
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * topology_->triangles.size()), GL_UNSIGNED_INT, nullptr);
 }
 
-void SurfacePass::draw_opaque(const app::ViewOptions& options, const ViewMatrices& view) const {
+void SurfacePass::draw_opaque(const app::ViewOptions& options, const ViewMatrices& view,
+                              const ShadowPass* shadows) const {
   const bool has_skin = options.skin_opacity >= 1;
-  use(has_skin ? all_ : some_, options, view, has_skin ? Only::kAll : Only::kNoSkin);
+  const GlObject& plain = has_skin ? all_ : some_;
+  const GlObject& shaded = has_skin ? all_shaded_ : some_shaded_;
+  use(shadows != nullptr ? shaded : plain, options, view, has_skin ? Only::kAll : Only::kNoSkin);
+  if (shadows != nullptr) shadows->bind(shaded, kShadowUnit);
   // Lines then lie before the triangles that they belong to.
   if (options.shows_wireframe) glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1, 1);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "app/view/picture.h"
 #include "incise/core/result.h"
 #include "render/gl_object.h"
 #include "render/mirrored_buffer.h"
 #include "render/renderer.h"
+#include "render/shadow_pass.h"
 #include "render/surface_normals.h"
 #include "render/view_matrices.h"
 
@@ -25,7 +27,10 @@ class SurfacePass {
   Status upload(const app::SurfaceFrame& frame, DrawStatistics& statistics);
 
   /// Skin, walls and triangles inside; without skin where that is translucent. Writes depth.
-  void draw_opaque(const app::ViewOptions& options, const ViewMatrices& view) const;
+  /// `shadows`: null for none.
+  void draw_opaque(const app::ViewOptions& options, const ViewMatrices& view, const ShadowPass* shadows) const;
+  /// Depths alone, for the program that is in use.
+  void draw_shadows() const { draw(); }
   /// Skin by its opacity over what is there: what faces away first, then the nearest that faces the eye.
   void draw_translucent(const app::ViewOptions& options, const ViewMatrices& view) const;
   /// Lines of one pixel, dark on bright ground and bright on dark.
@@ -39,9 +44,14 @@ class SurfacePass {
   void use(const GlObject& program, const app::ViewOptions& options, const ViewMatrices& view, Only only) const;
   void draw() const;
 
-  GlObject all_, some_, wire_;  // programs; `some_` leaves triangles out
-  GlObject array_, palette_, looks_texture_;
-  MirroredBuffer positions_, normals_, triangles_, looks_;
+  GlObject all_, some_, wire_;         // programs; `some_` leaves triangles out
+  GlObject all_shaded_, some_shaded_;  // with shadows
+  void find_places(const app::SurfaceFrame& frame);
+
+  GlObject array_, palette_, noise_, looks_texture_;
+  MirroredBuffer positions_, normals_, places_, triangles_, looks_;
+  std::vector<Eigen::Vector4f> place_of_;  // per point: in the rest shape, and its depth, in extents of the body
+  float extent_ = 1;                       // of the body at rest, length units
   SurfaceNormals averages_;
   std::shared_ptr<const app::SurfaceTopology> topology_;  // as uploaded
   int most_looks_ = 0;

@@ -192,6 +192,22 @@ TEST(CInterface, compact_arrays_are_those_of_the_live_slots) {
   }
 }
 
+TEST(CInterface, compact_arrays_that_are_too_small_are_left_alone) {
+  const EngineHandle engine = cube(2);
+  const incise_counts all = counts(engine.get());
+  std::vector<double> points(3 * all.vertices, 7);
+  auto compact = sized<incise_compact>();
+  compact.points = points.data();
+  compact.vertex_room = all.vertices;
+  compact.tet_room = all.tets;
+  cut_plane(engine.get(), 1, 0.2, 0.1, 0.52);
+  EXPECT_EQ(incise_engine_compact(engine.get(), &compact), INCISE_BAD_ARGUMENT);
+  EXPECT_EQ(points, std::vector<double>(3 * all.vertices, 7));
+  ASSERT_EQ(incise_engine_undo(engine.get(), nullptr), INCISE_OK);
+  EXPECT_EQ(incise_engine_compact(engine.get(), &compact), INCISE_OK) << incise_last_error();
+  EXPECT_EQ(points[0], 0);
+}
+
 TEST(CInterface, surface_is_counted_first_and_then_written) {
   const EngineHandle engine = cube(2);
   std::uint64_t count = 0;
@@ -371,6 +387,44 @@ TEST(CInterface, the_log_says_what_could_not_be_done) {
   stroke.n_points = 2;
   stroke.name = "beside";
   EXPECT_EQ(incise_engine_cut(engine.get(), &stroke, nullptr), INCISE_OK) << incise_last_error();
+}
+
+TEST(CInterface, numbers_that_were_negative_are_refused) {
+  const EngineHandle engine = cube(2);
+  const double edge[6] = {0.5, -1, 2, 0.5, 2, 2}, times[2] = {0, 1};
+  EXPECT_EQ(incise_engine_begin_stroke(engine.get(), edge, std::uint64_t(-1), nullptr, nullptr), INCISE_BAD_ARGUMENT);
+  EXPECT_NE(std::string(incise_last_error()).find("negative"), std::string::npos);
+  auto stroke = sized<incise_stroke>();
+  stroke.times = times;
+  stroke.points = edge;
+  stroke.n_times = std::uint64_t(-1);
+  stroke.n_points = 1;
+  EXPECT_EQ(incise_engine_cut(engine.get(), &stroke, nullptr), INCISE_BAD_ARGUMENT);
+  stroke.n_times = 1;
+  stroke.n_points = std::uint64_t(-2);
+  EXPECT_EQ(incise_engine_cut(engine.get(), &stroke, nullptr), INCISE_BAD_ARGUMENT);
+}
+
+TEST(CInterface, followers_of_one_engine_refuse_another) {
+  const EngineHandle other = cube(4);
+  incise_attributes* attributes = nullptr;
+  incise_cursor* cursor = nullptr;
+  {
+    const EngineHandle engine = cube(2);
+    ASSERT_EQ(incise_attributes_create(engine.get(), &attributes), INCISE_OK);
+    ASSERT_EQ(incise_cursor_create(engine.get(), &cursor), INCISE_OK);
+  }
+  const EngineHandle next = cube(2);  // likely where the first one was
+  std::int32_t way = 0;
+  for (incise_engine* wrong : {other.get(), next.get()}) {
+    cut_plane(wrong, 1, 0.1, 0, 0.4);
+    EXPECT_EQ(incise_attributes_follow(attributes, wrong), INCISE_BAD_ARGUMENT);
+    EXPECT_NE(std::string(incise_last_error()).find("another engine"), std::string::npos);
+    EXPECT_EQ(incise_cursor_way(cursor, wrong, &way, nullptr), INCISE_BAD_ARGUMENT);
+    EXPECT_EQ(incise_cursor_move(cursor, wrong), INCISE_BAD_ARGUMENT);
+  }
+  EXPECT_EQ(incise_cursor_free(cursor), INCISE_OK);
+  EXPECT_EQ(incise_attributes_free(attributes), INCISE_OK);
 }
 
 TEST(CInterface, attributes_follow_their_engine) {

@@ -9,6 +9,7 @@
 #include "app/scene/scene.h"
 #include "app/scene/scene_simulation.h"
 #include "handle.h"
+#include "incise/mesh/shapes.h"
 
 namespace {
 
@@ -72,7 +73,7 @@ TEST(CSimulation, its_engine_is_to_be_read) {
 
 TEST(CSimulation, hooks_pull_and_tools_press) {
   const SimulationHandle simulation = hanging_cube();
-  incise_hook hook{7, 0, {0.5, 0.5, 0}, 0.3, 200};
+  incise_hook hook{7, 0, {0.5, 0.5, 0}, 0.3, 200, 0, 0, 0};
   incise_tool plane{INCISE_TOOL_PLANE, 0, {1, 0, 0}, {0, 0, 0}, 0, 0.1, nullptr, 0};
   auto input = sized<incise_frame_input>();
   input.hooks = &hook;
@@ -135,7 +136,11 @@ TEST(CSimulation, of_arrays_is_held_by_hand) {
   auto body = sized<incise_body_options>();
   ASSERT_EQ(incise_default_body_options(&body, sizeof body), INCISE_OK);
   body.length_unit = 0.1;
-  const incise_material stiff{0, 1, 1000, 50e3, 0.4, 0, 0};
+  incise_material stiff{};
+  stiff.is_fallback = 1;
+  stiff.density = 1000;
+  stiff.young = 50e3;
+  stiff.poisson = 0.4;
   auto options = sized<incise_simulation_options>();
   ASSERT_EQ(incise_default_simulation_options(&options, sizeof options), INCISE_OK);
   options.body = &body;
@@ -169,6 +174,68 @@ TEST(CSimulation, of_arrays_is_held_by_hand) {
   ASSERT_EQ(incise_simulation_velocities(made, velocities.data(), mesh.n_points, &count), INCISE_OK);
   EXPECT_EQ(count, mesh.n_points);
   EXPECT_NEAR(velocities[2], 1, 1e-6);
+}
+
+/// The law of a material as C++ has it: the same hash; numbers out of range are refused with the same words.
+TEST(CSimulation, materials_have_all_that_those_of_the_library_have) {
+  const TetSoup soup = kuhn_cube(3);
+  std::vector<double> points;
+  std::vector<std::uint32_t> tets;
+  for (const Vec3& p : soup.points) points.insert(points.end(), p.data(), p.data() + 3);
+  for (const auto& tet : soup.tets) tets.insert(tets.end(), tet.begin(), tet.end());
+  auto mesh = sized<incise_mesh_arrays>();
+  mesh.points = points.data();
+  mesh.n_points = points.size() / 3;
+  mesh.tets = tets.data();
+  mesh.n_tets = tets.size() / 4;
+  incise_material c{};
+  c.is_fallback = 1;
+  c.density = 900;
+  c.young = 2e4;
+  c.poisson = 0.3;
+  c.stiffening = 5;
+  c.rupture = 0.2;
+  c.fibre[1] = 2;
+  c.fibre_young = 1e4;
+  c.prony[0] = 0.5;
+  c.prony[1] = 0.2;
+  auto options = sized<incise_simulation_options>();
+  ASSERT_EQ(incise_default_simulation_options(&options, sizeof options), INCISE_OK);
+  options.materials = &c;
+  options.n_materials = 1;
+  SimulationOptions expected;
+  Material& material = expected.materials.fallback;
+  material = {900, 2e4, 0.3, 0, 0, 5, 0.2};
+  material.fibre = {0, 2, 0};
+  material.fibre_young = 1e4;
+  material.prony[0] = {0.5, 0.2};
+  Simulation same = Simulation::create(TetMesh::build(soup).value(), expected).value();
+  incise_simulation* made = nullptr;
+  ASSERT_EQ(incise_simulation_create(&mesh, &options, &made), INCISE_OK) << incise_last_error();
+  const SimulationHandle simulation(made);
+  ASSERT_EQ(incise_simulation_pin(made, 0, 100, 0.5, 1), INCISE_OK);
+  ASSERT_TRUE(same.body().hold(VertexId(0), 100, {0.5, true}).ok());
+  EXPECT_EQ(incise_simulation_pin(made, 0, 100, 0, 1), INCISE_BAD_ARGUMENT);
+  for (int i = 0; i < 5; ++i) {
+    auto input = sized<incise_frame_input>();
+    incise_hook hook{};
+    hook.position[2] = 1 + 0.02 * i;
+    hook.radius = 0.4;
+    hook.stiffness = 50;
+    hook.strength = 1;
+    input.hooks = &hook;
+    input.n_hooks = 1;
+    auto report = sized<incise_frame_report>();
+    ASSERT_EQ(incise_simulation_frame(made, &input, &report), INCISE_OK) << incise_last_error();
+    FrameInput there;
+    there.hooks.push_back({0, Vec3(0, 0, 1 + 0.02 * i), 0.4, 50});
+    there.hooks[0].strength = 1;
+    ASSERT_TRUE(same.frame(there).ok());
+  }
+  EXPECT_EQ(state_of(made).hash, same.hash());
+  c.fibre[1] = 0;
+  EXPECT_EQ(incise_simulation_create(&mesh, &options, &made), INCISE_BAD_ARGUMENT);
+  EXPECT_NE(std::string(incise_last_error()).find("fibres need a direction"), std::string::npos);
 }
 
 TEST(CSimulation, bad_scenes_are_errors) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Prints what a blade's steps through a body cost from C, in CPU ms, and the hash that they leave: the least of several
- * rounds of one stroke. usage: incise_c_step_cost MESH|- ROUNDS STEPS     -: a box of 10,368 tets */
+ * Prints the hash that a blade's steps through a body leave, and what each step costs from C, in CPU ms: the least of
+ * several rounds of one stroke. usage: incise_c_step_cost MESH|- ROUNDS STEPS     -: a box of 10,368 tets */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,20 +49,22 @@ static void place(const struct box* b, double share, double edge[6]) {
   edge[2] = edge[5] = b->high[2] + 0.05 * z - 1.1 * share * z;
 }
 
-static int cut_once(incise_engine* engine, const struct box* bounds, int steps, double* ms, uint64_t* hash) {
+/* Keeps in `least` what is less there for each step. */
+static int cut_once(incise_engine* engine, const struct box* bounds, int steps, double* least, uint64_t* hash) {
   double edge[6];
   incise_report report;
-  clock_t began;
   int i;
   report.size = sizeof report;
   place(bounds, 0, edge);
   if (incise_engine_begin_stroke(engine, edge, 2, NULL, NULL)) return 1;
-  began = clock();
   for (i = 1; i <= steps; ++i) {
+    const clock_t began = clock();
+    double ms;
     place(bounds, (double)i / steps, edge);
     if (incise_engine_step(engine, edge, 2, NULL, &report)) return 1;
+    ms = 1e3 * (double)(clock() - began) / CLOCKS_PER_SEC;
+    if (ms < least[i - 1]) least[i - 1] = ms;
   }
-  *ms = 1e3 * (double)(clock() - began) / CLOCKS_PER_SEC;
   if (incise_engine_end_stroke(engine, NULL) || incise_engine_hash(engine, hash)) return 1;
   return incise_engine_undo(engine, NULL);
 }
@@ -70,16 +72,20 @@ static int cut_once(incise_engine* engine, const struct box* bounds, int steps, 
 int main(int argc, char** argv) {
   incise_engine* engine = NULL;
   struct box bounds;
-  double least = 1e30, ms = 0;
+  double* least = NULL;
   uint64_t hash = 0;
-  int round;
-  if (argc != 4) return 2;
+  int round, steps, i;
+  if (argc != 4 || (steps = atoi(argv[3])) < 1) return 2;
+  least = malloc((size_t)steps * sizeof *least);
+  if (least == NULL) return 1;
+  for (i = 0; i < steps; ++i) least[i] = 1e30;
   if (open_body(argv[1], &engine) || find_bounds(engine, &bounds)) goto failed;
   for (round = 0; round < atoi(argv[2]); ++round) {
-    if (cut_once(engine, &bounds, atoi(argv[3]), &ms, &hash)) goto failed;
-    if (ms < least) least = ms;
+    if (cut_once(engine, &bounds, steps, least, &hash)) goto failed;
   }
-  printf("%.3f %08lx%08lx\n", least, (unsigned long)(hash >> 32), (unsigned long)(hash & 0xFFFFFFFFu));
+  printf("%08lx%08lx\n", (unsigned long)(hash >> 32), (unsigned long)(hash & 0xFFFFFFFFu));
+  for (i = 0; i < steps; ++i) printf("%.4f\n", least[i]);
+  free(least);
   return incise_engine_free(engine);
 failed:
   fprintf(stderr, "%s\n", incise_last_error());

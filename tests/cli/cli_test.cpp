@@ -24,7 +24,8 @@ Outcome run_plain_cut(std::vector<std::string> arguments) {
 TEST(Cli, cuts_by_the_methods_that_the_paper_cites) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(5));
-  const std::vector<std::pair<std::string, int>> tets = {{"removal", 600}, {"snapping", 750}, {"minimal", 1300}};
+  const std::vector<std::pair<std::string, int>> tets = {{"removal", 600},   {"snapping", 750},   {"moving", 1300},
+                                                         {"adaptive", 2450}, {"seventeen", 3750}, {"minimal", 1300}};
   for (const auto& [method, count] : tets) {
     const std::string out = folder / (method + ".vtu");
     const Outcome outcome = run({"cut", cube, "--plane", "1,0,0,0.5", "--profile", method, "-o", out, "--report", "-"});
@@ -42,7 +43,7 @@ TEST(Cli, cuts_by_the_methods_that_the_paper_cites) {
 TEST(Cli, cuts_by_a_cited_method_along_every_stroke_of_a_blade_file) {
   const Folder folder;
   const std::string cube = folder.write("cube.mesh", cube_mesh(5));
-  for (const std::string method : {"removal", "snapping", "minimal"}) {
+  for (const std::string method : {"removal", "snapping", "moving", "adaptive", "seventeen", "minimal"}) {
     const Outcome cut =
         run({"cut", cube, "--blade", INCISE_SCENES "/cube_cross.json", "--profile", method, "--report", "-"});
     ASSERT_EQ(cut.code, 0) << method << cut.err;

@@ -85,6 +85,59 @@ TEST(CliMesh, the_mesh_can_be_cut) {
   EXPECT_EQ(json::parse(cut.out)["mesh"]["after"]["components"], 2);
 }
 
+TEST(CliMesh, grows_layers_whose_names_files_and_reports_have) {
+  const Folder folder;
+  const std::string image = folder.write("balls.mha", balls());
+  const std::string names = folder.write("names.txt", "1 muscle\n");
+  for (const std::string name : {"a.msh", "a.vtu", "a.mesh"}) {
+    const Outcome mesh = run({"mesh", image, "-o", folder / name, "--size", "4", "--layers", "skin=2.5", "--layers-in",
+                              "1", "--names", names, "--report", "-"});
+    ASSERT_EQ(mesh.code, 0) << mesh.err;
+    const json report = json::parse(mesh.out);
+    EXPECT_EQ(report["layers"], json::parse(R"([{"label": 3, "name": "skin", "thickness": 2.5}])"));
+    EXPECT_EQ(report["labels"][2]["name"], "skin");
+    const auto file = incise::io::read_mesh(folder / name);
+    ASSERT_TRUE(file.ok());
+    EXPECT_EQ(file->data.region_names, (incise::io::RegionNames{{1, "muscle"}, {3, "skin"}})) << name;
+  }
+  EXPECT_EQ(run({"convert", folder / "a.msh", folder / "b.vtu"}).code, 0);
+  EXPECT_EQ(incise::io::read_mesh(folder / "b.vtu")->data.region_names.at(3), "skin");
+}
+
+TEST(CliMesh, a_cut_stops_at_a_region_by_its_name) {
+  const Folder folder;
+  const std::string image = folder.write("balls.mha", balls());
+  const std::string names = folder.write("names.txt", "2 core\n"), mesh = folder / "a.msh", cut = folder / "b.msh";
+  ASSERT_EQ(run({"mesh", image, "-o", mesh, "--size", "2.5", "--names", names}).code, 0);
+  const std::string blade =
+      folder.write("blade.json", R"({"format": "incise-blade", "version": 1, "strokes": [{"edges": [
+        {"t": 0, "points": [[-16.5, 8, 40], [-16.5, 8, 31]]}, {"t": 1, "points": [[-16.5, 8, 31], [-16.5, 8, 17]]},
+        {"t": 2, "points": [[-16.5, -6, 31], [-16.5, -6, 17]]}]}]})");
+  const Outcome held = run({"cut", mesh, "--blade", blade, "--stop-at", "Core", "-o", cut});
+  ASSERT_EQ(held.code, 0) << held.err;
+  const auto file = incise::io::read_mesh(cut);
+  ASSERT_TRUE(file.ok());
+  EXPECT_EQ(file->data.region_names.at(2), "core");
+  EXPECT_GT(file->data.triangles.size(), 20U);
+  const Outcome missing = run({"cut", mesh, "--blade", blade, "--stop-at", "liver", "-o", cut});
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_NE(missing.err.find("called \"liver\"; there are core"), std::string::npos) << missing.err;
+  // The blade file may say so itself: the same cut, by name or number.
+  const std::string text = read(blade);
+  for (const char* stop : {R"("Core")", "2", R"(2,"core")"}) {
+    const std::string stops = folder.write("stops.json", std::string(R"({"format": "incise-blade", "version": 1,
+      "strokes": [{"stop_at": [)") + stop + "]," + text.substr(text.find("\"edges\"")));
+    ASSERT_EQ(run({"cut", mesh, "--blade", stops, "-o", folder / "c.msh"}).code, 0) << stop;
+    EXPECT_EQ(read(folder / "c.msh"), read(cut)) << stop;
+  }
+  const std::string bad = folder.write("bad.json", std::string(R"({"format": "incise-blade", "version": 1,
+      "strokes": [{"name": "deep", "stop_at": ["liver"],)") +
+                                                       text.substr(text.find("\"edges\"")));
+  const Outcome unknown = run({"cut", mesh, "--blade", bad, "-o", cut});
+  EXPECT_EQ(unknown.code, 3);
+  EXPECT_NE(unknown.err.find("bad.json: stroke 0 (deep): stop_at: no region"), std::string::npos) << unknown.err;
+}
+
 TEST(CliMesh, makes_a_mesh_of_a_surface) {
   const Folder folder;
   const std::string cube = folder.write("cube.obj",
@@ -113,6 +166,10 @@ TEST(CliMesh, says_what_is_wrong_and_writes_nothing) {
   expect(2, "two labels are needed", {"--merge", "9"});
   expect(2, "smoothing must lie in", {"--smooth", "0.1"});
   expect(2, "0 to 4 times", {"--halvings", "9"});
+  expect(2, "a name and a thickness in mm are needed", {"--layers", "skin"});
+  expect(2, "layer skin of 0.5 mm is thinner than 1.2 times the finest tets", {"--layers", "skin=0.5"});
+  expect(2, "give them by --layers", {"--layers-in", "1"});
+  expect(3, "has no label 5", {"--layers", "skin=2", "--layers-in", "5"});
   expect(2, "two files of this command", {"--report", out});
   expect(3, "names.txt:1: a label and its name are needed", {"--names", folder.write("names.txt", "liver 1\n")});
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"balls.mha", "names.txt"}));

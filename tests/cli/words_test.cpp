@@ -77,7 +77,7 @@ TEST(Completion, of_bash_knows_commands_options_and_values) {
   if (!has_program("bash")) GTEST_SKIP() << "there is no bash";
   EXPECT_EQ(completed("incise c"), "check cut convert completion\n");
   EXPECT_EQ(completed("incise cut --re"), "--report --record\n");
-  EXPECT_EQ(completed("incise cut --profile ''"), "incise paper removal snapping minimal\n");
+  EXPECT_EQ(completed("incise cut --profile ''"), "incise paper removal snapping moving adaptive seventeen minimal\n");
   EXPECT_EQ(completed("incise -q cut --pla"), "--plane\n");
   EXPECT_EQ(completed("incise cut cube.m"), "\n") << "files are the shell's own";
   EXPECT_EQ(completed("incise convert a.vtu b.msh --format msh2"), "msh22\n");
@@ -98,7 +98,8 @@ TEST(Completion, is_for_shells_that_are_known) {
 }
 
 TEST(Manual, says_of_every_command_what_its_help_says) {
-  for (const std::string command : {"info", "check", "cut", "improve", "simulate", "replay", "convert", "completion"}) {
+  for (const std::string command :
+       {"info", "check", "cut", "improve", "simulate", "replay", "batch", "convert", "completion"}) {
     const std::string page = run({"man", command}).out;
     EXPECT_EQ(page.rfind(".TH INCISE\\-", 0), 0U) << page;
     EXPECT_NE(page.find(".SH EXAMPLES\n"), std::string::npos) << command;

@@ -94,10 +94,22 @@ TEST(Crumbs, hang_on_no_face_that_stood_open_before) {
   EXPECT_TRUE(cut.hangs(cut.b, dropped));
 }
 
-TEST(Crumbs, that_may_hang_on_nothing_fall) {
+TEST(Crumbs, of_a_piece_that_is_all_crumbs_stay_together) {
   CutOut cut;
   CrumbRules rules = all_are_crumbs();
   rules.are_apart = [&](TetId x, TetId y) { return (x == cut.a || x == cut.b) != (y == cut.a || y == cut.b); };
+  std::vector<IncisionFace> incision = cut.faces, dropped;
+  CrumbScratch scratch;
+  EXPECT_EQ(keep_crumbs(cut.mesh, rules, incision, dropped, scratch), 1U);
+  EXPECT_EQ(incision.size(), 6U);
+  ASSERT_EQ(dropped.size(), 1U);
+  EXPECT_EQ(dropped.front().a, cut.faces.front().a) << "the face between the two";
+}
+
+TEST(Crumbs, that_may_hang_on_nothing_fall) {
+  CutOut cut;
+  CrumbRules rules = all_are_crumbs();
+  rules.are_apart = [](TetId, TetId) { return true; };
   std::vector<IncisionFace> incision = cut.faces, dropped;
   CrumbScratch scratch;
   EXPECT_EQ(keep_crumbs(cut.mesh, rules, incision, dropped, scratch), 0U);

@@ -68,6 +68,34 @@ TEST(NeverHeals, beside_vertices_that_take_part_in_the_cut) {
   }
 }
 
+/// The edges at a vertex are crossed near it, and once more: what had come off around it is in no child of the masters
+/// made anew. It ends there, and its vertex with it: that is no vertex of the piece around.
+TEST(NeverHeals, a_vertex_ends_with_its_crumb) {
+  Random random(11);
+  for (std::uint64_t seed = 80; seed < 85; ++seed) {
+    FlaggedBody body(jittered_cube(2, seed));
+    const VertexId middle(13);  // of 27
+    const auto cross_around = [&] {
+      for (std::uint32_t edge = 0; edge < body.complex().edges().size(); ++edge) {
+        const ClosedEdge& at = body.complex().edges()[edge];
+        if (at.a == middle || at.b == middle) body.toggle(edge, at.a == middle ? 0.2 : 0.8);
+      }
+      body.stand(random, 0.05);
+    };
+    const Rebuild::Settings settings{.keeps_crumbs = false, .keeps_pieces = true};
+    cross_around();
+    body.rebuild(settings);
+    ASSERT_EQ(find_components(body.mesh()).count(), 2U);
+    cross_around();
+    const TetMesh before = body.mesh();
+    body.rebuild(settings);
+    EXPECT_FALSE(body.mesh().is_live(middle));
+    expect_no_join(before, body.mesh(), body.last_step());
+    const ValidityReport report = validate(body.mesh(), ValidateLevel::kGeometry);
+    EXPECT_TRUE(report.ok) << describe(report);
+  }
+}
+
 TEST(PieceFinder, agrees_with_the_components_of_the_whole) {
   Random random(10);
   for (std::uint64_t seed = 70; seed < 80; ++seed) {

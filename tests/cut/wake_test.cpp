@@ -30,7 +30,7 @@ class LongCut {
     const auto touches = [](const SweptSurface& /*surface*/) { return true; };
     BladeMotion::Move move = motion_.advance(row_at(x), cut_.sheet(), touches, {}, false);
     if (move.strip == nullptr) return false;
-    static_cast<void>(cut_.crosses_own_cut(mesh_, *move.strip, 0.05));
+    static_cast<void>(cut_.crosses_own_cut(context(), *move.strip, 0.05));
     if (cut_.comes_back(mesh_, *move.strip)) return true;
     EXPECT_TRUE(cut_.advance(context(), std::move(move.strip), {}));
     cut_.bake(context(), {}, {});
@@ -44,7 +44,7 @@ class LongCut {
     for (const Vec3& p : corners) surface.points.push_back({p, next_key_++});
     surface.triangles = {{{0, 1, 2}, 0, 0}, {{0, 2, 3}, 0, 0}};
     const Strip strip(std::move(surface), {});
-    static_cast<void>(cut_.crosses_own_cut(mesh_, strip, 0.05));
+    static_cast<void>(cut_.crosses_own_cut(context(), strip, 0.05));
     return cut_.comes_back(mesh_, strip);
   }
   void finish() { cut_.finish(context(), {}); }

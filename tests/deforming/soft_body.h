@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "examples/journal_mirror.h"
 #include "incise/geom/box.h"
 #include "incise/mesh/journal.h"
+#include "incise/mesh/journal_mirror.h"
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise::test {
@@ -56,8 +56,8 @@ class SoftBody {
 
   /// The places of all vertex slots, for `Engine::set_positions`.
   [[nodiscard]] std::vector<Vec3> positions() const { return mirror_.positions(); }
-  [[nodiscard]] const examples::JournalMirror& mirror() const { return mirror_; }
-  [[nodiscard]] examples::JournalMirror& mirror() { return mirror_; }
+  [[nodiscard]] const JournalMirror& mirror() const { return mirror_; }
+  [[nodiscard]] JournalMirror& mirror() { return mirror_; }
 
   [[nodiscard]] double elastic_energy() const;
   [[nodiscard]] double kinetic_energy() const;
@@ -68,7 +68,7 @@ class SoftBody {
   [[nodiscard]] std::size_t inverted() const;
 
  private:
-  using Vertex = examples::JournalMirror::Vertex;
+  using Vertex = JournalMirror::Vertex;
 
   struct Element {
     std::array<std::uint32_t, 4> v;
@@ -109,7 +109,7 @@ class SoftBody {
   void sweep(unsigned count, const PullOf& pull_of);
 
   SoftBodyOptions options_;
-  examples::JournalMirror mirror_;
+  JournalMirror mirror_;
   Box bounds_;  // at rest, of the whole body
   double mu_, lambda_;
   std::vector<Element> elements_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "incise/engine/simulation.h"
+#include "incise/mesh/join.h"
 #include "incise/mesh/validate.h"
 #include "support/bodies.h"
 
@@ -103,15 +104,54 @@ bool run_touching(const char* name, SimulationOptions options) {
   return is_sound;
 }
 
+/// Bone in the middle of a cube, which is held at one side, cut through with its bone, and drawn by a hook that slips;
+/// a second cube falls on it.
+bool run_bony(const char* name, SimulationOptions options) {
+  TetSoup soup = jittered_cube(5, 12);
+  for (const auto& tet : soup.tets) {
+    Vec3 centre = Vec3::Zero();
+    for (const std::uint32_t v : tet) centre += 0.25 * soup.points[v];
+    soup.regions.push_back((centre - Vec3(0.6, 0.5, 0.5)).cwiseAbs().maxCoeff() < 0.3 ? 7 : 0);
+  }
+  append(kuhn_cube(2), Vec3(0.1, 0.2, 1.05), soup);
+  Material bone = options.materials.fallback;
+  bone.rigid = true;
+  options.materials.by_region = {{7, bone}};
+  options.body.self.on = true;
+  Simulation simulation = Simulation::create(TetMesh::build(std::move(soup)).value(), std::move(options)).value();
+  hold_below(simulation, 0.1);
+  std::vector<FrameInput> inputs;
+  for (unsigned i = 0; i < 30; ++i) {
+    FrameInput input = i < 12 ? blade_at(i) : FrameInput{};
+    input.hooks.push_back({1, Vec3(0.9 + 0.02 * i, 0.5, 0.9), 0.3, 50, HookReach::kBall, 0, 2, false});
+    inputs.push_back(std::move(input));
+  }
+  bool is_sound = run(name, simulation, inputs);
+  is_sound &= simulation.undo() && simulation.frame({}).ok() && print(name, 31, simulation);
+  return is_sound;
+}
+
 }  // namespace
 
 bool run_all_simulated(unsigned threads) {
-  SimulationOptions tough = soft_options(threads), projected = soft_options(threads), paper = soft_options(threads);
+  SimulationOptions tough = soft_options(threads), stiffening = tough, projected = soft_options(threads),
+                    paper = soft_options(threads);
   tough.materials.fallback.toughness = 20;
+  stiffening.materials.fallback.toughness = 20;
+  stiffening.materials.fallback.stiffening = 10;
+  stiffening.materials.fallback.rupture = 0.2;
   projected.body.relaxation = Relaxation::kPositionBased;
   paper.engine.cut.profile = Profile::kPaper;
+  SimulationOptions fibres = tough, relaxing = soft_options(threads);
+  fibres.materials.fallback.fibre = {1, 0.5, 0.2};
+  fibres.materials.fallback.fibre_young = 2e4;
+  relaxing.materials.fallback.prony = {PronyTerm{0.5, 0.05}, PronyTerm{0.3, 0.6}, {}};
   bool is_sound = run_held("held", soft_options(threads));
   is_sound &= run_held("tough", tough);
+  is_sound &= run_held("stiffening", stiffening);
+  is_sound &= run_held("fibres", fibres);
+  is_sound &= run_held("relaxing", relaxing);
+  is_sound &= run_bony("bony", soft_options(threads));
   is_sound &= run_held("projected", projected);
   is_sound &= run_held("paper", paper);
   is_sound &= run_falling("falling", soft_options(threads));

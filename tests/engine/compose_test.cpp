@@ -206,6 +206,39 @@ TEST(Compose, planes_that_cross_make_four_pieces) {
   EXPECT_EQ(pieces(engine), 4U);
 }
 
+TEST(Compose, planes_through_one_axis_leave_no_splinters_between_each_other) {
+  struct Star {
+    Vec3 from, to;    // the axis
+    Rows half_edges;  // of the blade, from the axis to one end
+  };
+  const std::vector<Star> stars = {{{1.1513, 0.8167, -0.0658},
+                                    {-0.4112, 0.6088, 0.451},
+                                    {{{0.6053, -1.8854, 1.0719}},
+                                     {{0.1258, -2.1916, -0.5009}},
+                                     {{-0.3092, -1.5829, -1.5713}},
+                                     {{-0.6511, -0.3809, -2.1216}},
+                                     {{-0.7473, 1.0997, -1.8172}}}},
+                                   {{1.5043, 0.9668, 0.8151},
+                                    {0.4785, -0.3922, -0.2277},
+                                    {{{-1.7643, 0.28, 1.3707}},
+                                     {{-0.7351, -0.9184, 1.92}},
+                                     {{0.3802, -1.5246, 1.6128}},
+                                     {{1.4048, -1.6083, 0.7141}},
+                                     {{1.927, -1.0121, -0.5766}}}}};
+  for (const Star& star : stars) {
+    Engine engine = engine_for(kuhn_cube(5));
+    for (const Row& half : star.half_edges) {
+      Rows rows;
+      for (unsigned i = 0; i < 12; ++i) {
+        const Vec3 middle = star.from + (star.to - star.from) * (i / 11.0);
+        rows.push_back({middle - half[0], middle + half[0]});
+      }
+      stroke(engine, rows);
+    }
+    EXPECT_LE(worst(engine), 25.0);
+  }
+}
+
 TEST(Compose, undo_takes_the_second_stroke_back_and_it_can_be_made_again) {
   const Plane plane;
   Engine engine = engine_for(kuhn_cube(5));

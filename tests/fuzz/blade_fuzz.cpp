@@ -9,13 +9,13 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const auto blade = incise::app::parse_blade(text, "fuzz.json");
+  const auto blade = incise::app::parse_blade_file(text, "fuzz.json");
   if (!blade.ok()) {
     if (blade.error().message.rfind("fuzz.json:", 0) != 0) std::abort();
     return 0;
   }
-  for (const incise::Stroke& stroke : *blade) {
-    if (!incise::check(stroke).ok()) std::abort();
+  for (const incise::app::BladeStroke& stroke : *blade) {
+    if (!incise::check(stroke.stroke).ok()) std::abort();
   }
   return 0;
 }

@@ -85,8 +85,11 @@ bool peel(TetMesh& mesh, TetId tet) {
   const Step step = care.commit();
   for (const auto& [v, before] : worst) {
     if (is_done && step.moved.at(0).id == v) {
-      EXPECT_GT(worst_ratio(mesh, care.changed), before);
+      EXPECT_GT(worst_ratio(mesh, star_of(mesh, v)), before);
     }
+  }
+  for (const ProducedTet& made : step.produced) {
+    EXPECT_NE(std::find(care.changed.begin(), care.changed.end(), made.id), care.changed.end());
   }
   return is_done;
 }

@@ -32,6 +32,28 @@ TEST(Surface, obj_ply_and_off_read_back_bit_for_bit) {
   }
 }
 
+TEST(Surface, obj_keeps_texture_coordinates_and_normals) {
+  const auto read = io::read_surface_bytes(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0.5\nvt 0.25\nvn 0 0 2\n"
+      "f 1/1/1 2/2/1 3/3/1\nf 1/2/1 3/3/1 4//1\n");
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(read->texture, (std::vector<std::array<double, 2>>{{0, 0}, {1, 0.5}, {0.25, 0}}));
+  EXPECT_EQ(read->texture_triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {1, 2, kInvalidIndex}}));
+  const fs::path path = fs::path(testing::TempDir()) / "incise_texture.obj";
+  ASSERT_TRUE(io::write_surface(path, *read).ok());
+  const auto back = io::read_surface(path);
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(back->texture, read->texture);
+  EXPECT_EQ(back->texture_triangles, read->texture_triangles);
+  EXPECT_EQ(back->normals, read->normals);
+  EXPECT_EQ(back->normal_triangles, read->normal_triangles);
+  const FineSurface fine = io::to_fine_surface(*read);
+  EXPECT_EQ(fine.points.size(), 5U);  // the first point stands on a seam
+  EXPECT_EQ(fine.texture[fine.triangles[0][0]], (std::array<double, 2>{0, 0}));
+  EXPECT_EQ(fine.texture[fine.triangles[1][0]], (std::array<double, 2>{1, 0.5}));
+  EXPECT_EQ(fine.normals[0], Vec3(0, 0, 1));
+}
+
 TEST(Surface, stl_reads_back_in_single_precision_and_welds) {
   const io::SurfaceSoup s = tetrahedron();
   const fs::path path = fs::path(testing::TempDir()) / "incise_surface.stl";

@@ -34,6 +34,7 @@ io::MeshData full_mesh() {
   data.triangle_stroke = {1, 2, 0};
   data.origin_vertex = {0, 1, 2, -1, 1};
   data.cut_front = {0, 0, 1, 0, 1};
+  data.region_names = {{-2, "around it"}, {3, "left kidney, \u00e4"}};
   return data;
 }
 
@@ -86,6 +87,22 @@ TEST_P(WriteMesh, reads_back_bit_for_bit) {
     EXPECT_EQ(back->data.cut_front, data.cut_front);
     EXPECT_FALSE(back->data.has_foreign_labels);
   }
+  io::RegionNames names;  // Gmsh has no groups of negative numbers
+  if (kind == ".mesh" || kind == ".vtu") names = data.region_names;
+  if (kind == ".msh" || kind == ".msh2") names = {{3, data.region_names.at(3)}};
+  EXPECT_EQ(back->data.region_names, names);
+}
+
+TEST_P(WriteMesh, names_that_would_break_the_file_are_mended) {
+  io::MeshData data = test::two_tets();
+  data.soup.regions = {3, 5};
+  data.region_names = {{3, " a \"b\"\nc "}, {5, "\t"}, {9, std::string(300, 'x')}};
+  const auto back = round_trip(data, GetParam());
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(back->data.soup.regions, data.soup.regions);
+  if (back->data.region_names.empty()) return;
+  EXPECT_EQ(back->data.region_names.at(3), "a 'b' c");
+  EXPECT_EQ(back->data.region_names.count(5), 0U);
 }
 
 TEST_P(WriteMesh, leaves_out_what_is_not_given) {
@@ -187,9 +204,10 @@ INSTANTIATE_TEST_SUITE_P(Variants, WriteMsh, testing::Values("msh", "msh41", "ms
 TEST(WriteMsh, has_a_physical_group_for_each_region_and_each_stroke) {
   io::MeshData data = full_mesh();
   data.soup.regions = {3, 7};
+  data.region_names = {{7, "liver"}};
   const std::string bytes = *io::write_mesh_bytes(".msh", data);
   for (const char* part : {"4.1 0 8\n", "$PhysicalNames\n4\n2 1 \"stroke_1\"\n2 2 \"stroke_2\"\n3 3 \"region_3\"\n",
-                           "3 7 \"region_7\"\n", "$Entities\n0 0 3 2\n", " 1 7 0\n"}) {
+                           "3 7 \"liver\"\n", "$Entities\n0 0 3 2\n", " 1 7 0\n"}) {
     EXPECT_NE(bytes.find(part), std::string::npos) << part;
   }
 }

@@ -52,13 +52,20 @@ TEST_P(EveryMethod, changes_nothing_where_the_blade_misses) {
   EXPECT_EQ(body.journal.size(), 0U);
 }
 
+TEST_P(EveryMethod, keeps_the_volume_where_it_says_so) {
+  const LabCut body = cut_by(GetParam(), jittered_cube(4, 7), plane_through({1, 2, 0.5}, 1.6));
+  const double change = std::abs(volume_of(body.mesh) - volume_of(build(jittered_cube(4, 7))));
+  EXPECT_EQ(change < 1e-12, keeps_volume(GetParam())) << change;
+}
+
 TEST_P(EveryMethod, refuses_a_stroke_that_sweeps_nothing) {
   LabCut body{build(kuhn_cube(2)), {}, {}};
   EXPECT_FALSE(cut_by(GetParam(), body.mesh, body.journal, Stroke(), 1).ok());
 }
 
 INSTANTIATE_TEST_SUITE_P(Lab, EveryMethod,
-                         testing::Values(LabMethod::kRemoval, LabMethod::kSnapping, LabMethod::kMinimal),
+                         testing::Values(LabMethod::kRemoval, LabMethod::kSnapping, LabMethod::kMoving,
+                                         LabMethod::kAdaptive, LabMethod::kSeventeen, LabMethod::kMinimal),
                          [](const auto& instance) { return std::string(name_of(instance.param)); });
 
 TEST(LabMethods, are_found_by_their_names) {

@@ -232,6 +232,26 @@ TEST(Attributes, a_copy_takes_the_mass_of_the_tets_that_it_takes) {
   EXPECT_EQ(body.all.value(body.label, twin.value)[0], 1.0);
 }
 
+TEST(Attributes, a_vertex_that_hands_on_all_but_a_sliver_keeps_the_slivers_mass) {
+  TetSoup soup;  // the volumes are as 1 to 3e17: their difference has no digits
+  soup.points = {{1.0 / 3, 1.0 / 3, 1.0 / 3 - 1e-11}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1e6, 1e6, 1e6}};
+  soup.tets = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  TetMesh mesh = *TetMesh::build(soup);
+  Body body(mesh);
+  const double before = sum(body.all.values(body.mass));
+  Journal journal;
+  Transaction transaction(mesh);
+  const VertexId twin = apply(transaction, plan_duplicate_vertex(mesh, VertexId(1), {TetId(1)}), 1);
+  journal.append(transaction.commit());
+  ASSERT_TRUE(body.all.follow(journal, mesh).ok());
+  const double sliver = mesh.rest_volume(TetId(0));
+  ASSERT_GT(sliver, 0);
+  EXPECT_NEAR(body.all.lumped_volume(VertexId(1)), sliver / 4, 1e-9 * sliver);
+  EXPECT_NEAR(body.all.value(body.mass, 1)[0], 2.5 * sliver / 4, 1e-9 * sliver);
+  EXPECT_NEAR(body.all.value(body.mass, twin.value)[0], 2.5 * mesh.rest_volume(TetId(1)) / 4, 1e-9);
+  EXPECT_NEAR(sum(body.all.values(body.mass)), before, 1e-15 * before);
+}
+
 TEST(Attributes, a_consumed_tet_without_children_leaves_its_mass_to_its_corners) {
   TetSoup soup;
   soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};

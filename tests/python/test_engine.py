@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import gc
+import json
 import os
 
 import numpy as np
@@ -265,3 +266,19 @@ def test_numbers_that_c_cannot_hold_are_errors():
         incise.box((2, 2))
     with pytest.raises(incise.BadArgument):
         engine.keep_undo(-1)
+
+
+def test_a_blade_file_may_stop_at_a_region(tmp_path):
+    box = incise.box((6, 6, 6)).compact()
+    middles = box.points[box.tets].mean(axis=1)
+    engine = incise.Engine(box.points, box.tets, np.where(middles[:, 2] < 0.5, 7, 1))
+    edges = [{"t": t, "points": [[-0.1 + 1.2 * t, 0.52, 1.2], [-0.1 + 1.2 * t, 0.52, 0.1]]} for t in (0, 1)]
+    blade = tmp_path / "blade.json"
+    blade.write_text(json.dumps({"format": "incise-blade", "version": 1, "strokes": [{"stop_at": [7], "edges": edges}]}))
+    engine.cut_blade(blade)
+    walls = engine.surface()
+    depths = engine.rest[walls.triangles[walls.tags > 0]][:, :, 2]
+    assert len(depths) > 10 and depths.min() > 0.5
+    blade.write_text(blade.read_text().replace("[7]", '["fat"]'))
+    with pytest.raises(incise.BadFile, match="fat"):
+        engine.cut_blade(blade)

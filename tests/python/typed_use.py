@@ -20,6 +20,13 @@ def cut_all(path: str, offsets: list[float]) -> list[int]:
     return created
 
 
+def many(plan: str, out: str) -> list[str]:
+    """Likewise."""
+    done: int = incise.batch.run(plan, out, (0, 4), progress=lambda done, total: None).done
+    print(done, incise.batch.merge(plan, out).is_whole)
+    return [str(line["name"]) for line in incise.batch.results(out)]
+
+
 def simulate(path: str) -> float:
     """Likewise."""
     body: incise.Simulation = incise.Simulation.from_scene(path)

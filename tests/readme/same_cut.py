@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs what the README has under "The same cut, four times", and compares the hashes that are printed; builds and runs the
+"""Runs what the README has under "The same cut, five times", and compares the hashes that are printed; builds and runs the
 lines of C++ under "The library", too.
 
 usage: same_cut.py PREFIX CMAKE CC CXX     PREFIX: where Incise is installed
@@ -43,7 +43,7 @@ int main(void) {
 def blocks_of_readme():
     with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as file:
         text = file.read()
-    blocks = dict(blocks_of_section(text, "### The same cut, four times"))
+    blocks = dict(blocks_of_section(text, "### The same cut, five times"))
     library = blocks_of_section(text, "## The library")[0][1].splitlines(keepends=True)
     blocks["library"] = ("".join(line for line in library if line.startswith("#include")),
                          "".join(line for line in library if not line.startswith("#include")))
@@ -86,7 +86,8 @@ def main(prefix, cmake, cc, cxx):
         built = build(blocks, folder, prefix, cmake, cc, cxx)
         printed = {"cpp": run([built + "in_cpp"], folder, environment), "c": run([built + "in_c"], folder, environment),
                    "python": run([sys.executable, "-c", blocks["python"]], folder, environment),
-                   "sh": run(["sh", "-c", blocks["sh"]], folder, environment)}
+                   "sh": run(["sh", "-c", blocks["sh"]], folder, environment),
+                   "batch": run(["sh", "-e", "-c", blocks["shell"]], folder, environment)}
         run([built + "library"], folder, environment)
     hashes = {language: re.findall(r"\b[0-9a-f]{16}\b", text) for language, text in printed.items()}
     print(hashes)

@@ -215,3 +215,75 @@ TEST(Renderer, marks_that_are_no_numbers_do_no_harm) {
   picture.marks.balls.push_back({{0, 0, 0}, static_cast<app::Ink>(200), 4, true});
   expect_drawn(drawing, picture);
 }
+
+// --- solids and shadows
+
+namespace {
+
+double mean_lightness(const incise::render::Image& image) {
+  double sum = 0;
+  for (const incise::render::Image::Pixel& pixel : image.pixels) sum += pixel[0] + pixel[1] + pixel[2];
+  return sum / static_cast<double>(3 * image.pixels.size());
+}
+
+app::Picture below_a_punch() {
+  app::Picture picture = incise_test::sheet(8);
+  app::Instrument punch;
+  punch.kind = app::InstrumentKind::kPunch;
+  punch.tip = incise::Vec3(0.5, 0.5, 0.4);
+  punch.millimetre = 0.004;
+  punch.opening = 0.15;
+  picture.marks.instruments.push_back(punch);
+  return picture;
+}
+
+}  // namespace
+
+TEST(Renderer, an_instrument_is_drawn_and_its_ghost_is_seen_through) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = below_a_punch();
+  expect_drawn(drawing, picture);
+  const auto solid = drawing.read();
+  picture.marks.instruments[0].is_ghost = true;
+  expect_drawn(drawing, picture);
+  const auto ghost = drawing.read();
+  picture.marks.instruments.clear();
+  expect_drawn(drawing, picture);
+  const auto none = drawing.read();
+  EXPECT_GT(compare(solid, none).differing, 0.01);
+  EXPECT_GT(compare(ghost, none).differing, 0.01);
+  EXPECT_GT(compare(ghost, solid).differing, 0.005);
+}
+
+TEST(Renderer, shadows_darken_tissue_below_an_instrument_and_no_colour_that_tells_a_number) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = below_a_punch();
+  picture.options.shows_occlusion = false;
+  expect_drawn(drawing, picture);
+  const auto lit = drawing.read();
+  picture.options.shows_shadows = true;
+  expect_drawn(drawing, picture);
+  const auto shaded = drawing.read();
+  EXPECT_LT(mean_lightness(shaded), mean_lightness(lit) - 0.1);
+  EXPECT_GT(compare(shaded, lit).differing, 0.002);
+  picture.options.color = app::ColorBy::kQuality;
+  expect_drawn(drawing, picture);
+  const auto told = drawing.read();
+  picture.options.shows_shadows = false;
+  expect_drawn(drawing, picture);
+  EXPECT_EQ(compare(drawing.read(), told).differing, 0);
+}
+
+TEST(Renderer, an_instrument_that_is_not_finite_is_left_out) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = below_a_punch();
+  picture.marks.instruments[0].tip.x() = std::numeric_limits<double>::quiet_NaN();
+  expect_drawn(drawing, picture);
+  const auto with = drawing.read();
+  picture.marks.instruments.clear();
+  expect_drawn(drawing, picture);
+  EXPECT_EQ(compare(drawing.read(), with).differing, 0);
+}

@@ -89,6 +89,48 @@ TEST(Element, SlopesAreTheFiniteDifferencesOfTheEnergy) {
   }
 }
 
+TEST(Element, TissueThatStiffensHasTheSlopesAndTheCurvatureOfItsEnergy) {
+  Random random(14);
+  double stiffest = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Corners rest = any_tet(random), p = moved(rest, random, 0.4);
+    const Element element = detail::element_of(rest, kLambda, kMu, 0.05, 0, 0, 5);
+    stiffest = std::max(stiffest, detail::stiffened(element, detail::soft_energy_of(element, p)).factor);
+    for (unsigned c = 0; c < 4; ++c) {
+      const Vec3 slope = detail::slope_of(element, p, c);
+      const Mat3 stiffness = detail::stiffness_at(element, p, c);
+      for (int axis = 0; axis < 3; ++axis) {
+        constexpr double kStep = 1e-6;
+        Corners low = p, high = p;
+        low[c][axis] -= kStep;
+        high[c][axis] += kStep;
+        const double difference = (detail::energy_of(element, high) - detail::energy_of(element, low)) / (2 * kStep);
+        EXPECT_NEAR(slope[axis], difference, 1e-6 * (1 + slope.norm()));
+        const Vec3 bend = (detail::slope_of(element, high, c) - detail::slope_of(element, low, c)) / (2 * kStep);
+        EXPECT_LT((stiffness.col(axis) - bend).norm(), 1e-5 * (1 + stiffness.norm()));
+      }
+    }
+  }
+  EXPECT_GT(stiffest, 100);
+}
+
+TEST(Element, TissueThatStiffensIsTheSameAtSmallStrainsAndEndsToStiffenSomewhere) {
+  Random random(15);
+  const Corners rest = any_tet(random);
+  const Element soft = detail::element_of(rest, kLambda, kMu, 0),
+                stiff = detail::element_of(rest, kLambda, kMu, 0, 0, 0, 5);
+  const Corners near = moved(rest, random, 1e-4);
+  EXPECT_NEAR(detail::energy_of(stiff, near) / detail::energy_of(soft, near), 1, 1e-5);
+  EXPECT_EQ(detail::energy_of(stiff, rest), 0);
+  const double most = (detail::kStiffest - 1) / stiff.stiffening;
+  const detail::Stiffened below = detail::stiffened(stiff, most * (1 - 1e-9));
+  const detail::Stiffened beyond = detail::stiffened(stiff, 3 * most);
+  EXPECT_NEAR(below.factor, 2097152, 1);
+  EXPECT_NEAR(beyond.factor, 2097152, 1);
+  EXPECT_EQ(beyond.growth, 0);
+  EXPECT_NEAR(beyond.energy, below.energy + 2 * most * beyond.factor, 1e-6 * beyond.energy);
+}
+
 /// Seen from one corner the energy is quadratic, with the curvature that the descent uses.
 TEST(Element, EnergyIsQuadraticInOneCorner) {
   Random random(5);

@@ -29,6 +29,23 @@ TEST(Material, NumbersOutOfRangeAreNamed) {
   materials.fallback = {};
   materials.by_region.push_back({3, Material{std::numeric_limits<double>::quiet_NaN(), 1e3, 0.3, 0, 0}});
   EXPECT_NE(check(materials).error().message.find("region 3: the density"), std::string::npos);
+  materials.by_region.clear();
+  materials.fallback.stiffening = -1;
+  EXPECT_NE(check(materials).error().message.find("stiffening"), std::string::npos);
+  materials.fallback = {};
+  materials.fallback.rupture = 0.6;
+  EXPECT_NE(check(materials).error().message.find("rupture"), std::string::npos);
+  materials.fallback = {};
+  materials.fallback.fibre_young = 1e4;
+  EXPECT_NE(check(materials).error().message.find("fibres need a direction"), std::string::npos);
+  materials.fallback.fibre_young = -1;
+  EXPECT_NE(check(materials).error().message.find("what fibres add"), std::string::npos);
+  materials.fallback = {};
+  materials.fallback.prony[1] = {0.5, 0};
+  EXPECT_NE(check(materials).error().message.find("must relax within"), std::string::npos);
+  materials.fallback.prony[1] = {-0.5, 1};
+  EXPECT_NE(check(materials).error().message.find("share of a Prony term"), std::string::npos);
+  materials.fallback = {};
   materials.by_region = {{3, {}}, {3, {}}};
   EXPECT_NE(check(materials).error().message.find("twice"), std::string::npos);
 }

@@ -28,7 +28,9 @@ plain::Descent descent_of(const PlainDescent& d) {
           d.rest_volumes,
           static_cast<const plain::NeighbourList*>(d.neighbours),
           d.neighbour_slots,
-          d.rings};
+          d.rings,
+          static_cast<const plain::StiffeningBlock*>(d.stiffening),
+          static_cast<const plain::FibreBlock*>(d.fibres)};
 }
 }  // namespace
 

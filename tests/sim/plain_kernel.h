@@ -16,6 +16,7 @@ struct PlainDescent {
   const void* neighbours = nullptr;
   const std::uint32_t* neighbour_slots = nullptr;
   const std::uint16_t* rings = nullptr;
+  const void *stiffening = nullptr, *fibres = nullptr;
 };
 
 void plain_sweep(const PlainDescent& descent, std::span<const std::uint32_t> order, bool is_backward);

@@ -12,7 +12,7 @@
 // usage: incise_soak strokes|models [--rounds N]
 //        incise_soak seeds FILE
 //        incise_soak describe|minimise strokes|models SEED...
-//        incise_soak simulate [--rounds N] [--frames N]
+//        incise_soak simulate [--rounds N] [--frames N] [--log N] [--judge-energy 1]
 //        incise_soak compose [--rounds N]
 //        incise_soak stability [--every N]
 //        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
@@ -69,7 +69,9 @@ struct Settings {
   unsigned rounds = 0;  // of made meshes
   unsigned strokes = 20;
   unsigned frames = 2000;  // of a scene
-  unsigned every = 1;      // of so many combinations one is run
+  unsigned log_every = 0;  // frames
+  bool judges_energy = false;
+  unsigned every = 1;  // of so many combinations one is run
   std::size_t max_tets = SIZE_MAX;
   std::string only, skip;  // parts of file names
 };
@@ -448,7 +450,7 @@ int usage() {
                "usage: incise_soak strokes|models [--rounds N]\n"
                "       incise_soak seeds FILE\n"
                "       incise_soak describe|minimise strokes|models SEED...\n"
-               "       incise_soak simulate [--rounds N] [--frames N]\n"
+               "       incise_soak simulate [--rounds N] [--frames N] [--log N] [--judge-energy 1]\n"
                "       incise_soak compose [--rounds N]\n"
                "       incise_soak stability [--every N]\n"
                "       incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n"
@@ -465,6 +467,10 @@ bool set(Settings& settings, const std::string& key, const char* value) {
     settings.strokes = number;
   } else if (key == "--frames") {
     settings.frames = number;
+  } else if (key == "--judge-energy") {
+    settings.judges_energy = number != 0;
+  } else if (key == "--log") {
+    settings.log_every = number;
   } else if (key == "--every") {
     settings.every = std::max(1U, number);
   } else if (key == "--max-tets") {
@@ -487,7 +493,8 @@ std::vector<fs::path> models_of(const std::string& kind) {
 /// Without a limit, a hundred scenes.
 int soak_scenes(const Settings& settings) {
   const std::uint64_t scenes = settings.rounds > 0 ? settings.rounds : (settings.seconds > 0 ? UINT64_MAX : 100);
-  return soak_simulations({settings.seed, scenes, settings.frames, settings.seconds});
+  return soak_simulations(
+      {settings.seed, scenes, settings.frames, settings.seconds, settings.judges_energy, settings.log_every});
 }
 
 int run_campaign(const std::string& kind, Settings settings) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mirror of the examples, and what tests ask of it.
+// The mirror of a journal, and what tests ask of it.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include "examples/journal_mirror.h"
+#include "incise/mesh/journal_mirror.h"
 
 namespace incise::test {
-
-using examples::JournalMirror;
 
 /// A velocity that is known everywhere, and must be met wherever vertices are born, moved or copied.
 inline Vec3 affine_velocity(const Vec3& x) {

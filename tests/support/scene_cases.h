@@ -25,22 +25,40 @@ inline Json blade_stroke(double begin, double end) {
             {{"t", end}, {"points", {{0.46, 1.2, -0.2}, {0.46, 1.2, 1.2}}}}}}};
 }
 
-/// A scene with every key that there is but `frames` and `model.file`, small and quick.
+/// A scene with every key that there is but `frames`, `model.file`, `model.bodies` and `stretch`, small and quick.
 inline Json full_scene() {
   Json scene = least_scene();
   scene.erase("frames");
   scene["name"] = "everything";
   scene["model"] = {{"box", {{"cells", {3, 2, 2}}, {"size", {1, 1, 1}}, {"origin", {0, 0, 0}}, {"jitter", 0.05}}},
                     {"regions", {{{"region", 3}, {"below", {0, 0, 1, 0.4}}}}}};
-  scene["materials"] = {
-      {"default", {{"density", 900}, {"young", 8000}, {"poisson", 0.3}, {"toughness", 5}, {"cut_friction", 0.1}}},
-      {"regions",
-       {{{"region", 3}, {"density", 1100}, {"young", 2e4}, {"poisson", 0.4}, {"toughness", 2}, {"cut_friction", 0}}}}};
+  scene["materials"] = {{"default",
+                         {{"density", 900},
+                          {"young", 8000},
+                          {"poisson", 0.3},
+                          {"toughness", 5},
+                          {"cut_friction", 0.1},
+                          {"stiffening", 3},
+                          {"rupture", 0.2},
+                          {"fibre", {1, 0.5, 0}},
+                          {"fibre_young", 3000},
+                          {"prony", {{{"share", 0.5}, {"seconds", 0.2}}}},
+                          {"rigid", false}}},
+                        {"regions",
+                         {{{"region", 3},
+                           {"density", 1100},
+                           {"young", 2e4},
+                           {"poisson", 0.4},
+                           {"toughness", 2},
+                           {"cut_friction", 0},
+                           {"stiffening", 0},
+                           {"rupture", 0}}}}};
   scene["gravity"] = {0, 0.5, -9.81};
   scene["damping"] = 1.5;
-  scene["attachments"] = {{{"below", {1, 0, 0, 0.01}}, {"surface", true}},
-                          {{"box", {{"low", {0.9, -1, -1}}, {"high", {2, 2, 2}}}}, {"stiffness", 500}},
-                          {{"ball", {{"centre", {0, 0, 0}}, {"radius", 0.1}}}}};
+  scene["attachments"] = {
+      {{"below", {1, 0, 0, 0.01}}, {"surface", true}},
+      {{"box", {{"low", {0.9, -1, -1}}, {"high", {2, 2, 2}}}}, {"stiffness", 500}, {"strength", 1000}, {"tears", true}},
+      {{"ball", {{"centre", {0, 0, 0}}, {"radius", 0.1}}}}};
   scene["tools"] = {
       {{"name", "table"}, {"plane", {0, 0, 2, -1}}},
       {{"ball", {{"radius", 0.2}, {"centre", {0.5, 0.5, 1.3}}}}},
@@ -55,6 +73,8 @@ inline Json full_scene() {
   scene["hooks"] = {{{"name", "hook"},
                      {"radius", 0.3},
                      {"stiffness", 50},
+                     {"strength", 1000},
+                     {"tears", false},
                      {"path", {{{"t", 0.05}, {"position", {1, 1, 1}}}, {{"t", 0.25}, {"position", {1, 1.2, 1.3}}}}}}};
   scene["sutures"] = {{{"name", "suture"},
                        {"from", {0.2, 0.3, 0.4}},

@@ -22,7 +22,9 @@ command -v xdotool >/dev/null || skip "there is no xdotool"
 
 window=
 server=
+arm=
 end() {
+  [ -z "$arm" ] || kill "$arm" 2>/dev/null || true
   [ -z "$window" ] || kill "$window" 2>/dev/null || true
   [ -z "$server" ] || kill "$server" 2>/dev/null || true
 }
@@ -96,6 +98,23 @@ changed() { take_picture "$2" && "$bin/incise_picture_check" "$1.png" "$2.png"; 
 
 start_server
 
+# A hand at a haptic device, whose service breaks off now and then: it cuts, and the window stays.
+if [ -x "$bin/fake_haply" ]; then
+  "$bin/fake_haply" 0 drop >arm.txt &
+  arm=$!
+  wait_for "the haptic service" grep -q '^haply=' arm.txt
+  open_window --device "$(head -n 1 arm.txt)" --record session.jsonl
+  wait_for "a blade at the device" has '"blade"'
+  wait_for "a stroke that ended" lifted
+  sleep 3
+  quit_window
+  kill "$arm"
+  wait "$arm" 2>/dev/null || true
+  arm=
+  "$bin/incise" replay session.jsonl --verify >/dev/null || fail "the hand's recording does not come out as it was"
+  rm session.jsonl
+fi
+
 # A cube that is loaded, cut, mended, cut again, pulled at; all of it recorded.
 open_window --record session.jsonl
 take_picture uncut || fail "no picture of the cube"
@@ -147,6 +166,17 @@ picked headless.png
 [ "$(cat out.txt)" = "incise-view: wrote headless.png (picture, 640 x 360 pixels)" ] || fail "it said $(cat out.txt)"
 "$bin/incise-view" --headless -q --screenshot quiet.png --size 64x48 2>out.txt || fail "quiet"
 [ ! -s out.txt ] || fail "-q said $(cat out.txt)"
+
+# A film: what ffmpeg is asked for, and what is said where there is none.
+mkdir stand-in
+printf '#!/bin/sh\nprintf "%%s\\n" "$@" >film.txt\nfor last; do :; done\nls "$(dirname "$7")" >pictures.txt\n: >"$last"\n' \
+  >stand-in/ffmpeg
+chmod +x stand-in/ffmpeg
+PATH=$PWD/stand-in:$PATH "$bin/incise-view" --headless -q --frame 4 --every 2 --film film.mp4 --size 64x48 || fail "a film"
+[ -e film.mp4 ] && [ "$(cat pictures.txt | wc -l)" = 3 ] || fail "ffmpeg was asked for $(cat film.txt)"
+status=0
+PATH=/nowhere "$bin/incise-view" --headless -q --film none.mp4 --size 64x48 2>out.txt || status=$?
+[ "$status" != 0 ] && grep -q 'needs the program ffmpeg' out.txt || fail "without ffmpeg: exit $status, $(cat out.txt)"
 status=0
 "$bin/incise-view" --heedless 2>out.txt || status=$?
 [ "$status" = 2 ] && grep -q '^incise-view: error: .*(did you mean --headless?); see incise-view --help$' out.txt ||

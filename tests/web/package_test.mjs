@@ -2,12 +2,12 @@
 // The npm package as its users have it: installed from the file that `script/web package` makes.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, test } from 'node:test';
-import { at, hasPlain, incise } from './support.mjs';
+import { after, before, describe, test } from 'node:test';
+import { at, executablePath, hasPlain, incise, launch, serve } from './support.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'incise package '));
 after(() => rmSync(folder, { recursive: true }));
@@ -38,11 +38,50 @@ test('types hold for a program that uses the package, and refuse one that does n
   assert.throws(() => check("import { load } from 'incise';\n(await load()).Engine.open('', 'x').cutPlane('x', 1);\n"), /.*/);
 });
 
-test('a bundler takes the module and its .wasm along', { skip: hasPlain ? false : 'the module without SIMD was left out' }, () => {
-  const vite = createRequire(at('web/package.json')).resolve('vite/package.json').replace('package.json', 'bin/vite.js');
-  writeFileSync(join(folder, 'index.html'), '<script type="module">import { load } from "incise"; load().then((m) => console.log(m.version));</script>');
-  run('node', vite, 'build');
-  const files = readdirSync(join(folder, 'dist/assets'));
-  assert.ok(files.some((name) => /^incise_core.*\.wasm$/.test(name)), files.join(' '));
-  assert.ok(files.some((name) => /^incise_plain.*\.wasm$/.test(name)), files.join(' '));
+const browser = executablePath ? null : 'Chromium is not installed: script/bootstrap --web';
+
+/** What a page of the examples writes, served from a folder. */
+async function written(site, page) {
+  const server = await serve(site);
+  const chromium = await launch();
+  try {
+    const tab = await chromium.newPage();
+    const complaints = [];
+    tab.on('pageerror', (error) => complaints.push(String(error)));
+    tab.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+    await tab.goto(server.url + page);
+    await tab.waitForFunction(() => /hash/.test(document.querySelector('output')?.textContent ?? ''), null, { timeout: 30_000 }).catch(() => {});
+    assert.deepEqual(complaints, []);
+    return await tab.locator('output').textContent();
+  } finally {
+    await chromium.close();
+    server.close();
+  }
+}
+
+describe('the example of a page', { skip: browser ?? false }, () => {
+  const tool = (name, file) => createRequire(at('web/package.json')).resolve(`${name}/package.json`).replace('package.json', file);
+  const modules = hasPlain ? ['core', 'plain'] : ['core']; // a copy of a file is bundled once
+  before(() => {
+    const installed = join(folder, 'node_modules/incise');
+    cpSync(join(installed, 'examples/browser'), folder, { recursive: true });
+    // Bundlers look for the module without SIMD. Where it was left out the other stands for it; nothing loads it here.
+    if (!hasPlain) for (const type of ['mjs', 'wasm']) cpSync(join(installed, `incise_core.${type}`), join(installed, `incise_plain.${type}`));
+  });
+  const isRight = (text) => assert.match(text, /^\d+ tets were cut: \d+ tets in 2 pieces, hash [0-9a-f]{16}$/);
+
+  test('runs without a bundler', async () => isRight(await written(folder, 'plain.html')));
+
+  test('is built by Vite, with both modules', async () => {
+    run('node', tool('vite', 'bin/vite.js'), 'build');
+    const files = readdirSync(join(folder, 'dist-vite/assets'));
+    for (const name of modules) assert.ok(files.some((file) => file.startsWith(`incise_${name}`) && file.endsWith('.wasm')), files.join(' '));
+    isRight(await written(join(folder, 'dist-vite'), ''));
+  });
+
+  test('is built by webpack, with both modules', async () => {
+    run('node', tool('webpack', 'bin/webpack.js'));
+    assert.equal(readdirSync(join(folder, 'dist-webpack')).filter((file) => file.endsWith('.wasm')).length, modules.length);
+    isRight(await written(join(folder, 'dist-webpack'), ''));
+  });
 });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: controls, files and links around a session that runs in a worker.
-import { Engine } from './engine.mjs';
+import { SessionWorker } from 'incise/worker';
 import { drawHistogram } from './histogram.mjs';
 import { Hands } from './hands.mjs';
 import { icon } from './icons.mjs';
@@ -13,13 +13,15 @@ const TOOLS = [
   { name: 'Orbit', label: 'View', hint: 'Drag to turn the view.' },
   { name: 'Scalpel', label: 'Scalpel', hint: 'Drag over the body: it is cut.' },
   { name: 'Plane cut', label: 'Plane', hint: 'Drag a line across the body: the plane through it cuts all of it.' },
-  { name: 'Grasp', label: 'Forceps', hint: 'Drag on tissue to pull it.' },
+  { name: 'Scissors', label: 'Scissors', hint: 'Drag from where they are put on; they close where you let go.' },
+  { name: 'Forceps', label: 'Forceps', hint: 'Drag on tissue to pull it.' },
+  { name: 'Retractor', label: 'Retractor', hint: 'Drag a lip aside: the retractor stays and holds it. A click on it lets go.' },
   { name: 'Pin', label: 'Pin', hint: 'Click on tissue to hold it there; click the pin to let go.' },
 ];
 const LARGEST_FILE = 200e6; // bytes; a mesh of some two million tets
 
 /** For tests and the curious: what the page measured of itself. */
-const measured = (window.incise = { state: 'loading', frames: 0, longestBlockMs: 0, longestBlockLoadingMs: 0, drawMs: 0 });
+const measured = (window.incise = { state: 'loading', failures: [], frames: 0, longestBlockMs: 0, longestBlockLoadingMs: 0, drawMs: 0 });
 
 let engine, picture, hands, look, tool = 'Scalpel', theme, isReady = false, hasFrame = false;
 let opened = { id: '', isReplay: false }, hintTimer = 0, shownAt = 0;
@@ -39,7 +41,10 @@ function cover(text, remedy, label, action) {
   $('cover').hidden = false;
 }
 
-const failed = (error) => say(`That did not work: ${error.message}`, 12);
+function failed(error) {
+  measured.failures.push(error.message);
+  say(`That did not work: ${error.message}`, 12);
+}
 
 // --- the look
 
@@ -76,6 +81,7 @@ async function open(what, id) {
   measured.state = 'opening';
   const info = await engine.ask('open', what);
   opened = { id, isReplay: info.isReplay };
+  measured.body = id;
   $('replay').hidden = !info.isReplay;
   isReady = true;
   await engine.ask('tool', { name: tool });
@@ -220,7 +226,7 @@ function changeDepth(by) {
 }
 
 const KEYS = {
-  1: () => choose('Orbit'), 2: () => choose('Scalpel'), 3: () => choose('Plane cut'), 4: () => choose('Grasp'), 5: () => choose('Pin'),
+  ...Object.fromEntries(TOOLS.map(({ name }, i) => [i + 1, () => choose(name)])),
   r: () => act('reset'), Home: () => act('frameBody'), Escape: () => act('cancel'),
   f: () => toggle('figures'), h: () => toggle('help'), '?': () => toggle('help'),
   t: () => setTheme(theme === 'dark' ? 'light' : 'dark'), '[': () => changeDepth(-0.04), ']': () => changeDepth(0.04),
@@ -362,7 +368,7 @@ function watchBlocks() {
 // --- beginning
 
 function startEngine() {
-  engine = new Engine();
+  engine = new SessionWorker();
   measured.engine = engine;
   engine.addEventListener('loaded', (event) => onLoaded(event).catch(failed));
   engine.addEventListener('warm', () => openFirst().catch(failed));

@@ -156,6 +156,11 @@ export class Picture {
       ['void main() {', 'in uvec4 look;\nflat out uvec4 look_here;\nvoid main() {\n  look_here = look;'],
     ]);
     const fragmentShader = HEAD + replaced(look.fragmentShader, [
+      // The page has no noise and no rest positions yet: skin and walls are plain.
+      ['uniform sampler3D noise;  // repeats', ''],
+      ['return 0.65 * texture(noise, at).r + 0.35 * texture(noise, 3.7 * at + 0.31).r;', 'return 0.5;'],
+      ['texture(noise, place.xyz * vec3(0.6, 4.0, 4.0)).r', '0.5'],
+      ['texture(noise, place.xyz * 9.0).r', '0.5'],
       ['uniform usamplerBuffer looks;', 'flat in uvec4 look_here;'],
       ['texelFetch(looks, gl_PrimitiveID)', 'look_here'],
     ]);

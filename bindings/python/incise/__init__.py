@@ -10,6 +10,7 @@ True
 
 docs/python.md in the sources tells more.
 """
+from . import batch
 from ._library import version as _version
 from .attributes import Attributes
 from .engine import Engine, Report, Stroke, box, read
@@ -24,5 +25,5 @@ __all__ = [
     "Attributes", "BadArgument", "BadFile", "Ball", "Busy", "Compact", "Cursor", "Engine", "Flat", "Frame", "Hook",
     "InciseError", "Internal", "Material", "Mesh", "NONE", "OutOfMemory", "Pieces", "Plane", "Quality", "Report", "Rod",
     "Simulation", "State", "Step", "Stroke", "Surface", "Tool", "Unsupported", "Validity", "Violation", "WriteFailed",
-    "box", "read",
+    "batch", "box", "read",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import os
 import signal
 import threading
@@ -21,9 +22,27 @@ Bytes = npt.NDArray[np.uint8]
 Path = Union[str, "os.PathLike[str]"]
 
 
+def _real(value: npt.ArrayLike, name: str) -> Floats:
+    array = np.ascontiguousarray(value)
+    kind = array.dtype
+    if kind.char == "d" and kind.isnative:  # the usual one: each step of a blade comes by here
+        return array
+    if kind.kind == "c":  # numpy would drop half of it, and warn
+        raise BadArgument(f"{name} is of {kind}; real numbers are wanted")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def whole(value: Any, name: str, least: int, most: int) -> int:
+    """A whole number in [least, most]: ctypes would take others modulo 2^32, or 2^64. A float is a TypeError."""
+    number = operator.index(value)
+    if not least <= number <= most:
+        raise BadArgument(f"{name} is {number}; {least} to {most} are wanted")
+    return number
+
+
 def points(value: npt.ArrayLike, name: str = "points") -> Floats:
     """n x 3 numbers, as C wants them; no copy where they are that already."""
-    array = np.ascontiguousarray(value, dtype=np.float64)
+    array = _real(value, name)
     if array.ndim != 2 or array.shape[1] != 3:
         raise BadArgument(f"{name} has the shape {array.shape}; n x 3 is wanted")
     return array
@@ -31,7 +50,7 @@ def points(value: npt.ArrayLike, name: str = "points") -> Floats:
 
 def vector(value: npt.ArrayLike, name: str) -> Floats:
     """Three numbers."""
-    array = np.ascontiguousarray(value, dtype=np.float64)
+    array = _real(value, name)
     if array.shape != (3,):
         raise BadArgument(f"{name} has the shape {array.shape}; 3 numbers are wanted")
     return array
@@ -58,9 +77,16 @@ def labels(value: Optional[npt.ArrayLike], n: int, name: str) -> Optional[Ints]:
     """n labels, or none."""
     if value is None:
         return None
-    array = np.ascontiguousarray(value, dtype=np.int32)
-    if array.shape != (n,):
-        raise BadArgument(f"{name} has the shape {array.shape}; {n} labels are wanted")
+    given = np.asarray(value)
+    if given.shape != (n,):
+        raise BadArgument(f"{name} has the shape {given.shape}; {n} labels are wanted")
+    if given.dtype.kind not in "iubf":
+        raise BadArgument(f"{name} is of {given.dtype}; whole numbers are wanted")
+    with np.errstate(invalid="ignore"):
+        array = np.ascontiguousarray(given, dtype=np.int32)
+    if not np.array_equal(array, given):
+        bad = int(np.argmax(array != given))
+        raise BadArgument(f"{name}[{bad}] is {given[bad]}; whole numbers from -2^31 to 2^31 - 1 are wanted", (bad,))
     return array
 
 
@@ -129,7 +155,18 @@ def lines(text: str) -> Iterator[str]:
 
 def path_bytes(path: Path) -> bytes:
     """A path for C."""
-    return os.fsencode(os.fspath(path))
+    return _without_nul(os.fsencode(os.fspath(path)), "the path")
+
+
+def text_bytes(text: str, name: str) -> bytes:
+    """A text for C."""
+    return _without_nul(text.encode(), name)
+
+
+def _without_nul(content: bytes, name: str) -> bytes:
+    if b"\0" in content:  # C would take what stands before it: another file
+        raise BadArgument(f"{name} is {content!r}; there must be no null character in it")
+    return content
 
 
 def null() -> ctypes.c_void_p:

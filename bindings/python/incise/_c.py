@@ -66,6 +66,10 @@ incise_should_stop: Any = CFUNCTYPE(c_int32, c_void_p)
 
 incise_recompute: Any = CFUNCTYPE(None, c_void_p, c_uint32, c_void_p, c_uint32)
 
+incise_progress: Any = CFUNCTYPE(None, c_void_p, c_uint64, c_uint64)
+
+incise_told: Any = CFUNCTYPE(None, c_void_p, c_char_p)
+
 
 class incise_engine_options(Structure):
     _fields_ = [
@@ -141,6 +145,8 @@ class incise_compact(Structure):
         ("tet_slots", c_void_p),
         ("vertices", c_uint64),
         ("tet_count", c_uint64),
+        ("vertex_room", c_uint64),
+        ("tet_room", c_uint64),
     ]
 
 
@@ -371,6 +377,13 @@ class incise_material(Structure):
         ("poisson", c_double),
         ("toughness", c_double),
         ("cut_friction", c_double),
+        ("stiffening", c_double),
+        ("rupture", c_double),
+        ("fibre", c_double * 3),
+        ("fibre_young", c_double),
+        ("prony", c_double * 6),
+        ("rigid", c_int32),
+        ("pad", c_int32),
     ]
 
 
@@ -394,6 +407,9 @@ class incise_hook(Structure):
         ("position", c_double * 3),
         ("radius", c_double),
         ("stiffness", c_double),
+        ("strength", c_double),
+        ("tears", c_int32),
+        ("pad2", c_uint32),
     ]
 
 
@@ -492,6 +508,24 @@ class incise_haptic_options(Structure):
         ("max_stretch", c_double),
         ("max_force", c_double),
         ("physics_period", c_double),
+    ]
+
+
+class incise_batch_options(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("shard_index", c_uint32),
+        ("shard_count", c_uint32),
+        ("threads", c_uint32),
+        ("retry", c_int32),
+        ("pad", c_uint32),
+        ("verify_items", c_uint64),
+        ("verify_seed", c_uint64),
+        ("progress", incise_progress),
+        ("should_stop", incise_should_stop),
+        ("user", c_void_p),
+        ("log", incise_log),
+        ("log_user", c_void_p),
     ]
 
 
@@ -659,6 +693,8 @@ def declare(library: CDLL) -> None:
     library.incise_simulation_redo.argtypes = [c_void_p, c_void_p]
     library.incise_simulation_hold.restype = c_int32
     library.incise_simulation_hold.argtypes = [c_void_p, c_uint32, c_double]
+    library.incise_simulation_pin.restype = c_int32
+    library.incise_simulation_pin.argtypes = [c_void_p, c_uint32, c_double, c_double, c_int32]
     library.incise_simulation_move_hold.restype = c_int32
     library.incise_simulation_move_hold.argtypes = [c_void_p, c_uint32, c_void_p]
     library.incise_simulation_is_held.restype = c_int32
@@ -679,3 +715,21 @@ def declare(library: CDLL) -> None:
     library.incise_haptic_tool_tick.argtypes = [c_void_p, c_double, c_void_p, c_void_p, c_void_p, c_void_p]
     library.incise_haptic_tool_free.restype = c_int32
     library.incise_haptic_tool_free.argtypes = [c_void_p]
+    library.incise_plan_read.restype = c_int32
+    library.incise_plan_read.argtypes = [c_char_p, c_void_p]
+    library.incise_plan_parse.restype = c_int32
+    library.incise_plan_parse.argtypes = [c_char_p, c_char_p, c_void_p]
+    library.incise_plan_free.restype = c_int32
+    library.incise_plan_free.argtypes = [c_void_p]
+    library.incise_plan_count.restype = c_int32
+    library.incise_plan_count.argtypes = [c_void_p, c_void_p]
+    library.incise_plan_name.restype = c_int32
+    library.incise_plan_name.argtypes = [c_void_p, c_uint64, c_void_p, c_uint64, c_void_p]
+    library.incise_default_batch_options.restype = c_int32
+    library.incise_default_batch_options.argtypes = [POINTER(incise_batch_options), c_uint32]
+    library.incise_batch_run.restype = c_int32
+    library.incise_batch_run.argtypes = [c_void_p, c_char_p, POINTER(incise_batch_options), incise_told, c_void_p]
+    library.incise_batch_merge.restype = c_int32
+    library.incise_batch_merge.argtypes = [c_void_p, c_char_p, incise_told, c_void_p]
+    library.incise_batch_verify.restype = c_int32
+    library.incise_batch_verify.argtypes = [c_void_p, c_char_p, POINTER(incise_batch_options), incise_told, c_void_p]

@@ -67,6 +67,8 @@ def default(kind: Type[_Struct], call: Any) -> _Struct:
 class Handle:
     """Owns what the library made, and frees it when the last one who looks at it is gone."""
 
+    pointer = ctypes.c_void_p()
+
     def __init__(self, pointer: ctypes.c_void_p, free: Any) -> None:
         self.pointer = pointer
         self._free = free
@@ -74,6 +76,10 @@ class Handle:
     def __del__(self) -> None:
         if self.pointer:
             self._free(self.pointer)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("what the library holds cannot be copied deeply, nor pickled: send its arrays, or its bytes "
+                        "(compact(), to_bytes())")
 
 
 def version() -> str:

@@ -10,9 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from ._arrays import Floats, address
+from ._arrays import Floats, address, text_bytes, whole
 from ._library import Handle, check, lib, sized
-from .errors import BadArgument
 from .mesh import Mesh, choice
 
 _DOMAINS = {"vertices": _c.AT_VERTICES, "tets": _c.AT_TETS}
@@ -50,12 +49,12 @@ class Attributes:
         starts with.
 
         transfer: "interpolate" (a field), "inherit" (a label), "conserve" (an amount: its sum is kept), or "recompute":
-        then recompute(slot) computes the `width` numbers of an element from the mesh alone.
+        then recompute(slot) computes the `width` numbers of an element from the mesh alone. What it raises comes out of
+        `add` and `follow`; the values that it owed are then 0, or those of another element.
         """
-        if not 1 <= width <= 64:
-            raise BadArgument(f"width is {width}; 1 to 64 are wanted")
+        width = whole(width, "width", 1, 64)
         spec = sized(_c.incise_attribute_spec)
-        encoded = name.encode()
+        encoded = text_bytes(name, "the name")
         start = None if initial is None else np.ascontiguousarray(
             np.broadcast_to(np.asarray(initial, np.float64), (width,)))
         spec.name, spec.width, spec.initial = encoded, width, address(start)

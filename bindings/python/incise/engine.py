@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c, exchange
-from ._arrays import Asking, Path, address, indices, labels, path_bytes, points, vector
+from ._arrays import Asking, Path, address, indices, labels, path_bytes, points, text_bytes, vector, whole
 from ._library import Handle, check, default, lib, sized
 from .errors import BadArgument
 from .mesh import Mesh, choice
@@ -89,13 +89,18 @@ def stroke_struct(stroke: Stroke, keep: list[Any]) -> Any:
     times = np.ascontiguousarray(given, dtype=np.float64)
     if times.shape != (len(edges),):
         raise BadArgument(f"a stroke has {len(edges)} edges and times of the shape {times.shape}")
-    name = stroke.name.encode()
+    name = text_bytes(stroke.name, "the name of the stroke")
     keep += [edges, times, name]
     struct = sized(_c.incise_stroke)
     struct.times, struct.n_times = address(times), len(times)
     struct.points, struct.n_points = address(edges), edges.shape[1]
     struct.name = name
     return struct
+
+
+def _units(work_units: Optional[int]) -> int:
+    """A budget; none: unlimited."""
+    return _c.UNLIMITED if work_units is None else whole(work_units, "work_units", 0, _c.UNLIMITED)
 
 
 def engine_options(profile: str = "incise", snap: float = 0.2, merge: bool = True, improve: bool = True,
@@ -105,10 +110,8 @@ def engine_options(profile: str = "incise", snap: float = 0.2, merge: bool = Tru
     options = default(_c.incise_engine_options, lib.incise_default_engine_options)
     options.profile = choice(profile, _PROFILES, "profile")
     options.snap, options.merge, options.improve = snap, int(merge), int(improve)
-    options.work_units = _c.UNLIMITED if work_units is None else work_units
-    if threads < 0:
-        raise BadArgument(f"threads is {threads}; 1 to 256 are wanted")
-    options.threads, options.smooth_boundary = threads, int(smooth_boundary)
+    options.work_units = _units(work_units)
+    options.threads, options.smooth_boundary = whole(threads, "threads", 1, 256), int(smooth_boundary)
     if check_steps is not None:
         options.check_steps = int(check_steps)
     if log is not None:
@@ -178,7 +181,7 @@ class Engine(Mesh):
         """The content of a mesh file; `name` stands for it in messages."""
         engine = cls.__new__(cls)
         engine._make(engine_options(**options), lambda c, out: lib.incise_engine_read_bytes(
-            content, len(content), name.encode(), c, out))
+            content, len(content), text_bytes(name, "the name"), c, out))
         return engine
 
     @classmethod
@@ -229,7 +232,7 @@ class Engine(Mesh):
     def cut_plane(self, normal: npt.ArrayLike, offset: float) -> Report:
         """Cuts all that is there along normal . x = offset; the normal of any length but 0."""
         n = vector(normal, "normal")
-        return self._reported(lambda report: lib.incise_engine_cut_plane(self._engine(), address(n), offset, report))
+        return self._reported(lambda report: lib.incise_engine_cut_plane(self._engine(), address(n), float(offset), report))
 
     def cut_blade(self, path: Path) -> Report:
         """Cuts the strokes of a blade file, one after the other; the report has their sums."""
@@ -310,9 +313,7 @@ class Engine(Mesh):
 
     def keep_undo(self, operations: int) -> None:
         """Keeps no more than the last operations for undo."""
-        if operations < 0:
-            raise BadArgument(f"operations is {operations}; at least 1 is wanted")
-        check(lib.incise_engine_keep_undo(self._engine(), operations))
+        check(lib.incise_engine_keep_undo(self._engine(), whole(operations, "operations", 1, _c.UNLIMITED)))
 
     @property
     def has_maintenance(self) -> bool:
@@ -325,7 +326,7 @@ class Engine(Mesh):
         Ctrl-C, and whatever `should_stop` raises, ends it between two operations: the mesh is sound, and what is left
         waits.
         """
-        units = _c.UNLIMITED if work_units is None else work_units
+        units = _units(work_units)
         with Asking(should_stop) as callback:
             return self._reported(lambda out: lib.incise_engine_maintain(self._engine(), units, callback, None, out))
 

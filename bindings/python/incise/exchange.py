@@ -31,7 +31,7 @@ def arrays_of_meshio(mesh: Any, regions: Optional[str]) -> tuple[Any, Any, Any]:
     if name not in mesh.cell_data:
         raise BadArgument(f"the mesh has no cell data {name!r}; it has " + ", ".join(map(repr, mesh.cell_data)))
     labels = np.concatenate([np.asarray(mesh.cell_data[name][index]).ravel() for index in blocks])
-    return points[used], numbered.reshape(tets.shape), labels.astype(np.int32)
+    return points[used], numbered.reshape(tets.shape), labels
 
 
 def to_meshio(mesh: "Mesh", pose: str) -> Any:

@@ -12,14 +12,15 @@ import numpy.typing as npt
 
 from . import _c
 from . import journal as journals
-from ._arrays import Bytes, Floats, Ints, Path, Rows, Slots, address, lines, path_bytes
+from ._arrays import Bytes, Floats, Ints, Path, Rows, Slots, address, lines, path_bytes, text_bytes, whole
 from ._library import Handle, check, lib, sized
-from .errors import BadArgument
+from .errors import BadArgument, Busy
 
 NONE: int = _c.NONE
 """The first vertex of a tet slot that is free, and "no element" elsewhere."""
 
 _POSES = {"rest": _c.AT_REST, "current": _c.AS_IT_STANDS}
+_MOST_LISTED = 1_000_000
 _LEVELS = {"counts": _c.VALIDATE_COUNTS, "topology": _c.VALIDATE_TOPOLOGY, "geometry": _c.VALIDATE_GEOMETRY}
 
 
@@ -265,35 +266,48 @@ class Mesh:
 
         pose: "rest" or "current". Cost: O(slots).
         """
-        counts = self._counts()
+        how, counts = choice(pose, _POSES, "pose"), self._counts()
         n, m = int(counts.vertices), int(counts.tets)
         result = Compact(np.empty((n, 3)), np.empty((m, 4), np.uint32), np.empty(m, np.int32), np.empty(m, np.uint32),
                          np.empty(n, np.uint32), np.empty(m, np.uint32))
         arrays = sized(_c.incise_compact)
-        arrays.pose = choice(pose, _POSES, "pose")
+        arrays.pose, arrays.vertex_room, arrays.tet_room = how, n, m
         for name in Compact.__dataclass_fields__:
             setattr(arrays, name, address(getattr(result, name)))
-        check(lib.incise_engine_compact(self._engine(), byref(arrays)))
+        try:
+            check(lib.incise_engine_compact(self._engine(), byref(arrays)))
+        except BadArgument:  # there is no room
+            self._check_version(counts.version)
+            raise
+        self._check_version(counts.version)
         return result
+
+    def _check_version(self, version: int) -> None:
+        """Of what takes several calls: between two of them another thread may have had its turn."""
+        if self.version != version:
+            raise Busy("another thread has changed the mesh meanwhile: an engine is for one thread at a time")
 
     def surface(self) -> Surface:
         """All boundary faces, as slots of vertices (index `rest` or `positions` by them). Cost: O(tets)."""
-        count = ctypes.c_uint64()
+        count, version = ctypes.c_uint64(), self.version
         check(lib.incise_engine_surface(self._engine(), None, None, None, 0, byref(count)))
         n = count.value
         result = Surface(np.empty((n, 3), np.uint32), np.empty(n, np.uint32), np.empty(n, np.uint32))
         check(lib.incise_engine_surface(self._engine(), address(result.triangles), address(result.tags),
                                         address(result.sides), n, None))
+        self._check_version(version)
         return result
 
     def pieces(self) -> Pieces:
         """The face-connected pieces. Cost: O(tets)."""
-        slots, count = int(self._counts().tet_slots), ctypes.c_uint64()
+        counts, count = self._counts(), ctypes.c_uint64()
+        slots = int(counts.tet_slots)
         labels = np.empty(slots, np.uint32)
         check(lib.incise_engine_pieces(self._engine(), address(labels), slots, None, None, 0, byref(count)))
         n = count.value
         result = Pieces(labels, np.empty(n, np.uint64), np.empty(n))
         check(lib.incise_engine_pieces(self._engine(), None, 0, address(result.tets), address(result.volumes), n, None))
+        self._check_version(counts.version)
         return result
 
     # --- judgement
@@ -309,7 +323,8 @@ class Mesh:
 
         Cost: about 1 us per tet.
         """
-        validity, listed, count = sized(_c.incise_validity), (_c.incise_violation * most)(), ctypes.c_uint64()
+        listed = (_c.incise_violation * whole(most, "most", 0, _MOST_LISTED))()
+        validity, count = sized(_c.incise_validity), ctypes.c_uint64()
         check(lib.incise_engine_validate(self._engine(), choice(level, _LEVELS, "level"), byref(validity), listed, most,
                                          byref(count)))
         counts = {_violation_name(kind): n for kind, n in enumerate(validity.counts) if n}
@@ -327,7 +342,7 @@ class Mesh:
 
     def to_bytes(self, extension: str, pose: str = "rest") -> bytes:
         """What `write` would put into a file of that extension (".mesh")."""
-        count, name, how = ctypes.c_uint64(), extension.encode(), choice(pose, _POSES, "pose")
+        count, name, how = ctypes.c_uint64(), text_bytes(extension, "the extension"), choice(pose, _POSES, "pose")
         check(lib.incise_engine_write_bytes(self._engine(), name, how, None, 0, byref(count)))
         buffer = ctypes.create_string_buffer(count.value)
         check(lib.incise_engine_write_bytes(self._engine(), name, how, buffer, count.value, None))

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from ._arrays import Floats, Path, Slots, address, path_bytes, points, vector
+from ._arrays import Floats, Path, Slots, address, path_bytes, points, vector, whole
 from ._library import Handle, check, default, lib, sized
 from .engine import Report, engine_options, mesh_struct
 from .errors import BadArgument
@@ -36,6 +36,18 @@ class Material:
     """J/m^2 of cut face; 0: a blade meets no resistance."""
     cut_friction: float = 0
     """N per m of engaged edge."""
+    stiffening: float = 0
+    """How fast it stiffens as it is strained, 0 to 100; docs/coupling.md."""
+    rupture: float = 0
+    """Share by which a front at rest bears more, and a running one less, 0 to 0.5."""
+    fibre: npt.ArrayLike = (0, 0, 0)
+    """Direction of fibres at rest, of any length."""
+    fibre_young: float = 0
+    """Pa, what fibres add to Young's modulus along them, in tension alone."""
+    prony: Sequence[tuple[float, float]] = ()
+    """Up to three pairs: a share of the shear modulus, and the seconds in which it relaxes."""
+    rigid: bool = False
+    """Bone: it moves, and does not deform."""
     region: Optional[int] = None
 
 
@@ -50,6 +62,10 @@ class Hook:
     """Length unit; of what it takes hold of."""
     stiffness: float = 100
     """N/m per vertex."""
+    strength: float = 0
+    """N, of all its springs together; 0: it bears all."""
+    tears: bool = False
+    """Beyond its strength it lets go; else it slips."""
 
 
 @dataclass(frozen=True)
@@ -191,8 +207,7 @@ class Simulation:
         settle: lets the body come to rest as the scene says.
         """
         simulation = cls.__new__(cls)
-        if threads < 0:
-            raise BadArgument(f"threads is {threads}; 1 to 256 are wanted")
+        threads = whole(threads, "threads", 1, 256)
         if isinstance(scene, (str, os.PathLike)):
             name = path_bytes(scene)
             simulation._make(lambda out: lib.incise_simulation_read_scene(name, threads, out), [])
@@ -253,10 +268,8 @@ class Simulation:
 
     def settle(self, max_frames: int = 300, speed: float = 1e-4) -> int:
         """Lets the body come to rest until nothing moves faster than `speed` m/s; returns the frames that it took."""
-        frames = ctypes.c_uint32()
-        if max_frames < 0:
-            raise BadArgument(f"max_frames is {max_frames}; at least 0 is wanted")
-        check(lib.incise_simulation_settle(self._handle.pointer, max_frames, speed, byref(frames)))
+        frames, most = ctypes.c_uint32(), whole(max_frames, "max_frames", 0, 2**32 - 1)
+        check(lib.incise_simulation_settle(self._handle.pointer, most, float(speed), byref(frames)))
         return frames.value
 
     def _frame(self, report: Any) -> Frame:
@@ -276,18 +289,33 @@ class Simulation:
     # --- what holds it
 
     def hold(self, vertices: "npt.ArrayLike", stiffness: float = math.inf) -> None:
-        """Holds vertices where they stand: rigidly, or by springs of `stiffness` N/m each; 0 lets them go."""
-        for vertex in np.atleast_1d(np.asarray(vertices)).tolist():
-            check(lib.incise_simulation_hold(self._handle.pointer, _slot(vertex), stiffness))
+        """Holds vertices where they stand: rigidly, or by springs of `stiffness` N/m each; 0 lets them go.
+
+        vertices: slots, as `find` gives them; a mask is refused. Where one of them is not live nothing is held.
+        """
+        for vertex in self._live_slots(vertices):
+            check(lib.incise_simulation_hold(self._handle.pointer, vertex, float(stiffness)))
+
+    def pin(self, vertices: "npt.ArrayLike", stiffness: float, strength: float, tears: bool = False) -> None:
+        """Holds vertices by springs that bear no more than `strength` N each: beyond it they slip, or tear loose."""
+        for vertex in self._live_slots(vertices):
+            check(lib.incise_simulation_pin(self._handle.pointer, vertex, float(stiffness), float(strength), int(tears)))
 
     def move_hold(self, vertices: npt.ArrayLike, targets: npt.ArrayLike) -> None:
         """Where held vertices are to be: n x 3, or one place for one vertex; length unit."""
-        slots = np.atleast_1d(np.asarray(vertices)).tolist()
+        slots = self._live_slots(vertices)
         places = points(np.atleast_2d(np.asarray(targets, np.float64)), "targets")
         if len(places) != len(slots):
             raise BadArgument(f"{len(slots)} vertices and {len(places)} targets")
         for vertex, place in zip(slots, places):
-            check(lib.incise_simulation_move_hold(self._handle.pointer, _slot(vertex), address(place)))
+            check(lib.incise_simulation_move_hold(self._handle.pointer, vertex, address(place)))
+
+    def _live_slots(self, vertices: npt.ArrayLike) -> list[int]:
+        slots, shapes = [_slot(vertex) for vertex in np.atleast_1d(np.asarray(vertices)).tolist()], self._mesh.shapes
+        for slot in slots:
+            if slot >= len(shapes) or shapes[slot] & _c.SHAPE_DEAD:
+                raise BadArgument(f"vertex {slot} is not live", (slot,))
+        return slots
 
     def is_held(self, vertex: int) -> bool:
         """Whether a vertex is held."""
@@ -337,10 +365,11 @@ class Simulation:
         return bool(done.value)
 
 
-def _slot(vertex: int) -> int:
-    if not 0 <= vertex <= _c.NONE:
-        raise BadArgument(f"there is no vertex {vertex}")
-    return int(vertex)
+def _slot(vertex: Any) -> int:
+    if isinstance(vertex, (bool, np.bool_)):  # a mask would hold vertices 0 and 1
+        raise BadArgument("vertices are True or False; slots are wanted: those of a mask are "
+                          "numpy.flatnonzero(mask)")
+    return whole(vertex, "a vertex", 0, _c.NONE)
 
 
 def _materials(materials: Union[Material, Iterable[Material], None], keep: list[Any]) -> tuple[Any, int]:
@@ -348,13 +377,20 @@ def _materials(materials: Union[Material, Iterable[Material], None], keep: list[
     structs = (_c.incise_material * len(given))()
     for struct, material in zip(structs, given):
         struct.is_fallback = int(material.region is None)
-        struct.region = material.region or 0
-        for name in ("density", "young", "poisson", "toughness", "cut_friction"):
+        struct.region = whole(material.region or 0, "region", -2**31, 2**31 - 1)
+        for name in ("density", "young", "poisson", "toughness", "cut_friction", "stiffening", "rupture", "fibre_young"):
             setattr(struct, name, getattr(material, name))
+        struct.fibre[:] = vector(material.fibre, "fibre").tolist()
+        terms = [number for term in material.prony for number in term]
+        if len(terms) > 6 or len(terms) != 2 * len(material.prony):
+            raise BadArgument("prony takes up to three pairs of a share and seconds")
+        struct.prony[:] = terms + [0] * (6 - len(terms))
+        struct.rigid = int(material.rigid)
     keep.append(structs)
     return structs, len(given)
 
 
+_BODY_COUNTS = ("substeps", "iterations")
 _BODY = ("length_unit", "damping", "substeps", "iterations", "thinnest", "sleep_below", "crumb")
 
 
@@ -367,7 +403,8 @@ def _options(keep: list[Any], *, materials: Union[Material, Iterable[Material], 
     body.gravity[:] = vector(gravity, "gravity").tolist()
     for name in _BODY:
         if name in others:
-            setattr(body, name, others.pop(name))
+            value = others.pop(name)
+            setattr(body, name, whole(value, name, 0, 2**32 - 1) if name in _BODY_COUNTS else value)
     engine = engine_options(threads=threads, work_units=work_units, **others)
     body.threads = threads
     options = default(_c.incise_simulation_options, lib.incise_default_simulation_options)
@@ -410,7 +447,9 @@ def _input(blade: Optional[npt.ArrayLike], direction: Optional[npt.ArrayLike], h
         struct.direction = address(way)
     hook_structs, tool_structs = (_c.incise_hook * len(hooks))(), (_c.incise_tool * len(tools))()
     for hook, hook_struct in zip(hooks, hook_structs):
-        hook_struct.id, hook_struct.radius, hook_struct.stiffness = hook.id, hook.radius, hook.stiffness
+        hook_struct.id = whole(hook.id, "the hook's id", 0, 2**32 - 1)
+        hook_struct.radius, hook_struct.stiffness = hook.radius, hook.stiffness
+        hook_struct.strength, hook_struct.tears = hook.strength, int(hook.tears)
         hook_struct.position[:] = vector(hook.position, "position").tolist()
     for tool, tool_struct in zip(tools, tool_structs):
         _tool(tool, tool_struct, keep)

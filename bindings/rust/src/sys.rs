@@ -76,9 +76,15 @@ pub struct incise_simulation {
 pub struct incise_haptic_tool {
     _opaque: [u8; 0],
 }
+#[repr(C)]
+pub struct incise_plan {
+    _opaque: [u8; 0],
+}
 pub type incise_log = unsafe extern "C" fn(user: *mut c_void, level: i32, message: *const c_char);
 pub type incise_should_stop = unsafe extern "C" fn(user: *mut c_void) -> i32;
 pub type incise_recompute = unsafe extern "C" fn(user: *mut c_void, slot: u32, value: *mut f64, width: u32);
+pub type incise_progress = unsafe extern "C" fn(user: *mut c_void, done: u64, total: u64);
+pub type incise_told = unsafe extern "C" fn(user: *mut c_void, text: *const c_char);
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct incise_engine_options {
@@ -150,6 +156,8 @@ pub struct incise_compact {
     pub tet_slots: *mut u32,
     pub vertices: u64,
     pub tet_count: u64,
+    pub vertex_room: u64,
+    pub tet_room: u64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -362,6 +370,13 @@ pub struct incise_material {
     pub poisson: f64,
     pub toughness: f64,
     pub cut_friction: f64,
+    pub stiffening: f64,
+    pub rupture: f64,
+    pub fibre: [f64; 3],
+    pub fibre_young: f64,
+    pub prony: [f64; 6],
+    pub rigid: i32,
+    pub pad: i32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -383,6 +398,9 @@ pub struct incise_hook {
     pub position: [f64; 3],
     pub radius: f64,
     pub stiffness: f64,
+    pub strength: f64,
+    pub tears: i32,
+    pub pad2: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -476,6 +494,23 @@ pub struct incise_haptic_options {
     pub max_force: f64,
     pub physics_period: f64,
 }
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct incise_batch_options {
+    pub size: u32,
+    pub shard_index: u32,
+    pub shard_count: u32,
+    pub threads: u32,
+    pub retry: i32,
+    pub pad: u32,
+    pub verify_items: u64,
+    pub verify_seed: u64,
+    pub progress: Option<incise_progress>,
+    pub should_stop: Option<incise_should_stop>,
+    pub user: *mut c_void,
+    pub log: Option<incise_log>,
+    pub log_user: *mut c_void,
+}
 #[link(name = "incise")]
 extern "C" {
     pub fn incise_abi() -> u32;
@@ -559,6 +594,7 @@ extern "C" {
     pub fn incise_simulation_undo(simulation: *mut incise_simulation, done: *mut i32) -> i32;
     pub fn incise_simulation_redo(simulation: *mut incise_simulation, done: *mut i32) -> i32;
     pub fn incise_simulation_hold(simulation: *mut incise_simulation, vertex: u32, stiffness: f64) -> i32;
+    pub fn incise_simulation_pin(simulation: *mut incise_simulation, vertex: u32, stiffness: f64, strength: f64, tears: i32) -> i32;
     pub fn incise_simulation_move_hold(simulation: *mut incise_simulation, vertex: u32, target: *const f64) -> i32;
     pub fn incise_simulation_is_held(simulation: *const incise_simulation, vertex: u32, is_held: *mut i32) -> i32;
     pub fn incise_simulation_velocities(simulation: *const incise_simulation, velocities: *mut f64, room: u64, count: *mut u64) -> i32;
@@ -569,4 +605,13 @@ extern "C" {
     pub fn incise_haptic_tool_accept(tool: *mut incise_haptic_tool, snapshot: *const incise_haptic_snapshot) -> i32;
     pub fn incise_haptic_tool_tick(tool: *mut incise_haptic_tool, dt: f64, position: *const f64, velocity: *const f64, force: *mut f64, tool_position: *mut f64) -> i32;
     pub fn incise_haptic_tool_free(tool: *mut incise_haptic_tool) -> i32;
+    pub fn incise_plan_read(path: *const c_char, plan: *mut *mut incise_plan) -> i32;
+    pub fn incise_plan_parse(json: *const c_char, folder: *const c_char, plan: *mut *mut incise_plan) -> i32;
+    pub fn incise_plan_free(plan: *mut incise_plan) -> i32;
+    pub fn incise_plan_count(plan: *const incise_plan, count: *mut u64) -> i32;
+    pub fn incise_plan_name(plan: *const incise_plan, item: u64, text: *mut c_char, room: u64, count: *mut u64) -> i32;
+    pub fn incise_default_batch_options(options: *mut incise_batch_options, size: u32) -> i32;
+    pub fn incise_batch_run(plan: *const incise_plan, folder: *const c_char, options: *const incise_batch_options, tell: Option<incise_told>, user: *mut c_void) -> i32;
+    pub fn incise_batch_merge(plan: *const incise_plan, folder: *const c_char, tell: Option<incise_told>, user: *mut c_void) -> i32;
+    pub fn incise_batch_verify(plan: *const incise_plan, folder: *const c_char, options: *const incise_batch_options, tell: Option<incise_told>, user: *mut c_void) -> i32;
 }

@@ -227,8 +227,11 @@ typedef struct incise_compact {
   uint32_t* tet_slots;    /* tets */
   uint64_t vertices;      /* out */
   uint64_t tet_count;     /* out */
+  uint64_t vertex_room;   /* how many vertices there is room for; 0: enough */
+  uint64_t tet_room;      /* likewise */
 } incise_compact;
-/* Cost: O(slots). */
+/* Errors: bad argument, and nothing is written, where the mesh has more than there is room for: another thread may have
+ * cut it since it was counted. Cost: O(slots). */
 INCISE_API incise_status incise_engine_compact(const incise_engine* engine, incise_compact* arrays);
 
 /* The face-connected pieces: label by tet slot (INCISE_NONE where free), of which `label_room` are written; tets and
@@ -518,7 +521,7 @@ typedef struct incise_cursor incise_cursor;
 #define INCISE_WAY_NONE 0      /* the journal stands where the follower stands */
 #define INCISE_WAY_FORWARD 1   /* steps from `position` on are new: apply them */
 #define INCISE_WAY_ELSEWHERE 2 /* steps were undone, redone or forgotten: begin anew from the mesh */
-/* At where the engine's journal stands now. */
+/* At where the engine's journal stands now. It is for that engine alone: another one is a bad argument. */
 INCISE_API incise_status incise_cursor_create(const incise_engine* engine, incise_cursor** cursor);
 /* How it gets to where the journal stands; `position` (may be null): the steps that the follower has applied. */
 INCISE_API incise_status incise_cursor_way(const incise_cursor* cursor, const incise_engine* engine, int32_t* way,
@@ -606,6 +609,13 @@ typedef struct incise_material {
   double poisson;      /* [0, 0.499] */
   double toughness;    /* J/m^2 of cut face; 0: a blade meets no resistance */
   double cut_friction; /* N per m of engaged edge */
+  double stiffening;   /* how fast it stiffens as it is strained, [0, 100] */
+  double rupture;      /* share by which a front at rest bears more, and a running one less, [0, 0.5] */
+  double fibre[3];     /* direction of fibres at rest, of any length */
+  double fibre_young;  /* Pa, what they add to Young's modulus along them, in tension alone; 0: no fibres */
+  double prony[6];     /* up to three pairs: a share of the shear modulus, and the seconds in which it relaxes */
+  int32_t rigid;       /* other than 0: bone, it moves and does not deform */
+  int32_t pad;
 } incise_material;
 
 /* How a simulation works. */
@@ -649,6 +659,9 @@ typedef struct incise_hook {
   double position[3]; /* length unit */
   double radius;      /* above 0 */
   double stiffness;   /* N/m per vertex, above 0 */
+  double strength;    /* N in all: the greatest force; 0: it bears all */
+  int32_t tears;      /* other than 0: beyond its strength it lets go; else it slips */
+  uint32_t pad2;      /* means nothing */
 } incise_hook;
 
 #define INCISE_TOOL_BALL 0  /* a: centre, radius */
@@ -708,8 +721,8 @@ INCISE_API incise_status incise_simulation_cut_report(const incise_simulation* s
 /* Forces of the tissue on the hooks of the last frame, N: x y z each. */
 INCISE_API incise_status incise_simulation_hook_forces(const incise_simulation* simulation, double* forces,
                                                        uint64_t room, uint64_t* count);
-/* Lets the body come to rest until nothing moves faster than `speed` m/s, at most `max_frames`; `frames` (may be null)
- * gets how many it took. */
+/* Lets the body come to rest until nothing moves faster than `speed` m/s, at least 0, at most `max_frames`; `frames`
+ * (may be null) gets how many it took. */
 INCISE_API incise_status incise_simulation_settle(incise_simulation* simulation, uint32_t max_frames, double speed,
                                                   uint32_t* frames);
 /* As the scene says. Errors: bad argument without a scene. */
@@ -744,6 +757,10 @@ INCISE_API incise_status incise_simulation_redo(incise_simulation* simulation, i
 
 /* Holds a vertex where it stands: rigidly (infinite stiffness), or by a spring of N/m; 0 lets it go. */
 INCISE_API incise_status incise_simulation_hold(incise_simulation* simulation, uint32_t vertex, double stiffness);
+/* Holds a vertex by a spring of N/m that bears no more than `strength`, N, above 0: beyond it the vertex slips, or
+ * tears loose where `tears` is other than 0. */
+INCISE_API incise_status incise_simulation_pin(incise_simulation* simulation, uint32_t vertex, double stiffness,
+                                               double strength, int32_t tears);
 /* Where a held vertex is to be: x y z. */
 INCISE_API incise_status incise_simulation_move_hold(incise_simulation* simulation, uint32_t vertex,
                                                      const double* target);
@@ -806,6 +823,62 @@ INCISE_API incise_status incise_haptic_tool_tick(incise_haptic_tool* tool, doubl
                                                  const double* velocity, double* force, double* tool_position);
 /* Null is fine. */
 INCISE_API incise_status incise_haptic_tool_free(incise_haptic_tool* tool);
+
+/* ---- batches ------------------------------------------------------------------------------------------------- */
+
+/* A plan of many cuts, by workers that share a folder; see docs/batches.md. It does not change: any thread may use it,
+ * and several at once. */
+typedef struct incise_plan incise_plan;
+
+/* Reads a plan, JSON of format incise-plan. Errors: bad file "FILE:LINE: PATH what; remedy". */
+INCISE_API incise_status incise_plan_read(const char* path, incise_plan** plan);
+/* The same from memory. Files that it names are seen from `folder`; null: from the folder that the program runs in. */
+INCISE_API incise_status incise_plan_parse(const char* json, const char* folder, incise_plan** plan);
+/* Null is fine. */
+INCISE_API incise_status incise_plan_free(incise_plan* plan);
+/* How many items it has. */
+INCISE_API incise_status incise_plan_count(const incise_plan* plan, uint64_t* count);
+/* The name of an item, from 0: copies at most `room` bytes with a closing 0, tells in `count` how many the whole takes.
+ */
+INCISE_API incise_status incise_plan_name(const incise_plan* plan, uint64_t item, char* text, uint64_t room,
+                                          uint64_t* count);
+
+/* Called before each item and after the last: items done, items in all. */
+typedef void (*incise_progress)(void* user, uint64_t done, uint64_t total);
+/* Gets a text that lasts as long as the call. */
+typedef void (*incise_told)(void* user, const char* text);
+
+/* What a worker does. */
+typedef struct incise_batch_options {
+  uint32_t size;
+  uint32_t shard_index; /* which part of the items, from 0 */
+  uint32_t shard_count; /* of how many, in [1, 99999] */
+  uint32_t threads;     /* in [1, 256]; the result does not depend on it */
+  int32_t retry;        /* items that have failed are tried again */
+  uint32_t pad;
+  uint64_t verify_items;          /* of incise_batch_verify: how many */
+  uint64_t verify_seed;           /* which */
+  incise_progress progress;       /* null: nobody asks */
+  incise_should_stop should_stop; /* asked before each item and each frame of a scene; null: to the end */
+  void* user;                     /* handed to these two */
+  incise_log log;                 /* null: nobody listens */
+  void* log_user;                 /* handed to `log` */
+} incise_batch_options;
+/* Writes the first `size` bytes of the default options. */
+INCISE_API incise_status incise_default_batch_options(incise_batch_options* options, uint32_t size);
+
+/* Computes the items of a shard that no worker has done yet into `folder`, which is made where it is not there. `tell`
+ * (may be null) gets a report: JSON of format incise-batch, with "items", "skipped", "done", "failed" and "stopped".
+ * Items that cannot be computed are no error of the call. Errors: io; bad argument where another worker is at the same
+ * shard; bad file where the folder has results of another plan. */
+INCISE_API incise_status incise_batch_run(const incise_plan* plan, const char* folder,
+                                          const incise_batch_options* options, incise_told tell, void* user);
+/* Puts the lines of all shards into results.jsonl, in the order of the plan, where all is whole; the report's "ok" says
+ * whether it was, and "missing", "contradictory" and "broken_files" what was not. Errors: as above. */
+INCISE_API incise_status incise_batch_merge(const incise_plan* plan, const char* folder, incise_told tell, void* user);
+/* Computes `verify_items` items again, and compares hashes: the report's "ok", "differences" and "stopped". */
+INCISE_API incise_status incise_batch_verify(const incise_plan* plan, const char* folder,
+                                             const incise_batch_options* options, incise_told tell, void* user);
 
 #ifdef __cplusplus
 } /* extern "C" */

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,13 +34,26 @@ struct SimulationOptions {
   double flat_height = 0;           ///< of the blade behind its edge, length unit; 0: the flat touches nothing
 };
 
-/// A grip on the tissue: a hook, a pair of forceps. In the first frame that names it, it takes hold of all vertices
-/// within `radius` of its position; in the first frame that does not, it lets go.
+/// What a hook takes hold of.
+enum class HookReach : std::uint8_t {
+  kBall,     ///< all vertices within the radius of its position, on both sides of a wound and inside the body as well
+  kSurface,  ///< those of the surface that are no further than the radius by the way along its edges, from the nearest
+             ///< place on; never across a lip, from skin to wall, or over the end of a cut to the wall across
+};
+
+/// A grip on the tissue: a hook, a pair of forceps. In the first frame that names it, it takes hold; in the first frame
+/// that does not, it lets go.
 struct Hook {
-  std::uint32_t id = 0;          ///< the same from frame to frame, and once per frame
-  Vec3 position = Vec3::Zero();  ///< length unit
-  double radius = 0;             ///< length unit, above 0; where no vertex is within it, the nearest one is taken
-  double stiffness = 100;        ///< N/m per vertex, above 0
+  std::uint32_t id = 0;                ///< the same from frame to frame, and once per frame
+  Vec3 position = Vec3::Zero();        ///< length unit
+  double radius = 0;                   ///< length unit, above 0; where no vertex is within it, the nearest one is taken
+  double stiffness = 100;              ///< N/m per vertex, above 0
+  HookReach reach = HookReach::kBall;  ///< where it takes hold
+  double closed = 0;  ///< in [0, 1): share of the way to its position by which what it holds is gathered, as jaws do
+  /// Of all its springs together, N, above 0: the greatest force. Pulled harder it slips through the tissue, so that it
+  /// bears just this, or tears out.
+  double strength = std::numeric_limits<double>::infinity();
+  bool tears = false;  ///< beyond its strength it lets go, until the tissue is gripped anew under another id
 };
 
 /// What the hands do in one frame: everything that they hold, where it is at the end of the frame.
@@ -74,6 +88,7 @@ struct FrameReport {
   std::uint32_t stroke = 0;                 ///< the stroke under way, of this simulation's from 1; 0: none
   std::size_t contacts = 0;                 ///< vertices that tools touch
   std::vector<std::uint32_t> torn_sutures;  ///< ids of those that tore in this frame
+  std::vector<std::uint32_t> torn_hooks;    ///< ids of those that tore out in this frame
 };
 
 /// A body that is cut while it deforms: the paper's whole pipeline (Figure 1), frame by frame.
@@ -87,7 +102,7 @@ struct FrameReport {
 /// report times.
 class Simulation {
  public:
-  /// Takes the mesh, at rest. Errors: kBadArgument for options out of range.
+  /// Takes the mesh as it stands, at rest or drawn out. Errors: kBadArgument for options out of range.
   static Result<Simulation> create(TetMesh mesh, SimulationOptions options);
   /// The same with a solver of one's own, made for this mesh. Of `options.body` the length unit alone counts, and of
   /// `options.materials` how tissue resists a blade. Errors: kBadArgument besides without a solver.
@@ -101,8 +116,8 @@ class Simulation {
   Result<FrameReport> frame(const FrameInput& input);
 
   /// Lets the body come to rest under gravity and its holds, before anything is done to it: makes frames without input,
-  /// with velocities halved, until nothing moves faster than `speed` m/s, at most `max_frames` of them. Returns how
-  /// many frames it made.
+  /// with velocities halved, until nothing moves faster than `speed` m/s, at least 0, at most `max_frames` of them.
+  /// Returns how many frames it made.
   Result<unsigned> settle(unsigned max_frames, double speed = 1e-4);
 
   /// Takes the last stroke back, with its maintenance; a stroke under way as well. The tissue stays where it stands.

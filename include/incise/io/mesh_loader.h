@@ -31,6 +31,7 @@ struct LoadedMesh {
   TetMesh mesh;                            ///< valid except for the defects that the file has
   std::vector<std::uint32_t> file_vertex;  ///< the file's number of each mesh vertex; empty where they are equal, or
                                            ///< where the file itself names the vertices before its cuts
+  RegionNames region_names;                ///< as the file has them; pass them on to `MeshData` when it is written
 };
 
 /// Takes the mid-edge nodes of ten-node tets out of a mesh; corners keep their order.

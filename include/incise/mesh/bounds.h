@@ -11,5 +11,8 @@ inline namespace v0 {
 /// Cost: O(vertices).
 [[nodiscard]] Box rest_bounds(const TetMesh& mesh);
 
+/// The same around the body as it stands.
+[[nodiscard]] Box current_bounds(const TetMesh& mesh);
+
 }  // namespace v0
 }  // namespace incise

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -31,6 +32,12 @@ class JournalCursor {
     if (journal.serial_before(position_) != serial_) return Way::kElsewhere;
     if (journal.position() == position_) return Way::kNone;
     return journal.step(position_).serial > newest_ ? Way::kForward : Way::kElsewhere;
+  }
+  /// Whether the journal still has all steps between where the follower stands and where the journal does: those to be
+  /// applied, undone ones that were done again among them, or those that were undone. Cost: O(1).
+  [[nodiscard]] bool can_walk_to(const Journal& journal) const {
+    return journal.first() <= std::min(position_, journal.position()) && position_ <= journal.size() &&
+           journal.serial_before(position_) == serial_;
   }
   /// The follower has caught up.
   void move_to(const Journal& journal) {

@@ -15,6 +15,9 @@ struct DeviceState {
   Vec3 velocity = Vec3::Zero();                                     ///< m/s
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< device to world, unit
   std::uint32_t buttons = 0;                                        ///< bit i: button i is down
+  /// Whether the rest is where the device is now. False: it does not answer, or what it says cannot be; nothing is to
+  /// be felt, and nothing is to be done by where it was.
+  bool is_live = true;
 };
 
 /// A thing to hold that tells where it is and pushes back.

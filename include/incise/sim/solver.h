@@ -27,7 +27,7 @@ struct Pull {
   Vec3 axis = Vec3::Zero();                   ///< a unit vector, or zero: in all directions
   double stiffness = 0;                       ///< N/m, at least 0
   bool pushes_only = false;                   ///< with an axis: acts only where axis · (a − target) < 0
-  /// With an axis: N, at least 0; where the spring would pull harder it gives way, and pulls with this.
+  /// N, at least 0; where the spring would pull harder it gives way, and pulls with this.
   double limit = std::numeric_limits<double>::infinity();
   /// With an axis: the spring holds the point across the axis to `anchor` as well, with this force at most, N:
   /// friction.
@@ -57,7 +57,7 @@ struct Tie {
 /// What following the journal changed.
 struct FollowReport {
   std::size_t removed_tets = 0, added_tets = 0;  ///< by the steps that were followed
-  std::size_t fresh_vertices = 0;                ///< born, copied or moved
+  std::size_t fresh_vertices = 0;                ///< born, copied or moved, or put elsewhere by the solver
 };
 
 /// What one `advance` did.
@@ -65,6 +65,7 @@ struct AdvanceReport {
   std::size_t active_vertices = 0;  ///< that were awake
   double fastest = 0;               ///< greatest speed of a vertex, m/s
   std::size_t self_contacts = 0;    ///< vertices that pressed on faces of the same body
+  std::size_t torn_holds = 0;       ///< springs that held vertices and tore out
 };
 
 /// What relaxes the tissue of a `Simulation`. `DeformableBody` is the solver that Incise has; derive from this one to

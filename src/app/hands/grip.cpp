@@ -2,6 +2,8 @@
 #include "app/hands/grip.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace incise {
 inline namespace v0 {
@@ -10,6 +12,7 @@ namespace {
 
 constexpr double kPushPerNotch = 0.5;                      // of the hook's radius
 constexpr double kNearestShare = 0.2, kFarthestShare = 5;  // of the depth of what was grasped
+constexpr double kJaw = 0.5, kForcepsLength = 3;           // of the hook's radius, as drawn
 constexpr double kLeastCosine = 1e-3;                      // of a ray to the middle of the view: none are in a picture
 
 double depth_of(const Camera& camera, const Vec3& point) {
@@ -20,6 +23,10 @@ double depth_of(const Camera& camera, const Vec3& point) {
 
 Grasp::Grasp(const Hook& hook, const Camera& camera)
     : hook_(hook), grasped_(hook.position), depth_(depth_of(camera, grasped_)), first_depth_(depth_) {}
+
+void Grasp::take(const Camera& camera) {
+  depth_ = first_depth_ = depth_of(camera, hook_.position);
+}
 
 void Grasp::move(const Ray& ray, const Camera& camera) {
   const double cosine = -ray.direction.dot(camera.backward());
@@ -37,6 +44,46 @@ void Grasp::draw(Marks& marks) const {
   const Eigen::Vector3f to = hook_.position.cast<float>();
   marks.lines.push_back({grasped_.cast<float>(), to, Ink::kHook, 2, true, false});
   marks.balls.push_back({to, Ink::kHook, 6, true});
+}
+
+void draw_forceps(const Hook& hook, const Camera& camera, Marks& marks) {
+  const Vec3 handle = hook.position + kForcepsLength * hook.radius * (camera.backward() + 0.6 * camera.right());
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 tip = hook.position + side * kJaw * (1 - hook.closed) * hook.radius * camera.right();
+    const Vec3 back = handle + side * kJaw * hook.radius * camera.upward();
+    marks.lines.push_back({tip.cast<float>(), back.cast<float>(), Ink::kHook, 4, true, false});
+  }
+}
+
+Instrument instrument_at(const Hook& hook, const Vec3& grasped, const HeldBy& by, const Camera& camera) {
+  Instrument made;
+  made.kind = by.kind;
+  made.tip = hook.position;
+  made.millimetre = by.millimetre;
+  if (by.kind == InstrumentKind::kForceps) {
+    made.up = (camera.backward() + 0.6 * camera.right()).normalized();
+    made.ahead = camera.upward();
+    made.opening = 2 * kJaw * (1 - hook.closed) * hook.radius;
+    return made;
+  }
+  const Vec3 pull = hook.position - grasped;
+  const Vec3 flat = pull - pull.dot(by.normal) * by.normal;
+  made.ahead = flat;
+  const double lean = hook.radius > 0 ? std::min(1.0, flat.norm() / hook.radius) : 0;
+  made.up = (by.normal + 0.7 * lean * flat.stableNormalized()).normalized();
+  return made;
+}
+
+void draw_circle(const Vec3& centre, const Vec3& normal, double radius, Marks& marks) {
+  constexpr int kCorners = 16;
+  const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+  Vec3 last = centre + radius * x;
+  for (int i = 1; i <= kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    const Vec3 next = centre + radius * (std::cos(angle) * x + std::sin(angle) * y);
+    marks.lines.push_back({last.cast<float>(), next.cast<float>(), Ink::kPreview, 1.5F, true, false});
+    last = next;
+  }
 }
 
 std::optional<std::size_t> find_pin(const std::vector<Hook>& pins, const Camera& camera, const Viewport& viewport,

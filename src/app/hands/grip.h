@@ -19,12 +19,15 @@ class Grasp {
  public:
   Grasp(const Hook& hook, const Camera& camera);
 
+  /// Another hand, or another view, takes it where it is.
+  void take(const Camera& camera);
   /// The pointer is elsewhere.
   void move(const Ray& ray, const Camera& camera);
   /// Pushes it away from the viewer, or pulls it nearer, along the way from the eye.
   void push(double notches, const Camera& camera);
 
   [[nodiscard]] const Hook& hook() const { return hook_; }
+  [[nodiscard]] const Vec3& grasped() const { return grasped_; }  ///< where it took hold
   void draw(Marks& marks) const;
 
  private:
@@ -37,6 +40,18 @@ class Grasp {
 /// The nearest of some pins to a place of the picture, within `reach` pixels: its index.
 [[nodiscard]] std::optional<std::size_t> find_pin(const std::vector<Hook>& pins, const Camera& camera,
                                                   const Viewport& viewport, const Vec2& pixel, double reach);
+/// Two jaws at a hook, as far apart as it is open, held towards the viewer.
+void draw_forceps(const Hook& hook, const Camera& camera, Marks& marks);
+/// The instrument that a hook in the hand is, and where it was put on.
+struct HeldBy {
+  InstrumentKind kind = InstrumentKind::kForceps;
+  Vec3 normal = Vec3::UnitZ();  ///< of the surface that it took hold of, outwards
+  double millimetre = 0.001;    ///< see `Instrument`
+};
+/// Forceps are held towards the viewer; hooks and retractors stand on the skin and lean to where they pull.
+[[nodiscard]] Instrument instrument_at(const Hook& hook, const Vec3& grasped, const HeldBy& by, const Camera& camera);
+/// A circle on a surface: what a grip takes hold of, or where the pointer is.
+void draw_circle(const Vec3& centre, const Vec3& normal, double radius, Marks& marks);
 void draw_pins(const std::vector<Hook>& pins, Marks& marks);
 
 }  // namespace app

@@ -2,9 +2,11 @@
 // What a tool in a person's hand is to the machine of tools: pointer events go in, what the hands do comes out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/view/camera.h"
@@ -32,13 +34,20 @@ struct PointerEvent {
 
 /// What tools are set to. Lengths in the mesh's unit.
 struct ToolSettings {
-  double depth = 0;            ///< of the scalpel's tip below the surface, whatever its angle; above 0
+  double depth = 0;            ///< of a blade's tip below the surface, whatever its angle; above 0
   double angle = 0;            ///< of the scalpel to the left of upright, seen along the cut; rad, within ±1.2
   double grasp_radius = 0;     ///< above 0
   double grasp_stiffness = 0;  ///< N/m per vertex, above 0
   double pin_radius = 0;       ///< above 0
   double pin_stiffness = 0;    ///< N/m per vertex, above 0
+  double punch_radius = 0.1;   ///< above 0
+  double metres = 1;           ///< per length unit, above 0
 };
+
+/// Of the instruments; see `Instrument`.
+[[nodiscard]] inline double millimetre_of(const ToolSettings& settings) {
+  return instrument_millimetre(settings.metres, settings.depth);
+}
 
 /// What a tool sees when an event comes.
 struct ToolContext {
@@ -64,6 +73,20 @@ struct PointerPlace {
 /// Cost: one `pick`.
 [[nodiscard]] PointerPlace place_of(const PointerEvent& event, const ToolContext& context, const Camera& camera);
 
+/// A suture or a staple that a hand sets.
+struct Stitch {
+  std::array<Vec3, 2> rest_places;  ///< of the rest shape, length unit
+  Suture suture;
+};
+
+/// What comes of a drag.
+struct DragResults {
+  std::optional<Stroke> stroke;  ///< that the blade shall make by itself: a plane cut, a punch
+  std::optional<Stitch> stitch;
+  std::optional<SurfaceHit> probed;  ///< what is asked about
+  std::string refusal;               ///< why nothing came of it, a sentence for the person; empty: something did
+};
+
 /// One moment of a drag.
 struct DragMoment {
   const PointerEvent& event;
@@ -72,14 +95,13 @@ struct DragMoment {
   const ToolSettings& settings;
   Vec2 pressed;              ///< where it began, pixels of the viewport
   std::uint32_t& next_hook;  ///< for a new hook, which takes it: numbers are never used again
+  DragResults& results;
 
   [[nodiscard]] PointerPlace place() const { return place_of(event, context, camera); }
-};
-
-/// What comes of a drag at its end.
-struct DragResults {
-  std::optional<Stroke> plane_cut;
-  std::optional<SurfaceHit> probed;
+  /// The same on another surface than the one that is drawn.
+  [[nodiscard]] PointerPlace place_on(const SurfaceFrame& surface) const {
+    return place_of(event, {context.viewport, &surface, context.body}, camera);
+  }
 };
 
 /// A tool. One drag at a time: `press`, then any number of `move` and `push`, then `release` or nothing, then `stop`.
@@ -101,7 +123,8 @@ class HandTool {
   /// Adds its marks.
   virtual void draw(const Camera& /*camera*/, Marks& /*marks*/) const {}
   /// Adds what it would do where the pointer is, while it is chosen and nothing is under way.
-  virtual void draw_hover(const SurfaceHit& /*hit*/, const ToolSettings& /*settings*/, Marks& /*marks*/) const {}
+  virtual void draw_hover(const SurfaceHit& /*hit*/, const ToolSettings& /*settings*/, const Camera& /*camera*/,
+                          Marks& /*marks*/) const {}
 };
 
 }  // namespace app

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #if defined(__linux__)
@@ -15,6 +16,8 @@ inline namespace v0 {
 namespace app {
 
 namespace {
+
+constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
 /// Asks for SCHED_FIFO for the calling thread; whether it was granted.
 bool become_realtime() {
@@ -83,7 +86,9 @@ void HapticLoop::take_snapshot() {
 void HapticLoop::tick(double dt) {
   state_.device = device_.read(state_.time);
   take_snapshot();
-  state_.force = tool_.tick(dt, state_.device.position, state_.device.velocity);
+  // A place that is no number gives no force, and the tool starts anew at the next one.
+  const Vec3 place = state_.device.is_live ? state_.device.position : Vec3(Vec3::Constant(kNowhere));
+  state_.force = tool_.tick(dt, place, state_.device.velocity);
   device_.command(state_.force);
   ++state_.tick;
   state_.tool_position = tool_.tool_position();

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "app/hands/grip.h"
+
 namespace incise {
 inline namespace v0 {
 namespace app {
@@ -38,6 +40,8 @@ ToolSettings in_range(const ToolSettings& asked, const ToolSettings& before) {
   s.grasp_stiffness = positive(asked.grasp_stiffness, before.grasp_stiffness);
   s.pin_radius = positive(asked.pin_radius, before.pin_radius);
   s.pin_stiffness = positive(asked.pin_stiffness, before.pin_stiffness);
+  s.metres = positive(asked.metres, before.metres);
+  s.punch_radius = positive(asked.punch_radius, before.punch_radius);
   return s;
 }
 
@@ -51,22 +55,6 @@ double size_of(const Box& body) {
   return size > 0 && std::isfinite(size) ? size : 1;
 }
 
-/// A circle that lies on the surface.
-void draw_circle(const SurfaceHit& hit, double radius, Ink ink, Marks& marks) {
-  constexpr int kCorners = 16;
-  const Vec3 x = hit.normal.unitOrthogonal(), y = hit.normal.cross(x);
-  Vec3 last = hit.point + radius * x;
-  const auto add_line = [&](const Vec3& from, const Vec3& to) {
-    marks.lines.push_back({from.cast<float>(), to.cast<float>(), ink, 1.5F, true, false});
-  };
-  for (int i = 1; i <= kCorners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kCorners;
-    const Vec3 next = hit.point + radius * (std::cos(angle) * x + std::sin(angle) * y);
-    add_line(last, next);
-    last = next;
-  }
-}
-
 }  // namespace
 
 ToolSettings settings_for(const Box& body, double young, double length_unit) {
@@ -77,6 +65,8 @@ ToolSettings settings_for(const Box& body, double young, double length_unit) {
   s.depth = shortest / 8;
   s.grasp_radius = longest / 10;
   s.pin_radius = longest / 20;
+  s.punch_radius = shortest / 6;
+  s.metres = positive(length_unit, 1);
   // What it takes to press a stiff disc into the tissue is about 2.7 · Young · radius: even where a grasp has a single
   // vertex, the tissue follows half of the way.
   s.grasp_stiffness = 3 * positive(young, 1e4) * s.grasp_radius * positive(length_unit, 1);
@@ -128,7 +118,7 @@ void ToolMachine::State::press(const PointerEvent& event, const ToolContext& con
   button = event.button;
   pressed = pixel = event.pixel;
   hover.reset();
-  if (active != nullptr) active->press({event, context, camera, settings, pressed, next_hook});
+  if (active != nullptr) active->press({event, context, camera, settings, pressed, next_hook, results});
 }
 
 void ToolMachine::State::move(const PointerEvent& event, const ToolContext& context, Camera& camera) {
@@ -145,7 +135,7 @@ void ToolMachine::State::move(const PointerEvent& event, const ToolContext& cont
       pan(camera, context.viewport, by);
       break;
     case Drag::kTool:
-      active->move({event, context, camera, settings, pressed, next_hook});
+      active->move({event, context, camera, settings, pressed, next_hook, results});
       break;
   }
 }
@@ -194,8 +184,8 @@ void ToolMachine::State::refresh_hands() {
 void ToolMachine::State::draw_hover(const ToolContext& context, const Camera& camera, Marks& marks) const {
   if (!hover) return;
   const double radius = kCirclePixels * camera.pixel_size(context.viewport, hover->point);
-  draw_circle(*hover, radius, Ink::kPreview, marks);
-  if (const HandTool* chosen = tool_of(tool)) chosen->draw_hover(*hover, settings, marks);
+  draw_circle(hover->point, hover->normal, radius, marks);
+  if (const HandTool* chosen = tool_of(tool)) chosen->draw_hover(*hover, settings, camera, marks);
 }
 
 ToolMachine::ToolMachine(const ToolSettings& settings) : state_(std::make_unique<State>()) {
@@ -257,16 +247,28 @@ bool ToolMachine::is_busy() const {
   return state_->drag != State::Drag::kNone;
 }
 
+bool ToolMachine::is_on_tissue() const {
+  return state_->hover.has_value();
+}
+
 const HandState& ToolMachine::hands() const {
   return state_->hands;
 }
 
-std::optional<Stroke> ToolMachine::take_plane_cut() {
-  return std::exchange(state_->results.plane_cut, std::nullopt);
+std::optional<Stroke> ToolMachine::take_stroke() {
+  return std::exchange(state_->results.stroke, std::nullopt);
+}
+
+std::optional<Stitch> ToolMachine::take_stitch() {
+  return std::exchange(state_->results.stitch, std::nullopt);
 }
 
 std::optional<SurfaceHit> ToolMachine::take_probe() {
   return std::exchange(state_->results.probed, std::nullopt);
+}
+
+std::string ToolMachine::take_refusal() {
+  return std::exchange(state_->results.refusal, {});
 }
 
 void ToolMachine::draw(const ToolContext& context, const Camera& camera, Marks& marks) const {

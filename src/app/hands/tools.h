@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/hands/hand_tool.h"
 #include "app/hands/tool_table.h"
@@ -52,12 +53,18 @@ class ToolMachine {
   /// Lets go of everything, pins included: the body is another one.
   void reset(const ToolSettings& settings);
 
-  [[nodiscard]] bool is_busy() const;  ///< a drag is under way
+  [[nodiscard]] bool is_busy() const;       ///< a drag is under way
+  [[nodiscard]] bool is_on_tissue() const;  ///< the pointer is, and nothing is under way
   [[nodiscard]] const HandState& hands() const;
-  /// A plane cut that was let go, as a stroke of one second that starts outside the body and ends outside it.
-  [[nodiscard]] std::optional<Stroke> take_plane_cut();
+  /// A stroke that a tool wants made by itself: a plane cut that was let go (one second from outside the body to
+  /// outside), or a punch.
+  [[nodiscard]] std::optional<Stroke> take_stroke();
+  /// A suture or a staple that was set.
+  [[nodiscard]] std::optional<Stitch> take_stitch();
   /// What a click of the probe was on.
   [[nodiscard]] std::optional<SurfaceHit> take_probe();
+  /// Why the last press or release did nothing; empty where it did.
+  [[nodiscard]] std::string take_refusal();
 
   /// Adds the marks of what is under way and of what is held: blade, preview, hooks, pins, and where the pointer is on
   /// the surface.

@@ -154,6 +154,7 @@ Result<JobResult> run_cut(io::LoadedMesh loaded, const CutJob& job, bool wants_m
     pieces = find_components(engine->mesh());
   }
   if (wants_mesh) result.mesh = io::to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
+  result.mesh.region_names = loaded.region_names;
   if (job.look) job.look(engine->engine());
   return result;
 }

@@ -36,6 +36,7 @@ Result<JobResult> run_improve(io::LoadedMesh loaded, const ImproveJob& job, bool
   if (const Status status = improve(*engine, job, result.report); !status.ok()) return status.error();
   const Components pieces = detail::measure_end(engine->engine(), result.report);
   if (wants_mesh) result.mesh = io::to_mesh_data(engine->mesh(), pieces, loaded.file_vertex);
+  result.mesh.region_names = loaded.region_names;
   return result;
 }
 

@@ -23,10 +23,8 @@ std::uint32_t highest_tag(const TetMesh& mesh) {
   return highest;
 }
 
-/// Methods that divide tets keep the volume; removal and snapping need not.
 double volume_tolerance(LabMethod method) {
-  const bool keeps = method != LabMethod::kRemoval && method != LabMethod::kSnapping;
-  return keeps ? 1e-12 : std::numeric_limits<double>::infinity();
+  return keeps_volume(method) ? 1e-12 : std::numeric_limits<double>::infinity();
 }
 
 Status cut_all(TetMesh& mesh, const CutJob& job, JobReport& report) {
@@ -59,6 +57,7 @@ Result<JobResult> run_lab_cut(io::LoadedMesh loaded, const CutJob& job, bool wan
   const Components pieces = find_components(mesh);
   measure_after(mesh, pieces, volume_tolerance(*job.method), result.report);
   if (wants_mesh) result.mesh = io::to_mesh_data(mesh, pieces, loaded.file_vertex);
+  result.mesh.region_names = loaded.region_names;
   if (job.look) {
     const Result<Engine> engine = Engine::create(std::move(mesh), job.engine);
     if (!engine.ok()) return engine.error();

@@ -134,14 +134,15 @@ Status replay_all(Engine& engine, RecordingReader& reader, const ReplayJob& job,
   return {};
 }
 
-void finish(const Engine& engine, const std::vector<std::uint32_t>& file_vertex, bool wants_mesh,
-            ReplayResult& result) {
+void finish(const Engine& engine, const io::LoadedMesh& loaded, bool wants_mesh, ReplayResult& result) {
   const Components pieces = find_components(engine.mesh());
   result.after = detail::counts_of(engine.mesh(), pieces);
   result.strokes = engine.stroke_count();
   result.is_in_stroke = engine.is_in_stroke();
   result.hash = engine.mesh().hash();
-  if (wants_mesh && !result.difference) result.mesh = io::to_mesh_data(engine.mesh(), pieces, file_vertex);
+  if (!wants_mesh || result.difference) return;
+  result.mesh = io::to_mesh_data(engine.mesh(), pieces, loaded.file_vertex);
+  result.mesh.region_names = loaded.region_names;
 }
 
 }  // namespace
@@ -193,7 +194,7 @@ Result<ReplayResult> run_replay(const ReplayJob& job) {
   if (!engine.ok()) return engine.error();
   if (const Status status = replay_all(*engine, *reader, job, result); !status.ok()) return status.error();
   result.is_cut_off = reader->is_cut_off();
-  finish(*engine, loaded->file_vertex, job.wants_mesh, result);
+  finish(*engine, *loaded, job.wants_mesh, result);
   return result;
 }
 

@@ -2,8 +2,10 @@
 #include "app/jobs/simulate_job.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "app/jobs/frame_series.h"
@@ -36,6 +38,9 @@ class SceneRunner {
 
  private:
   Status run_frame(std::uint64_t index);
+  [[nodiscard]] FrameInput input_of(std::uint64_t index);
+  void feel(std::uint64_t index);
+  [[nodiscard]] Box bounds() const;
   void add(const FrameReport& frame, const FrameInput& input);
   void add(const BladeState& blade);
   void add_work(const FrameReport& frame);
@@ -49,7 +54,8 @@ class SceneRunner {
   RecordedSimulation simulation_;
   SimulationReport& report_;
   SceneHand hand_;
-  std::optional<ExerciseScorer> scorer_;  // where the scene is an exercise
+  std::optional<ExerciseScorer> scorer_;       // where the scene is an exercise
+  std::chrono::steady_clock::time_point due_;  // of the next frame, with a live hand
   bool had_blade_ = false;
   bool was_stopped_ = false;
 };
@@ -70,12 +76,18 @@ Status SceneRunner::settle() {
 Status SceneRunner::run_frames(FrameSeries* series, const io::LoadedMesh& loaded) {
   const std::uint64_t every = job_.every > 0 ? job_.every : (scene_.frames + kSeriesFiles - 1) / kSeriesFiles;
   const auto add_moment = [&](std::uint64_t done) -> Status {
+    if (job_.watch) {
+      if (Status status = job_.watch(static_cast<std::size_t>(done), simulation()); !status.ok()) return status;
+    }
     if (series == nullptr || (done % every != 0 && done != scene_.frames)) return {};
     const TetMesh& mesh = simulation().mesh();
-    return series->add(static_cast<double>(done) * scene_.options.frame_seconds,
-                       io::to_mesh_data(mesh, find_components(mesh), loaded.file_vertex, io::MeshPose::kAsItStands));
+    io::MeshData data = io::to_mesh_data(mesh, find_components(mesh), loaded.file_vertex, io::MeshPose::kAsItStands);
+    data.region_names = loaded.region_names;
+    return series->add(static_cast<double>(done) * scene_.options.frame_seconds, data);
   };
   const auto frames = static_cast<std::size_t>(scene_.frames);  // at most kMaxSceneFrames
+  if (job_.hand != nullptr) job_.hand->begin(scene_, bounds());
+  due_ = std::chrono::steady_clock::now();
   if (Status status = add_moment(0); !status.ok()) return status;
   for (std::size_t i = 0; i < frames && !stops(); ++i) {
     if (job_.progress) job_.progress(i, frames);
@@ -86,10 +98,40 @@ Status SceneRunner::run_frames(FrameSeries* series, const io::LoadedMesh& loaded
   return {};
 }
 
+/// Of the body as it stands.
+Box SceneRunner::bounds() const {
+  Box box;
+  const TetMesh& mesh = simulation().mesh();
+  mesh.for_each_vertex([&](VertexId v) {
+    if (mesh.tet_of(v).is_valid()) box.extend(mesh.current(v));
+  });
+  return box;
+}
+
+/// What the scene does in a frame, and with what blade. With a live hand it waits until the frame is due; frames that
+/// took too long are not made up for.
+FrameInput SceneRunner::input_of(std::uint64_t index) {
+  FrameInput input = scene_input(scene_, index);
+  if (job_.hand == nullptr) return input;
+  using Clock = std::chrono::steady_clock;
+  due_ = std::max(due_, Clock::now());
+  std::this_thread::sleep_until(due_);
+  due_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(scene_.options.frame_seconds));
+  input.blade = job_.hand->blade(bounds());
+  return input;
+}
+
+void SceneRunner::feel(std::uint64_t index) {
+  const HapticSnapshot& snapshot = simulation().haptic_snapshot();
+  if (job_.hand != nullptr) return job_.hand->feel(snapshot);
+  hand_.feel(index, snapshot);
+}
+
 Status SceneRunner::run_frame(std::uint64_t index) {
-  const FrameInput input = scene_input(scene_, index);
+  const FrameInput input = input_of(index);
   if (had_blade_ && !input.blade) detail::measure_cut(simulation().mesh(), report_.job);
-  const Result<FrameReport> frame = simulation_.frame(input);
+  const Result<FrameReport> frame =
+      simulation_.frame(input, job_.hand == nullptr ? scene_stops(scene_, index) : std::vector<std::int32_t>());
   if (!frame.ok()) {
     Error error = frame.error();
     error.message = "frame " + std::to_string(index) + ": " + error.message;
@@ -97,7 +139,7 @@ Status SceneRunner::run_frame(std::uint64_t index) {
   }
   add(*frame, input);
   if (scorer_) scorer_->add(input, *frame, simulation());
-  hand_.feel(index, simulation().haptic_snapshot());
+  feel(index);
   had_blade_ = input.blade.has_value();
   return {};
 }
@@ -147,7 +189,7 @@ void SceneRunner::measure() {
   if (had_blade_) detail::measure_cut(end.mesh(), report_.job);
   detail::measure_after(end.mesh(), find_components(end.mesh()), volume_tolerance(scene_.options.engine), report_.job);
   report_.energy_after = end.body().energy();
-  report_.haptics = hand_.figures();
+  report_.haptics = job_.hand == nullptr ? hand_.figures() : job_.hand->figures();
   report_.inverted_tets = end.body().count_inverted();
   report_.is_finite = end.body().is_finite();
   report_.state_hash = end.hash();
@@ -167,12 +209,17 @@ void describe(const Scene& scene, const SimulateJob& job, const io::LoadedMesh& 
 
 }  // namespace
 
-Result<SimulateResult> run_simulate(const Scene& scene, const SimulateJob& job) {
-  Result<io::LoadedMesh> loaded = load_model(scene);
+Result<SimulateResult> run_simulate(const Scene& given, const SimulateJob& job) {
+  Scene scene = given;
+  Result<io::LoadedMesh> loaded = take_model(scene);
   if (!loaded.ok()) return loaded.error();
+  return run_simulate(scene, std::move(loaded).value(), job);
+}
+
+Result<SimulateResult> run_simulate(const Scene& scene, io::LoadedMesh loaded, const SimulateJob& job) {
   SimulateResult result;
-  describe(scene, job, *loaded, result.report);
-  detail::measure_before(loaded->mesh, result.report.job);
+  describe(scene, job, loaded, result.report);
+  detail::measure_before(loaded.mesh, result.report.job);
   std::optional<FrameSeries> series;
   if (!job.output.empty()) {
     Result<FrameSeries> begun = FrameSeries::begin(job.output);
@@ -181,15 +228,15 @@ Result<SimulateResult> run_simulate(const Scene& scene, const SimulateJob& job) 
   }
   SceneRun run = job.run;
   run.keep_undo = 1;  // a scene takes nothing back
-  Result<RecordedSimulation> made = RecordedSimulation::create(scene, std::move(loaded->mesh), run);
+  Result<RecordedSimulation> made = RecordedSimulation::create(scene, std::move(loaded.mesh), run);
   if (!made.ok()) return made.error();
   SceneRunner runner(scene, job, std::move(made).value(), result.report);
   if (const Status status = runner.settle(); !status.ok()) return status.error();
-  if (const Status status = runner.run_frames(series ? &*series : nullptr, *loaded); !status.ok())
-    return status.error();
+  if (const Status status = runner.run_frames(series ? &*series : nullptr, loaded); !status.ok()) return status.error();
   result.was_stopped = runner.was_stopped();
   if (result.was_stopped) return result;
   runner.measure();
+  if (job.look) job.look(runner.simulation());
   if (!series || !result.report.job.change.ok) return result;
   if (const Status status = series->finish(); !status.ok()) return status.error();
   return result;

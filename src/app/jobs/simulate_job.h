@@ -6,9 +6,11 @@
 #include <functional>
 #include <string>
 
+#include "app/jobs/live_hand.h"
 #include "app/jobs/simulation_report.h"
 #include "app/recording/recorded_simulation.h"
 #include "app/scene/scene.h"
+#include "incise/io/mesh_loader.h"
 
 namespace incise {
 inline namespace v0 {
@@ -31,6 +33,13 @@ struct SimulateJob {
   std::function<void(std::size_t done, std::size_t total)> progress;
   /// Asked before each frame and while the body settles; true ends the job. May be empty.
   std::function<bool()> should_stop;
+  /// Has the blade instead of the scene's strokes, and frames then keep the pace of the clock. May be null; outlives
+  /// the job.
+  LiveHand* hand = nullptr;
+  /// Called before the first frame and after each: frames done. An error ends the job, and is its own. May be empty.
+  std::function<Status(std::size_t done, const Simulation& body)> watch;
+  /// Called once with the body at the end, where all frames were run. May be empty.
+  std::function<void(const Simulation& end)> look;
 };
 
 struct SimulateResult {
@@ -45,6 +54,8 @@ struct SimulateResult {
 /// Errors: as `load_model`, `make_simulation`, `Simulation::frame` (naming the frame) and `FrameSeries`; kIo where the
 /// recording fails.
 [[nodiscard]] Result<SimulateResult> run_simulate(const Scene& scene, const SimulateJob& job);
+/// The same with the scene's model as `load_model` gave it.
+[[nodiscard]] Result<SimulateResult> run_simulate(const Scene& scene, io::LoadedMesh loaded, const SimulateJob& job);
 
 }  // namespace app
 }  // namespace v0

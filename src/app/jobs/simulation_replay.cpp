@@ -32,6 +32,10 @@ End make_call(Simulation& simulation, const SimulationCall& call) {
       return end_if(simulation.undo());
     case SimulationCallKind::kRedo:
       return end_if(simulation.redo());
+    case SimulationCallKind::kSuture:
+      return end_of(simulation.add_suture(call.suture.ends, call.suture.suture));
+    case SimulationCallKind::kUnpick:
+      return end_of(simulation.remove_suture(call.suture.id));
   }
   return {};
 }
@@ -84,16 +88,16 @@ Status replay_all(Simulation& simulation, SimulationReader& reader, const Replay
   return {};
 }
 
-void finish(const Simulation& simulation, const std::vector<std::uint32_t>& file_vertex, bool wants_mesh,
-            ReplayResult& result) {
+void finish(const Simulation& simulation, const io::LoadedMesh& loaded, bool wants_mesh, ReplayResult& result) {
   const TetMesh& mesh = simulation.mesh();
   const Components pieces = find_components(mesh);
   result.after = detail::counts_of(mesh, pieces);
   result.strokes = simulation.engine().stroke_count();
   result.is_in_stroke = simulation.engine().is_in_stroke();
   result.hash = simulation.hash();
-  if (wants_mesh && !result.difference)
-    result.mesh = io::to_mesh_data(mesh, pieces, file_vertex, io::MeshPose::kAsItStands);
+  if (!wants_mesh || result.difference) return;
+  result.mesh = io::to_mesh_data(mesh, pieces, loaded.file_vertex, io::MeshPose::kAsItStands);
+  result.mesh.region_names = loaded.region_names;
 }
 
 }  // namespace
@@ -121,7 +125,7 @@ Result<ReplayResult> run_simulation_replay(const ReplayJob& job) {
   if (!simulation.ok()) return simulation.error();
   if (const Status status = replay_all(*simulation, *reader, job, result); !status.ok()) return status.error();
   result.is_cut_off = reader->is_cut_off();
-  finish(*simulation, loaded->file_vertex, job.wants_mesh, result);
+  finish(*simulation, *loaded, job.wants_mesh, result);
   return result;
 }
 

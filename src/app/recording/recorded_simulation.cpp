@@ -16,6 +16,11 @@ namespace {
 SimulationHeader header_of(const Scene& scene, std::uint64_t mesh_hash, const std::filesystem::path& record) {
   SimulationHeader header;
   header.scene = scene;
+  for (SceneBody& body : header.scene.model.bodies) {
+    if (body.file.empty()) continue;
+    const Result<std::filesystem::path> there = find_model(scene, body.file);
+    body.file = seen_from(record, there.ok() ? *there : std::filesystem::path(body.file));
+  }
   if (!scene.model.file.empty()) {
     const Result<std::filesystem::path> model = find_model(scene);
     header.scene.model.file = seen_from(record, model.ok() ? *model : std::filesystem::path(scene.model.file));
@@ -62,7 +67,30 @@ Outcome RecordedSimulation::recorded(SimulationCall call, Outcome outcome) {
   return outcome;
 }
 
-Result<FrameReport> RecordedSimulation::frame(const FrameInput& input) {
+/// Puts the blade where it may be. Without regions, or without a blade, there is nothing to hold.
+Status RecordedSimulation::hold_blade(const std::vector<std::int32_t>& stop_at, FrameInput& input) {
+  if (!input.blade || stop_at.empty()) {
+    guard_.reset();
+    return {};
+  }
+  std::vector<Vec3>& edge = input.blade->edge;
+  if (guard_) {
+    edge = guard_->move(simulation_.mesh(), edge);
+    return {};
+  }
+  guard_.emplace(stop_at, RegionGuard::Shape::kCurrent);
+  Result<std::vector<Vec3>> held = guard_->begin(simulation_.mesh(), edge);
+  if (!held.ok()) {
+    guard_.reset();
+    return held.error();
+  }
+  edge = std::move(held).value();
+  return {};
+}
+
+Result<FrameReport> RecordedSimulation::frame(const FrameInput& given, const std::vector<std::int32_t>& stop_at) {
+  FrameInput input = given;
+  if (const Status status = hold_blade(stop_at, input); !status.ok()) return status.error();
   Result<FrameReport> report = timed([&] { return simulation_.frame(input); });
   if (!writer_ && !past_) return report;
   SimulationCall call;
@@ -90,6 +118,21 @@ Result<bool> RecordedSimulation::redo() {
   SimulationCall call;
   call.kind = SimulationCallKind::kRedo;
   return recorded(std::move(call), Result<bool>(true));
+}
+
+Result<std::uint32_t> RecordedSimulation::add_suture(const std::array<Vec3, 2>& rest_places, const Suture& suture) {
+  Result<std::uint32_t> id = timed([&] { return simulation_.add_suture(rest_places, suture); });
+  SimulationCall call;
+  call.kind = SimulationCallKind::kSuture;
+  call.suture = {rest_places, suture, id.ok() ? *id : 0};
+  return recorded(std::move(call), std::move(id));
+}
+
+Status RecordedSimulation::remove_suture(std::uint32_t id) {
+  SimulationCall call;
+  call.kind = SimulationCallKind::kUnpick;
+  call.suture.id = id;
+  return recorded(std::move(call), timed([&] { return simulation_.remove_suture(id); }));
 }
 
 Status RecordedSimulation::start_recording(const std::filesystem::path& path) {

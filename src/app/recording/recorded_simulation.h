@@ -9,6 +9,7 @@
 #include "app/recording/simulation_recording.h"
 #include "app/scene/scene.h"
 #include "incise/core/log.h"
+#include "incise/cut/region_guard.h"
 
 namespace incise {
 inline namespace v0 {
@@ -36,10 +37,15 @@ class RecordedSimulation {
 
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
 
-  Result<FrameReport> frame(const FrameInput& input);
+  /// As `Simulation::frame`. @param stop_at  regions that the blade is held outside of while this stroke lasts, see
+  /// `RegionGuard`; a recording has the blade as it was held. Errors: also kBadArgument where it begins in them.
+  Result<FrameReport> frame(const FrameInput& input, const std::vector<std::int32_t>& stop_at = {});
   Result<unsigned> settle(const SceneSettle& settle);
   Result<bool> undo();
   Result<bool> redo();
+  /// Of places of the rest shape.
+  Result<std::uint32_t> add_suture(const std::array<Vec3, 2>& rest_places, const Suture& suture);
+  Status remove_suture(std::uint32_t id);
   /// As `Simulation::keep_undo`. No call of a recording.
   Status keep_undo(std::size_t operations) { return simulation_.keep_undo(operations); }
 
@@ -66,6 +72,7 @@ class RecordedSimulation {
   RecordedSimulation(Simulation simulation, std::optional<SimulationWriter> writer, std::optional<Past> past);
 
   [[nodiscard]] Result<SimulationWriter> write_past(const std::filesystem::path& path) const;
+  Status hold_blade(const std::vector<std::int32_t>& stop_at, FrameInput& input);
   template <class Call>
   auto timed(const Call& call);
   template <class Outcome>
@@ -74,6 +81,7 @@ class RecordedSimulation {
   Simulation simulation_;
   std::optional<SimulationWriter> writer_;
   std::optional<Past> past_;
+  std::optional<RegionGuard> guard_;  // of the stroke under way
   double last_ms_ = 0;
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/recording/simulation_recording.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/scene/blade_file.h"
 #include "app/scene/scene_reader.h"
@@ -18,12 +20,20 @@ namespace {
 
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kMaxItems = 1'000'000;  // hooks and tools of one frame
-constexpr std::array<const char*, 4> kCallNames = {"settle", "frame", "undo", "redo"};
+constexpr std::array<const char*, 2> kReachNames = {"ball", "surface"};
+constexpr std::array<const char*, 6> kCallNames = {"settle", "frame", "undo", "redo", "suture", "unpick"};
 
 // ---- writing ----
 
+/// What is as it mostly is has no key.
 Json encode_hook(const Hook& hook) {
-  return {{"id", hook.id}, {"position", encode(hook.position)}, {"radius", hook.radius}, {"stiffness", hook.stiffness}};
+  Json root = {
+      {"id", hook.id}, {"position", encode(hook.position)}, {"radius", hook.radius}, {"stiffness", hook.stiffness}};
+  if (hook.reach != HookReach::kBall) root["reach"] = kReachNames[static_cast<std::size_t>(hook.reach)];
+  if (hook.closed != 0) root["closed"] = hook.closed;
+  if (std::isfinite(hook.strength)) root["strength"] = hook.strength;
+  if (hook.tears) root["tears"] = true;
+  return root;
 }
 
 Json encode_tool(const Tool& tool) {
@@ -34,6 +44,15 @@ Json encode_tool(const Tool& tool) {
         return root;
       },
       tool);
+}
+
+void add_suture(const SutureCall& call, Json& root) {
+  root["id"] = call.id;
+  root["ends"] = {encode(call.ends[0]), encode(call.ends[1])};
+  root["stiffness"] = call.suture.stiffness;
+  root["rest_length"] = call.suture.rest_length;
+  root["pushes"] = call.suture.pushes;
+  if (std::isfinite(call.suture.strength)) root["strength"] = call.suture.strength;
 }
 
 void add_input(const FrameInput& input, Json& root) {
@@ -99,6 +118,13 @@ class CallReader : public LineReader {
                read_items(root, "tools", [&](const JsonValue& v, const std::string& p) {
                  return read_tool(v, p, call.input.tools.emplace_back());
                });
+      case SimulationCallKind::kSuture:
+        return read_.is_object(
+                   root, kPath,
+                   {"call", "id", "ends", "stiffness", "rest_length", "pushes", "strength", "error", "hash"}) &&
+               read_suture(root, call.suture);
+      case SimulationCallKind::kUnpick:
+        return read_.is_object(root, kPath, {"call", "id", "error", "hash"}) && read_id(root, kPath, call.suture.id);
       case SimulationCallKind::kUndo:
       case SimulationCallKind::kRedo:
         break;
@@ -111,6 +137,23 @@ class CallReader : public LineReader {
     settle.frames = static_cast<std::uint32_t>(frames);
     return (settle.frames == frames || read_.fail(root, "frames", "must be below 2^32")) &&
            read_number(root, "", "speed", settle.speed);
+  }
+  bool read_suture(const JsonValue& root, SutureCall& call) {
+    std::vector<Vec3> ends;
+    const JsonValue* list = read_.member(root, kPath, "ends");
+    if (list == nullptr || !read_.points(*list, "ends", 2, ends)) return false;
+    call.ends = {ends[0], ends[1]};
+    Suture& suture = call.suture;
+    return read_id(root, kPath, call.id) && read_number(root, "", "stiffness", suture.stiffness) &&
+           read_number(root, "", "rest_length", suture.rest_length) &&
+           read_flag(root, kPath, "pushes", suture.pushes) &&
+           (root.find("strength") == nullptr || read_number(root, "", "strength", suture.strength));
+  }
+  bool read_id(const JsonValue& value, const std::string& path, std::uint32_t& out) {
+    std::uint64_t id = 0;
+    if (!read_whole(value, path, "id", id)) return false;
+    out = static_cast<std::uint32_t>(id);
+    return out == id || read_.fail(value, under(path, "id"), "must be below 2^32");
   }
   bool read_blade(const JsonValue* value, FrameInput& input) {
     if (value == nullptr) return true;
@@ -131,13 +174,24 @@ class CallReader : public LineReader {
     return true;
   }
   bool read_hook(const JsonValue& value, const std::string& path, Hook& hook) {
-    std::uint64_t id = 0;
-    if (!read_.is_object(value, path, {"id", "position", "radius", "stiffness"}) || !read_whole(value, path, "id", id))
+    if (!read_.is_object(value, path,
+                         {"id", "position", "radius", "stiffness", "reach", "closed", "strength", "tears"}) ||
+        !read_id(value, path, hook.id) || !read_reach(value, path, hook.reach) ||
+        (value.find("closed") != nullptr && !read_number(value, path, "closed", hook.closed)) ||
+        (value.find("strength") != nullptr && !read_number(value, path, "strength", hook.strength)) ||
+        (value.find("tears") != nullptr && !read_.boolean(*value.find("tears"), path + ".tears", hook.tears))) {
       return false;
-    hook.id = static_cast<std::uint32_t>(id);
-    return (hook.id == id || read_.fail(value, under(path, "id"), "must be below 2^32")) &&
-           read_point(value, path, "position", hook.position) && read_number(value, path, "radius", hook.radius) &&
+    }
+    return read_point(value, path, "position", hook.position) && read_number(value, path, "radius", hook.radius) &&
            read_number(value, path, "stiffness", hook.stiffness);
+  }
+  bool read_reach(const JsonValue& value, const std::string& path, HookReach& reach) {
+    const JsonValue* name = value.find("reach");
+    if (name == nullptr) return true;
+    const auto* const known = std::find(kReachNames.begin(), kReachNames.end(), name->text);
+    if (known == kReachNames.end()) return read_.fail(*name, under(path, "reach"), "must be \"ball\" or \"surface\"");
+    reach = static_cast<HookReach>(known - kReachNames.begin());
+    return true;
   }
   bool read_tool(const JsonValue& value, const std::string& path, Tool& tool) {
     std::string kind;
@@ -207,6 +261,8 @@ std::string to_line(const SimulationCall& call) {
     root["frames"] = call.settle.frames;
     root["speed"] = call.settle.speed;
   }
+  if (call.kind == SimulationCallKind::kSuture) add_suture(call.suture, root);
+  if (call.kind == SimulationCallKind::kUnpick) root["id"] = call.suture.id;
   if (call.error) root["error"] = name_of(*call.error);
   if (call.hash) root["hash"] = hash_text(*call.hash);
   return line_of(root);

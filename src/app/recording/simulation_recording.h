@@ -2,6 +2,7 @@
 // Recordings of simulations: a scene, and what the hands did frame by frame, as lines of JSON (docs/formats.md).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -24,13 +25,21 @@ struct SimulationHeader {
 };
 
 /// The calls of `Simulation` that change its state.
-enum class SimulationCallKind : std::uint8_t { kSettle, kFrame, kUndo, kRedo };
+enum class SimulationCallKind : std::uint8_t { kSettle, kFrame, kUndo, kRedo, kSuture, kUnpick };
+
+/// A suture that is set or taken out.
+struct SutureCall {
+  std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};  ///< places of the rest shape, length unit
+  Suture suture;
+  std::uint32_t id = 0;  ///< as the simulation gave it
+};
 
 /// One call with its arguments and what it left. Arguments of other kinds of calls are at their defaults.
 struct SimulationCall {
   SimulationCallKind kind = SimulationCallKind::kFrame;
   FrameInput input;                   ///< of frame
   SceneSettle settle;                 ///< of settle
+  SutureCall suture;                  ///< of suture; of unpick its id alone
   std::optional<ErrorCode> error;     ///< how the call failed, if it did; never kBadArgument
   std::optional<std::uint64_t> hash;  ///< `Simulation::hash` after the call, where it was taken
   std::uint32_t line = 0;             ///< in its file, from 1; the header is line 1. Set by readers

@@ -31,16 +31,33 @@ struct SceneBox {
   double jitter = 0;           ///< as `fraction` of `jitter`, in [0, 0.15]; with the scene's seed
 };
 
-/// Gives all tets whose centroid lies in a half-space a region label.
+/// Gives all tets whose centroid lies in a half-space a region label, and the region a name.
 struct RegionPaint {
   std::int32_t region = 0;
+  std::string name;  ///< may be empty
   HalfSpace below;
 };
 
-struct SceneModel {
-  std::string file;  ///< seen from the scene's folder, or as it stands; empty: the box
+/// Another body of the same scene.
+struct SceneBody {
+  std::string file;  ///< as that of the model; empty: the box
   SceneBox box;
+  Vec3 move = Vec3::Zero();            ///< by which it is put elsewhere, length unit
+  std::optional<std::int32_t> region;  ///< of all its tets; unset: as they come
+};
+
+struct SceneModel {
+  std::string file;     ///< seen from the scene's folder, or as it stands; empty: the box
+  std::string surface;  ///< likewise: a fine triangle surface that is drawn in the place of the skin; empty: none
+  SceneBox box;
+  std::vector<SceneBody> bodies;     ///< beside it
   std::vector<RegionPaint> regions;  ///< in order: later ones paint over earlier ones
+};
+
+/// The material of a region that is known by its name until the model is there.
+struct NamedMaterial {
+  std::string region;
+  Material material;
 };
 
 /// Holds the vertices whose rest position lies somewhere.
@@ -48,6 +65,8 @@ struct Attachment {
   std::variant<Box, BallTool, HalfSpace> where;
   bool surface_only = false;
   double stiffness = std::numeric_limits<double>::infinity();  ///< N/m per vertex; infinite: rigidly
+  double strength = std::numeric_limits<double>::infinity();   ///< N per vertex, above 0; of springs alone
+  bool tears = false;                                          ///< beyond its strength; else it slips
 };
 
 /// What presses on the body: from the first of its key times to the last, or always where it has one key and no time.
@@ -60,10 +79,12 @@ struct SceneTool {
 /// A hook that takes hold at the first of its key times and lets go after the last.
 struct SceneHook {
   std::string name;
-  double radius = 0;            ///< length unit, above 0
-  double stiffness = 100;       ///< N/m per vertex, above 0
-  std::vector<double> times;    ///< s, strictly increasing
-  std::vector<Vec3> positions;  ///< one per time
+  double radius = 0;                                          ///< length unit, above 0
+  double stiffness = 100;                                     ///< N/m per vertex, above 0
+  double strength = std::numeric_limits<double>::infinity();  ///< N in all, above 0
+  bool tears = false;                                         ///< beyond its strength; else it slips
+  std::vector<double> times;                                  ///< s, strictly increasing
+  std::vector<Vec3> positions;                                ///< one per time
 };
 
 /// A suture between two places of the body at rest; see `Suture`.
@@ -87,7 +108,10 @@ struct Scene {
   std::string name;
   std::filesystem::path folder;  ///< that `model.file` is seen from
   SceneModel model;
-  SimulationOptions options;  ///< its threads and log are not part of scenes
+  SimulationOptions options;                   ///< its threads and log are not part of scenes
+  std::vector<NamedMaterial> named_materials;  ///< see `take_model`
+  bool has_materials_by_name = false;          ///< other regions whose names speak of a tissue are made of it
+  Vec3 stretch = Vec3::Ones();  ///< shares by which the body is drawn out about its middle before it is held
   std::vector<Attachment> attachments;
   std::vector<SceneTool> tools;
   std::vector<SceneHook> hooks;
@@ -121,6 +145,9 @@ inline constexpr std::size_t kMaxSceneItems = 1000;  ///< attachments, tools, ho
 /// The whole scene as JSON on one line, defaults and the strokes of blade files included: `parse_scene` gives the same
 /// scene again, bit for bit, seen from the same folder.
 [[nodiscard]] std::string to_json(const Scene& scene);
+
+/// The regions that the blade of a frame stops at; none without a blade. Cost: O(strokes).
+[[nodiscard]] std::vector<std::int32_t> scene_stops(const Scene& scene, std::uint64_t frame);
 
 /// What the hands do in one frame, counted from 0: all that is there at its end, after (frame + 1) · frame_seconds.
 ///

@@ -91,6 +91,14 @@ std::optional<BladePose> blade_at(const std::vector<SceneStroke>& strokes, doubl
   return std::nullopt;
 }
 
+std::vector<std::int32_t> scene_stops(const Scene& scene, std::uint64_t frame) {
+  const Moment now(scene.options.frame_seconds, frame);
+  for (const SceneStroke& s : scene.strokes) {
+    if (find_span(s.stroke.times, now)) return s.stop_at;
+  }
+  return {};
+}
+
 FrameInput scene_input(const Scene& scene, std::uint64_t frame) {
   const Moment now(scene.options.frame_seconds, frame);
   FrameInput input;
@@ -101,7 +109,7 @@ FrameInput scene_input(const Scene& scene, std::uint64_t frame) {
     if (!span) continue;
     input.hooks.push_back({static_cast<std::uint32_t>(i),
                            between(hook.positions[span->from], hook.positions[span->to], span->share), hook.radius,
-                           hook.stiffness});
+                           hook.stiffness, HookReach::kBall, 0, hook.strength, hook.tears});
   }
   for (const SceneTool& tool : scene.tools) {
     const auto span = tool.times.empty() ? KeySpan{} : find_span(tool.times, now);

@@ -13,6 +13,7 @@
 #include "app/scene/view_names.h"
 #include "app/text/range_reader.h"
 #include "app/text/text_file.h"
+#include "incise/sim/tissue.h"
 
 namespace incise {
 inline namespace v0 {
@@ -23,13 +24,14 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kVersion = 1;
 constexpr std::uint64_t kMaxRegion = std::numeric_limits<std::int32_t>::max();
-constexpr double kMaxBoxTets = 268435456;  // as `kuhn_box`
-constexpr double kMaxPoisson = 0.499;      // as `Material`
-constexpr double kMaxSnap = 0.4;           // as `CutOptions`
-constexpr double kMaxJitter = 0.15;        // as `jitter`
-constexpr double kMaxStretch = 1e6;
-constexpr double kLatestStart = 1e7;  // s, of a suture: beyond the last frame that there may be
-constexpr double kTail = 0.5;         // s, that a scene without frames and duration goes on after its last key time
+constexpr double kMaxBoxTets = 268435456;                  // as `kuhn_box`
+constexpr double kMaxPoisson = 0.499;                      // as `Material`
+constexpr double kMaxSnap = 0.4;                           // as `CutOptions`
+constexpr double kMaxJitter = 0.15;                        // as `jitter`
+constexpr double kMaxStretch = 1e6;                        // of the times of a blade
+constexpr double kLeastStretch = 0.5, kMostStretch = 2.0;  // of the body
+constexpr double kLatestStart = 1e7;                       // s, of a suture: beyond the last frame that there may be
+constexpr double kTail = 0.5;  // s, that a scene without frames and duration goes on after its last key time
 constexpr double kFramesBetweenStrokes = 2;
 constexpr double kSteepestAngle = 89;           // degrees, of an exercise: an edge along the surface cuts no depth
 constexpr std::size_t kMaxTargetPoints = 1000;  // each part of an attempt is compared with each of them
@@ -89,36 +91,47 @@ class SceneBodyReader : public SceneParts {
     return model != nullptr && read_model(*model) &&
            read_.need_ranged(root, "", "length_unit", kAbove0, body.length_unit) && read_materials(root) &&
            read_.optional_point(root, "", "gravity", body.gravity) &&
-           read_.optional_ranged(root, "", "damping", kAtLeast0, body.damping) &&
+           read_.optional_ranged(root, "", "damping", kAtLeast0, body.damping) && read_stretch(root) &&
            read_list(*this, root, "attachments", &SceneBodyReader::read_attachment);
   }
 
  private:
   bool read_model(const JsonValue& value) {
     SceneModel& model = scene_.model;
-    if (!read_.is_object(value, "model", {"file", "box", "regions"})) return false;
+    return read_.is_object(value, "model", {"file", "box", "regions", "bodies", "surface"}) &&
+           read_shape(value, "model", model.file, model.box) &&
+           read_.optional_text(value, "model", "surface", model.surface) &&
+           read_list(*this, value, "model.bodies", &SceneBodyReader::read_more_body) &&
+           read_list(*this, value, "model.regions", &SceneBodyReader::read_painting);
+  }
+  /// A mesh file or a box.
+  bool read_shape(const JsonValue& value, const std::string& path, std::string& file, SceneBox& out) {
     const JsonValue* box = value.find("box");
     if ((box == nullptr) == (value.find("file") == nullptr)) {
-      return read_.fail(value, "model", "needs either the key \"file\" or the key \"box\"");
+      return read_.fail(value, path, "needs either the key \"file\" or the key \"box\"");
     }
-    if (box != nullptr && !read_box(*box, model.box)) return false;
-    if (!read_.optional_text(value, "model", "file", model.file)) return false;
-    if (box == nullptr && model.file.empty()) return read_.fail(value, "model.file", "is empty; name a mesh file");
-    return read_list(*this, value, "model.regions", &SceneBodyReader::read_painting);
+    if (box != nullptr && !read_box(*box, path + ".box", out)) return false;
+    if (!read_.optional_text(value, path, "file", file)) return false;
+    return box != nullptr || !file.empty() || read_.fail(value, path + ".file", "is empty; name a mesh file");
   }
-  bool read_box(const JsonValue& value, SceneBox& box) {
-    const std::string path = "model.box";
+  bool read_more_body(const JsonValue& value, const std::string& path) {
+    SceneBody& body = scene_.model.bodies.emplace_back();
+    return read_.is_object(value, path, {"file", "box", "move", "region"}) &&
+           read_shape(value, path, body.file, body.box) && read_.optional_point(value, path, "move", body.move) &&
+           (value.find("region") == nullptr || read_region(value, path, body.region.emplace()));
+  }
+  bool read_box(const JsonValue& value, const std::string& path, SceneBox& box) {
     if (!read_.is_object(value, path, {"cells", "size", "origin", "jitter"})) return false;
     const JsonValue* cells = read_.member(value, path, "cells");
-    return cells != nullptr && read_cells(*cells, box) && read_.optional_point(value, path, "size", box.size) &&
-           is_positive(value, path, box.size) && read_.optional_point(value, path, "origin", box.origin) &&
+    return cells != nullptr && read_cells(*cells, path + ".cells", box) &&
+           read_.optional_point(value, path, "size", box.size) && is_positive(value, path, box.size) &&
+           read_.optional_point(value, path, "origin", box.origin) &&
            read_.optional_ranged(value, path, "jitter", {0, kMaxJitter}, box.jitter);
   }
   bool is_positive(const JsonValue& value, const std::string& path, const Vec3& size) {
     return (size.array() > 0).all() || read_.fail(value, path + ".size", "must be above 0 on every axis");
   }
-  bool read_cells(const JsonValue& value, SceneBox& box) {
-    const std::string path = "model.box.cells";
+  bool read_cells(const JsonValue& value, const std::string& path, SceneBox& box) {
     double tets = 6;
     if (!read_.is_array(value, path, 3, 3)) return false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -141,49 +154,126 @@ class SceneBodyReader : public SceneParts {
   }
   bool read_painting(const JsonValue& value, const std::string& path) {
     RegionPaint& paint = scene_.model.regions.emplace_back();
-    if (!read_.is_object(value, path, {"region", "below"}) || !read_region(value, path, paint.region)) return false;
+    if (!read_.is_object(value, path, {"region", "name", "below"}) || !read_region(value, path, paint.region) ||
+        !read_.optional_text(value, path, "name", paint.name)) {
+      return false;
+    }
     const JsonValue* below = read_.member(value, path, "below");
     return below != nullptr && read_plane(*below, path + ".below", paint.below);
   }
   bool read_materials(const JsonValue& root) {
     const JsonValue* value = root.find("materials");
     if (value == nullptr) return true;
-    if (!read_.is_object(*value, "materials", {"default", "regions"})) return false;
+    if (!read_.is_object(*value, "materials", {"default", "regions", "by_name"})) return false;
     const JsonValue* fallback = value->find("default");
     const std::string path = "materials.default";
-    if (fallback != nullptr &&
-        !(read_.is_object(*fallback, path, {"density", "young", "poisson", "toughness", "cut_friction"}) &&
-          read_material(*fallback, path, scene_.options.materials.fallback))) {
+    if (fallback != nullptr && !(read_.is_object(*fallback, path, material_keys()) &&
+                                 read_material(*fallback, path, scene_.options.materials.fallback))) {
       return false;
     }
-    return read_list(*this, *value, "materials.regions", &SceneBodyReader::read_region_material);
+    return read_.optional_boolean(*value, "materials", "by_name", scene_.has_materials_by_name) &&
+           read_list(*this, *value, "materials.regions", &SceneBodyReader::read_region_material);
+  }
+  static std::vector<std::string_view> material_keys() {
+    return {"material",   "density", "young", "poisson",     "toughness", "cut_friction",
+            "stiffening", "rupture", "fibre", "fibre_young", "prony",     "rigid"};
   }
   bool read_region_material(const JsonValue& value, const std::string& path) {
+    std::vector<std::string_view> keys = material_keys();
+    keys.emplace_back("region");
+    const JsonValue* region = read_.is_object(value, path, keys) ? read_.member(value, path, "region") : nullptr;
+    if (region == nullptr) return false;
+    Material material = scene_.options.materials.fallback;
+    return read_material(value, path, material) &&
+           (region->kind == JsonValue::Kind::kString ? add_named(*region, path + ".region", material)
+                                                     : add_numbered(value, path, material));
+  }
+  bool add_numbered(const JsonValue& value, const std::string& path, const Material& material) {
     Materials& all = scene_.options.materials;
-    Materials::Entry entry{0, all.fallback};
-    if (!read_.is_object(value, path, {"region", "density", "young", "poisson", "toughness", "cut_friction"}) ||
-        !read_region(value, path, entry.region) || !read_material(value, path, entry.material)) {
-      return false;
-    }
+    Materials::Entry entry{0, material};
+    if (!read_region(value, path, entry.region)) return false;
     for (const Materials::Entry& other : all.by_region) {
       if (other.region == entry.region) return read_.fail(value, path + ".region", "is named before; name it once");
     }
     all.by_region.push_back(entry);
     return true;
   }
+  bool add_named(const JsonValue& region, const std::string& path, const Material& material) {
+    std::string name;
+    if (!read_.text(region, path, name)) return false;
+    if (name.empty()) return read_.fail(region, path, "is empty; give a region's number or its name");
+    for (const NamedMaterial& other : scene_.named_materials) {
+      if (other.region == name) return read_.fail(region, path, "is named before; name it once");
+    }
+    scene_.named_materials.push_back({name, material});
+    return true;
+  }
+  /// A tissue by name, and what the scene says otherwise.
   bool read_material(const JsonValue& value, const std::string& path, Material& material) {
-    return read_.optional_ranged(value, path, "density", kAbove0, material.density) &&
+    return read_tissue(value, path, material) &&
+           read_.optional_ranged(value, path, "density", kAbove0, material.density) &&
            read_.optional_ranged(value, path, "young", kAbove0, material.young) &&
            read_.optional_ranged(value, path, "poisson", {0, kMaxPoisson}, material.poisson) &&
            read_.optional_ranged(value, path, "toughness", kAtLeast0, material.toughness) &&
-           read_.optional_ranged(value, path, "cut_friction", kAtLeast0, material.cut_friction);
+           read_.optional_ranged(value, path, "cut_friction", kAtLeast0, material.cut_friction) &&
+           read_.optional_ranged(value, path, "stiffening", {0, 100}, material.stiffening) &&
+           read_.optional_ranged(value, path, "rupture", {0, 0.5}, material.rupture) &&
+           read_.optional_boolean(value, path, "rigid", material.rigid) && read_fibres(value, path, material) &&
+           read_prony(value.find("prony"), path + ".prony", material);
+  }
+  bool read_fibres(const JsonValue& value, const std::string& path, Material& material) {
+    const JsonValue* fibre = value.find("fibre");
+    if (!read_.optional_ranged(value, path, "fibre_young", kAtLeast0, material.fibre_young) ||
+        (fibre != nullptr && !read_.numbers(*fibre, path + ".fibre", material.fibre.data(), 3))) {
+      return false;
+    }
+    const auto [x, y, z] = material.fibre;
+    if (!(material.fibre_young > 0) || x * x + y * y + z * z > 0) return true;
+    return read_.fail(value, path, "has \"fibre_young\", but no direction; give it \"fibre\": [x,y,z]");
+  }
+  bool read_prony(const JsonValue* list, const std::string& path, Material& material) {
+    if (list == nullptr) return true;
+    material.prony = {};
+    if (!read_.is_array(*list, path, 0, material.prony.size())) return false;
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      const JsonValue& item = list->items[i];
+      if (!read_.is_object(item, at(path, i), {"share", "seconds"}) ||
+          !read_.need_ranged(item, at(path, i), "share", {0, 100}, material.prony[i].share) ||
+          !read_.need_ranged(item, at(path, i), "seconds", {1e-4, 1e4}, material.prony[i].seconds)) {
+        return false;
+      }
+    }
+    return true;
+  }
+  bool read_tissue(const JsonValue& value, const std::string& path, Material& material) {
+    const JsonValue* name = value.find("material");
+    std::string text;
+    if (name == nullptr) return true;
+    if (!read_.text(*name, path + ".material", text)) return false;
+    const Tissue* tissue = find_tissue(text);
+    if (tissue != nullptr) return material = tissue->material, true;
+    std::string known;
+    for (const Tissue& t : tissues()) known += (known.empty() ? "" : ", ") + std::string(t.name);
+    return read_.fail(*name, path + ".material", "is no tissue that Incise knows; take one of " + known);
+  }
+  bool read_stretch(const JsonValue& root) {
+    if (!read_.optional_point(root, "", "stretch", scene_.stretch)) return false;
+    const bool is_fit = scene_.stretch.minCoeff() >= kLeastStretch && scene_.stretch.maxCoeff() <= kMostStretch;
+    return is_fit || read_.fail(*root.find("stretch"), "stretch", "must lie in [0.5, 2] on every axis; 1: as it is");
   }
   bool read_attachment(const JsonValue& value, const std::string& path) {
     Attachment& held = scene_.attachments.emplace_back();
-    return read_.is_object(value, path, {"box", "ball", "below", "surface", "stiffness"}) &&
+    return read_.is_object(value, path, {"box", "ball", "below", "surface", "stiffness", "strength", "tears"}) &&
            has_one(value, path, {"box", "ball", "below"}) && read_where(value, path, held) &&
            read_.optional_boolean(value, path, "surface", held.surface_only) &&
-           read_.optional_ranged(value, path, "stiffness", kAbove0, held.stiffness);
+           read_.optional_ranged(value, path, "stiffness", kAbove0, held.stiffness) &&
+           read_.optional_ranged(value, path, "strength", kAbove0, held.strength) &&
+           read_.optional_boolean(value, path, "tears", held.tears) && is_pin(value, path, held);
+  }
+  /// What is held rigidly bears all.
+  bool is_pin(const JsonValue& value, const std::string& path, const Attachment& held) {
+    return std::isfinite(held.stiffness) || !std::isfinite(held.strength) ||
+           read_.fail(value, path, "has a strength, but holds rigidly; give it a \"stiffness\"");
   }
   bool read_where(const JsonValue& value, const std::string& path, Attachment& held) {
     if (const JsonValue* box = value.find("box")) return read_hold_box(*box, path + ".box", held.where.emplace<Box>());
@@ -387,10 +477,12 @@ class SceneHandsReader : public SceneOptionsReader {
   }
   bool read_hook(const JsonValue& value, const std::string& path) {
     SceneHook& hook = scene_.hooks.emplace_back();
-    return read_.is_object(value, path, {"name", "radius", "stiffness", "path"}) &&
+    return read_.is_object(value, path, {"name", "radius", "stiffness", "strength", "tears", "path"}) &&
            read_.optional_text(value, path, "name", hook.name) &&
            read_.need_ranged(value, path, "radius", kAbove0, hook.radius) &&
            read_.optional_ranged(value, path, "stiffness", kAbove0, hook.stiffness) &&
+           read_.optional_ranged(value, path, "strength", kAbove0, hook.strength) &&
+           read_.optional_boolean(value, path, "tears", hook.tears) &&
            read_path(value, path, [&](const JsonValue& key, const std::string& where) {
              return read_.is_object(key, where, {"t", "position"}) && read_time(key, where, hook.times) &&
                     read_.need_point(key, where, "position", hook.positions.emplace_back());
@@ -418,33 +510,38 @@ class SceneHandsReader : public SceneOptionsReader {
   }
   /// Appends the strokes of one blade.
   bool read_blade_entry(const JsonValue& value, const std::string& path, std::vector<SceneStroke>& out) {
-    std::vector<Stroke> strokes;
+    std::vector<BladeStroke> strokes;
     Timing timing;
     Vec3 direction = Vec3::Zero();
-    if (!read_.is_object(value, path, {"blade", "start", "stretch", "pause", "direction"}) ||
+    SceneStroke stop;
+    if (!read_.is_object(value, path, {"blade", "start", "stretch", "pause", "direction", "stop_at"}) ||
         !read_blade_of(value, path, strokes) || !read_.optional_ranged(value, path, "start", kAtLeast0, timing.start) ||
         !read_.optional_ranged(value, path, "stretch", {0, kMaxStretch, true}, timing.stretch) ||
         !read_.optional_ranged(value, path, "pause", kAtLeast0, timing.pause) ||
-        !read_.optional_point(value, path, "direction", direction)) {
+        !read_.optional_point(value, path, "direction", direction) ||
+        !read_stops(read_, value, path, stop.stop_at, stop.stop_names)) {
       return false;
     }
     double earliest = -std::numeric_limits<double>::infinity();
-    for (Stroke& stroke : strokes) {
+    for (auto& [stroke, stop_at, stop_names] : strokes) {
       place_in_time(timing, earliest, stroke.times);
       earliest = stroke.times.back() + timing.pause;
       if (!is_fit(value, path, stroke, out)) return false;
-      out.push_back({std::move(stroke), direction});
+      // Its own, and those of the whole blade.
+      stop_at.insert(stop_at.end(), stop.stop_at.begin(), stop.stop_at.end());
+      stop_names.insert(stop_names.end(), stop.stop_names.begin(), stop.stop_names.end());
+      out.push_back({std::move(stroke), direction, std::move(stop_at), std::move(stop_names)});
     }
     return true;
   }
   /// A blade file by its path, or strokes.
-  bool read_blade_of(const JsonValue& value, const std::string& path, std::vector<Stroke>& strokes) {
+  bool read_blade_of(const JsonValue& value, const std::string& path, std::vector<BladeStroke>& strokes) {
     const JsonValue* blade = read_.member(value, path, "blade");
     if (blade == nullptr) return false;
     if (blade->kind != JsonValue::Kind::kString) return read_strokes(read_, *blade, path + ".blade", strokes);
     std::error_code code;
     const fs::path beside = scene_.folder / blade->text;
-    Result<std::vector<Stroke>> found = read_blade(fs::exists(beside, code) ? beside : fs::path(blade->text));
+    Result<std::vector<BladeStroke>> found = read_blade_file(fs::exists(beside, code) ? beside : fs::path(blade->text));
     if (!found.ok()) {
       blade_error_ = found.error();
       return false;
@@ -551,15 +648,18 @@ class SceneViewReader : public SceneExerciseReader {
   bool read_view(const JsonValue* value) {
     if (value == nullptr) return true;
     SceneView& view = scene_.view.emplace();
-    return read_.is_object(
-               *value, "view",
-               {"from", "up", "target", "distance", "zoom", "color", "wireframe", "opacity", "theme", "clip"}) &&
+    return read_.is_object(*value, "view",
+                           {"from", "up", "target", "distance", "zoom", "color", "wireframe", "opacity", "theme",
+                            "clip", "look", "drapes", "demonstration"}) &&
            read_direction(*value, "from", view.from) && read_direction(*value, "up", view.up) &&
            read_eye(*value, view) && read_.optional_ranged(*value, "view", "zoom", kAbove0, view.zoom) &&
            read_name(*value, "color", kColorNames, view.color) &&
            read_.optional_boolean(*value, "view", "wireframe", view.shows_wireframe) &&
            read_.optional_ranged(*value, "view", "opacity", {0, 1, true}, view.skin_opacity) &&
-           read_name(*value, "theme", kThemeNames, view.theme) && read_clip(value->find("clip"), view);
+           read_name(*value, "theme", kThemeNames, view.theme) && read_name(*value, "look", kLookNames, view.look) &&
+           read_.optional_boolean(*value, "view", "drapes", view.has_drapes) &&
+           read_.optional_boolean(*value, "view", "demonstration", view.is_demonstration) &&
+           read_clip(value->find("clip"), view);
   }
 
  private:
@@ -608,10 +708,11 @@ class SceneReader : public SceneViewReader {
  private:
   bool read_header(const JsonValue& root) {
     return read_.is_format(root, "incise-scene", kVersion) &&
-           read_.is_object(root, "", {"format",  "version",  "name",          "model",  "length_unit", "materials",
-                                      "gravity", "damping",  "attachments",   "tools",  "hooks",       "strokes",
-                                      "frames",  "duration", "frame_seconds", "settle", "seed",        "solver",
-                                      "cut",     "maintain", "contact",       "view",   "exercise",    "sutures"}) &&
+           read_.is_object(root, "",
+                           {"format",        "version",     "name",    "model",  "length_unit", "materials", "gravity",
+                            "damping",       "attachments", "tools",   "hooks",  "strokes",     "frames",    "duration",
+                            "frame_seconds", "settle",      "seed",    "solver", "cut",         "maintain",  "contact",
+                            "view",          "exercise",    "sutures", "stretch"}) &&
            read_.optional_text(root, "", "name", scene_.name) &&
            read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
   }

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/scene/scene_simulation.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
 #include "incise/mesh/bounds.h"
+#include "incise/mesh/join.h"
 #include "incise/mesh/shapes.h"
+#include "incise/sim/tissue.h"
 
 namespace incise {
 inline namespace v0 {
@@ -37,6 +41,68 @@ void paint(const std::vector<RegionPaint>& regions, TetSoup& soup) {
   }
 }
 
+/// Names of painted regions stand above those of the file.
+void name_regions(const std::vector<RegionPaint>& regions, io::RegionNames& names) {
+  for (const RegionPaint& region : regions) {
+    if (!region.name.empty()) names[region.region] = region.name;
+  }
+}
+
+bool is_same_name(const std::string& a, const std::string& b) {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string list_of(const io::RegionNames& names) {
+  std::string list;
+  for (const auto& [region, name] : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none has a name" : "there are " + list;
+}
+
+bool has_material(const Materials& materials, std::int32_t region) {
+  return std::any_of(materials.by_region.begin(), materials.by_region.end(),
+                     [&](const Materials::Entry& e) { return e.region == region; });
+}
+
+Status resolve_materials(const io::RegionNames& names, Scene& scene) {
+  Materials& materials = scene.options.materials;
+  for (const NamedMaterial& named : scene.named_materials) {
+    bool is_found = false;
+    for (const auto& [region, name] : names) {
+      if (!is_same_name(name, named.region)) continue;
+      is_found = true;
+      if (has_material(materials, region)) {
+        return Error{ErrorCode::kBadFile, "materials: the region \"" + name + "\", " + std::to_string(region) +
+                                              ", is named twice; name it once"};
+      }
+      materials.by_region.push_back({region, named.material});
+    }
+    if (is_found) continue;
+    return Error{ErrorCode::kBadFile,
+                 "materials: no region of the model is called \"" + named.region + "\"; " + list_of(names)};
+  }
+  for (const auto& [region, name] : names) {
+    const Tissue* tissue = scene.has_materials_by_name ? tissue_of_region_name(name) : nullptr;
+    if (tissue != nullptr && !has_material(materials, region))
+      materials.by_region.push_back({region, tissue->material});
+  }
+  scene.named_materials.clear();
+  scene.has_materials_by_name = false;
+  return {};
+}
+
+Status resolve_stops(const io::RegionNames& names, Scene& scene) {
+  for (SceneStroke& stroke : scene.strokes) {
+    for (const std::string& name : stroke.stop_names) {
+      const Result<std::vector<std::int32_t>> regions = find_regions(name, names);
+      if (!regions.ok()) return Error{ErrorCode::kBadFile, "stop_at: " + regions.error().message};
+      stroke.stop_at.insert(stroke.stop_at.end(), regions->begin(), regions->end());
+    }
+    stroke.stop_names.clear();
+  }
+  return {};
+}
+
 /// A generated box, as if it came from a file.
 io::MeshFile make_box(const SceneBox& box, std::uint64_t seed) {
   io::MeshFile file;
@@ -46,6 +112,30 @@ io::MeshFile make_box(const SceneBox& box, std::uint64_t seed) {
   file.file_vertices = file.data.soup.points.size();
   file.file_tets = file.data.soup.tets.size();
   return file;
+}
+
+/// A mesh file, or a box as if it came from one.
+Result<io::MeshFile> read_shape(const Scene& scene, const std::string& file, const SceneBox& box) {
+  if (file.empty()) return make_box(box, scene.seed);
+  const Result<fs::path> path = find_model(scene, file);
+  return path.ok() ? io::read_mesh(*path) : path.error();
+}
+
+/// Puts a further body beside what is there. What a file has besides points, tets and labels belongs to one body.
+Status join(const SceneBody& body, io::MeshFile more, io::MeshFile& all) {
+  if (!all.mid_nodes.empty() || !more.mid_nodes.empty() || !all.data.soup.walls.empty() ||
+      !more.data.soup.walls.empty()) {
+    return Error{
+        ErrorCode::kBadFile,
+        "model.bodies: several bodies must be of meshes without mid-edge nodes and without cuts; convert them"};
+  }
+  TetSoup& soup = more.data.soup;
+  if (body.region) soup.regions.assign(soup.tets.size(), *body.region);
+  all.file_vertices += more.file_vertices;
+  all.file_tets += more.file_tets;
+  append(soup, body.move, all.data.soup);
+  if (!body.region) all.data.region_names.insert(more.data.region_names.begin(), more.data.region_names.end());
+  return {};
 }
 
 /// Whether each vertex slot is on the surface.
@@ -70,10 +160,24 @@ Status attach(const Scene& scene, Simulation& simulation) {
                    {}};
     }
     for (const VertexId v : held) {
-      if (Status status = simulation.body().hold(v, attachment.stiffness); !status.ok()) return status;
+      DeformableBody& body = simulation.body();
+      const Status status = std::isfinite(attachment.strength)
+                                ? body.hold(v, attachment.stiffness, {attachment.strength, attachment.tears})
+                                : body.hold(v, attachment.stiffness);
+      if (!status.ok()) return status;
     }
   }
   return {};
+}
+
+/// Draws the body out about the middle of its rest shape: what holds it holds it there.
+void draw_out(const Vec3& stretch, TetMesh& mesh) {
+  if (stretch == Vec3::Ones()) return;
+  const Box body = rest_bounds(mesh);
+  const Vec3 middle = 0.5 * (body.lo + body.hi);
+  std::vector<Vec3> places(mesh.vertex_slots(), Vec3::Zero());
+  mesh.for_each_vertex([&](VertexId v) { places[v.value] = middle + stretch.cwiseProduct(mesh.rest(v) - middle); });
+  mesh.set_current(places);
 }
 
 /// The first frame whose end is later than a time.
@@ -113,29 +217,50 @@ Status check_blades(const Scene& scene, const TetMesh& mesh) {
 
 }  // namespace
 
+Result<std::vector<std::int32_t>> find_regions(const std::string& name, const io::RegionNames& names) {
+  std::vector<std::int32_t> regions;
+  for (const auto& [region, other] : names) {
+    if (is_same_name(name, other)) regions.push_back(region);
+  }
+  if (!regions.empty()) return regions;
+  return Error{ErrorCode::kBadFile, "no region of the model is called \"" + name + "\"; " + list_of(names)};
+}
+
 Result<fs::path> find_model(const Scene& scene) {
+  return find_model(scene, scene.model.file);
+}
+
+Result<fs::path> find_model(const Scene& scene, const std::string& file) {
   std::error_code code;
-  for (const fs::path& path : {scene.folder / scene.model.file, fs::path(scene.model.file)}) {
+  for (const fs::path& path : {scene.folder / file, fs::path(file)}) {
     if (fs::exists(path, code)) return path;
   }
   return Error{ErrorCode::kBadFile,
-               "model \"" + scene.model.file + "\": no such file, neither from the scene's folder \"" +
-                   scene.folder.string() + "\" nor from here; make it with script/models, or mend the path",
+               "model \"" + file + "\": no such file, neither from the scene's folder \"" + scene.folder.string() +
+                   "\" nor from here; make it with script/models, or mend the path",
                {}};
 }
 
 Result<io::LoadedMesh> load_model(const Scene& scene) {
-  if (scene.model.file.empty()) {
-    io::MeshFile file = make_box(scene.model.box, scene.seed);
-    paint(scene.model.regions, file.data.soup);
-    return io::build_mesh(std::move(file), "box");
-  }
-  const Result<fs::path> path = find_model(scene);
-  if (!path.ok()) return path.error();
-  Result<io::MeshFile> file = io::read_mesh(*path);
+  const SceneModel& model = scene.model;
+  Result<io::MeshFile> file = read_shape(scene, model.file, model.box);
   if (!file.ok()) return file.error();
-  paint(scene.model.regions, file->data.soup);
-  return io::build_mesh(std::move(file).value(), *path);
+  for (const SceneBody& body : model.bodies) {
+    Result<io::MeshFile> more = read_shape(scene, body.file, body.box);
+    if (!more.ok()) return more.error();
+    if (Status status = join(body, std::move(more).value(), *file); !status.ok()) return status.error();
+  }
+  paint(model.regions, file->data.soup);
+  name_regions(model.regions, file->data.region_names);
+  return io::build_mesh(std::move(file).value(), model.file.empty() ? "box" : find_model(scene).value());
+}
+
+Result<io::LoadedMesh> take_model(Scene& scene) {
+  Result<io::LoadedMesh> loaded = load_model(scene);
+  if (!loaded.ok()) return loaded;
+  if (const Status status = resolve_materials(loaded->region_names, scene); !status.ok()) return status.error();
+  if (const Status status = resolve_stops(loaded->region_names, scene); !status.ok()) return status.error();
+  return loaded;
 }
 
 std::vector<VertexId> find_attached(const TetMesh& mesh, const Attachment& attachment) {
@@ -151,10 +276,14 @@ std::vector<VertexId> find_attached(const TetMesh& mesh, const Attachment& attac
 }
 
 Result<Simulation> make_simulation(const Scene& scene, TetMesh mesh, unsigned threads, LogSink log) {
+  if (!scene.named_materials.empty() || scene.has_materials_by_name) {
+    return Error{ErrorCode::kBadArgument, "the scene has materials by name; take its model by `take_model`"};
+  }
   SimulationOptions options = scene.options;
   options.engine.threads = options.body.threads = threads;
   options.engine.log = std::move(log);
   if (const Status status = check_blades(scene, mesh); !status.ok()) return status.error();
+  draw_out(scene.stretch, mesh);
   Result<Simulation> simulation = Simulation::create(std::move(mesh), std::move(options));
   if (!simulation.ok()) return simulation;
   if (const Status status = attach(scene, *simulation); !status.ok()) return status.error();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "incise/cut/stroke.h"
 
 namespace incise {
@@ -10,7 +14,9 @@ namespace app {
 /// A stroke of the blade; its times are the scene's.
 struct SceneStroke {
   Stroke stroke;
-  Vec3 direction = Vec3::Zero();  ///< as in `BladePose`
+  Vec3 direction = Vec3::Zero();             ///< as in `BladePose`
+  std::vector<std::int32_t> stop_at = {};    ///< regions that the edge is held outside of, see `RegionGuard`
+  std::vector<std::string> stop_names = {};  ///< more of them, until `take_model` knows their numbers
 };
 
 }  // namespace app

@@ -19,7 +19,11 @@ enum class ColorBy : std::uint8_t {
   kRegion,   ///< the region of its tet; walls a shade darker
   kStroke,   ///< walls by their stroke's number, skin grey
   kQuality,  ///< L/r of its tet, on a map that the colour-blind can read
+  kDefects,  ///< yellow: its tet is too small; else red: bad-shaped; as in the paper's Figure 7. Others grey
 };
+
+/// What the outside and the inside of a body look like where colours show tissue. Its materials are another matter.
+enum class TissueLook : std::uint8_t { kSkin, kLiver, kVessel, kBone };
 
 /// What a scene says about how it is first seen; everything may be left out. Lengths in the model's unit.
 struct SceneView {
@@ -33,6 +37,10 @@ struct SceneView {
   double skin_opacity = 1;  ///< in (0, 1]
   Theme theme = Theme::kDark;
   std::optional<HalfSpace> clip;  ///< what lies in it is not shown; see `SurfaceOptions`
+  TissueLook look = TissueLook::kSkin;
+  bool has_drapes = false;  ///< cloths lie around the body
+  /// Strokes and hooks of the scene show a person what can be done: the first press or key ends them.
+  bool is_demonstration = false;
 };
 
 }  // namespace app

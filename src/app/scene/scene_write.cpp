@@ -14,40 +14,75 @@ Json json_of(const HalfSpace& plane) {
   return Json::array({plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset});
 }
 
+/// A mesh file or a box.
+Json json_of_shape(const std::string& file, const SceneBox& box) {
+  if (!file.empty()) return {{"file", file}};
+  return {{"box",
+           {{"cells", box.cells}, {"size", encode(box.size)}, {"origin", encode(box.origin)}, {"jitter", box.jitter}}}};
+}
+
 Json json_of(const SceneModel& model) {
-  Json root;
-  if (model.file.empty()) {
-    root["box"] = {{"cells", model.box.cells},
-                   {"size", encode(model.box.size)},
-                   {"origin", encode(model.box.origin)},
-                   {"jitter", model.box.jitter}};
-  } else {
-    root["file"] = model.file;
+  Json root = json_of_shape(model.file, model.box);
+  if (!model.surface.empty()) root["surface"] = model.surface;
+  for (const SceneBody& body : model.bodies) {
+    Json item = json_of_shape(body.file, body.box);
+    item["move"] = encode(body.move);
+    if (body.region) item["region"] = *body.region;
+    root["bodies"].push_back(std::move(item));
   }
   root["regions"] = Json::array();
   for (const RegionPaint& paint : model.regions) {
-    root["regions"].push_back({{"region", paint.region}, {"below", json_of(paint.below)}});
+    Json item = {{"region", paint.region}, {"below", json_of(paint.below)}};
+    if (!paint.name.empty()) item["name"] = paint.name;
+    root["regions"].push_back(std::move(item));
   }
   return root;
 }
 
-void add_material(const Material& material, Json& root) {
+/// Keys that few materials have; a region's must be named where it does not have what the default has.
+bool has_more(const Material& material) {
+  return material.fibre_young > 0 || material.is_viscous() || material.rigid ||
+         material.fibre != std::array<double, 3>{};
+}
+
+void add_more(const Material& material, Json& root) {
+  root["rigid"] = material.rigid;
+  root["fibre"] = material.fibre;
+  root["fibre_young"] = material.fibre_young;
+  root["prony"] = Json::array();
+  for (const PronyTerm& term : material.prony) {
+    if (term.share > 0) root["prony"].push_back({{"share", term.share}, {"seconds", term.seconds}});
+  }
+}
+
+void add_material(const Material& material, bool has_all, Json& root) {
   root["density"] = material.density;
   root["young"] = material.young;
   root["poisson"] = material.poisson;
   root["toughness"] = material.toughness;
   root["cut_friction"] = material.cut_friction;
+  root["stiffening"] = material.stiffening;
+  root["rupture"] = material.rupture;
+  if (has_all || has_more(material)) add_more(material, root);
 }
 
-Json json_of(const Materials& materials) {
+Json json_of_materials(const Scene& scene) {
+  const Materials& materials = scene.options.materials;
   Json root;
-  add_material(materials.fallback, root["default"]);
+  const bool has_all = has_more(materials.fallback);
+  add_material(materials.fallback, has_all, root["default"]);
   root["regions"] = Json::array();
   for (const Materials::Entry& entry : materials.by_region) {
     Json item = {{"region", entry.region}};
-    add_material(entry.material, item);
+    add_material(entry.material, has_all, item);
     root["regions"].push_back(std::move(item));
   }
+  for (const NamedMaterial& named : scene.named_materials) {
+    Json item = {{"region", named.region}};
+    add_material(named.material, has_all, item);
+    root["regions"].push_back(std::move(item));
+  }
+  if (scene.has_materials_by_name) root["by_name"] = true;
   return root;
 }
 
@@ -63,6 +98,8 @@ Json json_of(const Attachment& held) {
   Json root = std::visit(EncodeWhere{}, held.where);
   root["surface"] = held.surface_only;
   if (std::isfinite(held.stiffness)) root["stiffness"] = held.stiffness;
+  if (std::isfinite(held.strength)) root["strength"] = held.strength;
+  if (held.tears) root["tears"] = true;
   return root;
 }
 
@@ -96,6 +133,8 @@ Json json_of(const SceneTool& tool) {
 
 Json json_of(const SceneHook& hook) {
   Json root = {{"name", hook.name}, {"radius", hook.radius}, {"stiffness", hook.stiffness}};
+  if (std::isfinite(hook.strength)) root["strength"] = hook.strength;
+  if (hook.tears) root["tears"] = true;
   for (std::size_t i = 0; i < hook.times.size(); ++i) {
     root["path"].push_back({{"t", hook.times[i]}, {"position", encode(hook.positions[i])}});
   }
@@ -115,7 +154,10 @@ Json json_of(const SceneStroke& s) {
   for (std::size_t i = 0; i < s.stroke.times.size(); ++i) {
     stroke["edges"].push_back({{"t", s.stroke.times[i]}, {"points", encode(s.stroke.edges[i])}});
   }
-  return {{"blade", Json::array({std::move(stroke)})}, {"direction", encode(s.direction)}};
+  Json root = {{"blade", Json::array({std::move(stroke)})}, {"direction", encode(s.direction)}};
+  for (const std::int32_t region : s.stop_at) root["stop_at"].push_back(region);
+  for (const std::string& name : s.stop_names) root["stop_at"].push_back(name);
+  return root;
 }
 
 template <class Item>
@@ -141,6 +183,9 @@ Json json_of(const SceneView& view) {
   root["wireframe"] = view.shows_wireframe;
   root["opacity"] = view.skin_opacity;
   root["theme"] = name_of(view.theme);
+  if (view.look != TissueLook::kSkin) root["look"] = name_of(view.look);
+  if (view.has_drapes) root["drapes"] = true;
+  if (view.is_demonstration) root["demonstration"] = true;
   if (view.clip) root["clip"] = json_of(*view.clip);
   return root;
 }
@@ -194,9 +239,10 @@ Json scene_tree(const Scene& scene) {
   Json root = {{"format", "incise-scene"}, {"version", 1}, {"name", scene.name}};
   root["model"] = json_of(scene.model);
   root["length_unit"] = body.length_unit;
-  root["materials"] = json_of(scene.options.materials);
+  root["materials"] = json_of_materials(scene);
   root["gravity"] = encode(body.gravity);
   root["damping"] = body.damping;
+  if (scene.stretch != Vec3::Ones()) root["stretch"] = encode(scene.stretch);
   root["attachments"] = json_of_all(scene.attachments);
   root["tools"] = json_of_all(scene.tools);
   root["hooks"] = json_of_all(scene.hooks);

@@ -2,6 +2,7 @@
 #include "app/scene/stroke_reader.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "app/scene/blade_file.h"
@@ -12,6 +13,8 @@ namespace app {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
+constexpr std::size_t kMaxStops = 1000;
+constexpr std::uint64_t kMaxRegion = std::numeric_limits<std::int32_t>::max();
 
 /// The columns of the rotation that a unit quaternion w + xi + yj + zk stands for.
 struct Pose {
@@ -35,13 +38,15 @@ class StrokeReader {
  public:
   explicit StrokeReader(JsonReader& reader) : read_(reader) {}
 
-  bool read_stroke(const JsonValue& value, const std::string& path, Stroke& stroke) {
+  bool read_stroke(const JsonValue& value, const std::string& path, BladeStroke& blade) {
+    Stroke& stroke = blade.stroke;
     const bool is_rigid = value.find("poses") != nullptr || value.find("edge") != nullptr;
-    const bool has_keys = is_rigid ? read_.is_object(value, path, {"name", "edge", "poses"})
-                                   : read_.is_object(value, path, {"name", "edges"});
+    const bool has_keys = is_rigid ? read_.is_object(value, path, {"name", "edge", "poses", "stop_at"})
+                                   : read_.is_object(value, path, {"name", "edges", "stop_at"});
     if (!has_keys) return false;
     const JsonValue* name = value.find("name");
     if (name != nullptr && !read_.text(*name, path + ".name", stroke.name)) return false;
+    if (!read_stops(read_, value, path, blade.stop_at, blade.stop_names)) return false;
     return is_rigid ? read_rigid(value, path, stroke) : read_polylines(value, path, stroke);
   }
 
@@ -130,7 +135,26 @@ class StrokeReader {
 
 }  // namespace
 
-bool read_strokes(JsonReader& reader, const JsonValue& list, const std::string& path, std::vector<Stroke>& strokes) {
+bool read_stops(JsonReader& reader, const JsonValue& value, const std::string& path, std::vector<std::int32_t>& numbers,
+                std::vector<std::string>& names) {
+  const JsonValue* list = value.find("stop_at");
+  if (list == nullptr) return true;
+  if (!reader.is_array(*list, path + ".stop_at", 1, kMaxStops)) return false;
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    const JsonValue& item = list->items[i];
+    if (item.kind == JsonValue::Kind::kString && !item.text.empty()) {
+      names.push_back(item.text);
+    } else if (item.is_whole && item.whole <= kMaxRegion) {
+      numbers.push_back(static_cast<std::int32_t>(item.whole));
+    } else {
+      return reader.fail(item, at(path + ".stop_at", i), "must be a region's number or its name");
+    }
+  }
+  return true;
+}
+
+bool read_strokes(JsonReader& reader, const JsonValue& list, const std::string& path,
+                  std::vector<BladeStroke>& strokes) {
   if (!reader.is_array(list, path, 1, kMaxBladePoints)) return false;
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     if (!StrokeReader(reader).read_stroke(list.items[i], at(path, i), strokes.emplace_back())) return false;

@@ -12,14 +12,18 @@ namespace incise {
 inline namespace v0 {
 namespace app {
 
-inline constexpr std::array<std::string_view, 4> kColorNames = {"tissue", "region", "stroke", "quality"};
+inline constexpr std::array<std::string_view, 5> kColorNames = {"tissue", "region", "stroke", "quality", "defects"};
 inline constexpr std::array<std::string_view, 2> kThemeNames = {"dark", "light"};
+inline constexpr std::array<std::string_view, 4> kLookNames = {"skin", "liver", "vessel", "bone"};
 
 constexpr std::string_view name_of(ColorBy color) {
   return kColorNames[static_cast<std::size_t>(color)];
 }
 constexpr std::string_view name_of(Theme theme) {
   return kThemeNames[static_cast<std::size_t>(theme)];
+}
+constexpr std::string_view name_of(TissueLook look) {
+  return kLookNames[static_cast<std::size_t>(look)];
 }
 
 }  // namespace app

@@ -11,7 +11,7 @@ namespace app {
 
 /// What a person did, or had done, in the order in which it happened.
 struct Operation {
-  enum class Kind : std::uint8_t { kStroke, kUndo, kRedo, kReset, kRecording, kReplay, kNotice };
+  enum class Kind : std::uint8_t { kStroke, kSuture, kUndo, kRedo, kReset, kRecording, kReplay, kNotice };
   Kind kind = Kind::kNotice;
   double time = 0;   ///< s of the simulation
   std::string text;  ///< a line for people

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/hands/grip.h"
 #include "app/session/session_state.h"
 #include "app/text/json_write.h"
 #include "incise/io/mesh_export.h"
@@ -28,6 +29,39 @@ void draw_line(const std::vector<Vec3>& points, Ink ink, Marks& marks) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     marks.lines.push_back({to_float(points[i - 1]), to_float(points[i]), ink, 4, true, false});
   }
+}
+
+/// A scalpel, where an edge is one: straight, upright, and not longer than a blade.
+void draw_scalpel(const BladePose& blade, const Vec3& way_of_blade, const Scene& scene, bool is_ghost, Marks& marks) {
+  constexpr double kUpright = 0.5, kLongestEdge = 60;  // cosine; mm
+  if (blade.edge.size() < 2) return;
+  const Vec3 gravity = scene.options.body.gravity;
+  const Vec3 up = gravity.isZero(0) ? Vec3(Vec3::UnitZ()) : Vec3(-gravity.stableNormalized());
+  Vec3 way = blade.edge.front() - blade.edge.back(), tip = blade.edge.back();
+  if (way.dot(up) < 0) {
+    way = -way;
+    tip = blade.edge.front();
+  }
+  Instrument scalpel;
+  scalpel.millimetre = instrument_millimetre(scene.options.body.length_unit, 0);
+  const double length = way.norm();
+  if (!(length > 0) || way.dot(up) < kUpright * length || length > kLongestEdge * scalpel.millimetre) return;
+  scalpel.tip = tip;
+  scalpel.up = way / length;
+  scalpel.ahead = way_of_blade;
+  scalpel.is_ghost = is_ghost;
+  marks.instruments.push_back(scalpel);
+}
+
+/// Of a demonstration: the hook stands on the skin and leans to where it pulls.
+void draw_hook(const Hook& hook, const Scene& scene, Marks& marks) {
+  if (hook.id >= scene.hooks.size()) return;
+  const Vec3 gravity = scene.options.body.gravity;
+  const Vec3 up = gravity.isZero(0) ? Vec3(Vec3::UnitZ()) : Vec3(-gravity.stableNormalized());
+  HeldBy by{InstrumentKind::kHook, up, instrument_millimetre(scene.options.body.length_unit, 0)};
+  Instrument made = instrument_at(hook, scene.hooks[hook.id].positions.front(), by, Camera());
+  made.is_ghost = true;
+  marks.instruments.push_back(made);
 }
 
 void draw_tool(const Tool& tool, Marks& marks) {
@@ -54,6 +88,7 @@ Status Session::frame(const HandState& hands) {
 FrameInput Session::State::input_of(const HandState& hands) {
   FrameInput input = scene_input(scene, figures.frames);
   if (!plays_script) input.blade.reset();
+  if (!plays_hooks) input.hooks.clear();
   if (hands.blade) {
     plays_script = false;  // from now on the person has the blade
     followed.reset();
@@ -92,7 +127,14 @@ void Session::State::choose_blade(const HandState& hands, FrameInput& input) {
 }
 
 Status Session::State::run(const FrameInput& input) {
-  Result<FrameReport> report = simulation->frame(input);
+  const bool is_script = blade_source == BladeSource::kScript && !is_replay;
+  const std::vector<std::int32_t> stop_at =
+      is_script ? scene_stops(scene, figures.frames) : std::vector<std::int32_t>();
+  Result<FrameReport> report = simulation->frame(input, stop_at);
+  if (input.blade && last_input.blade && input.blade->edge.size() == last_input.blade->edge.size()) {
+    const Vec3 way = input.blade->edge.front() - last_input.blade->edge.front();
+    if (!way.isZero(0)) blade_way = way;
+  }
   last_input = input;
   if (!report.ok()) {
     if (report.error().code == ErrorCode::kIo) {  // the frame was done all the same
@@ -148,6 +190,10 @@ void Session::State::follow_stroke(const FrameReport& report) {
     if (stroke_peak > 0) text += fmt::format(", at most {:.2g} N", stroke_peak);
     note(Operation::Kind::kStroke, std::move(text));
   }
+  if (report.stroke > 0 && report.stroke != stroke_under_way) {
+    unpicked.clear();
+    forgets_undone = false;
+  }
   if (report.stroke == 0 || report.stroke != stroke_under_way) {
     stroke_cut = report.stroke == 0 ? CutStatistics() : report.cut;
     stroke_peak = report.stroke == 0 ? 0 : report.blade.force.norm();
@@ -178,6 +224,11 @@ void Session::follow(const Stroke& stroke) {
   s.followed->frames = static_cast<std::uint64_t>(added.stroke.times.back() / frame) + 2;
 }
 
+void Session::end_script() {
+  state_->plays_script = false;
+  state_->plays_hooks = false;
+}
+
 bool Session::is_following() const {
   return state_->followed.has_value();
 }
@@ -186,6 +237,7 @@ Result<bool> Session::undo() {
   State& s = *state_;
   if (s.is_replay) return false;
   s.followed.reset();
+  if (Result<bool> done = s.unpick(); !done.ok() || *done) return done;
   Result<bool> done = s.simulation->undo();
   if (!done.ok()) s.simulation->stop_recording();
   s.count();
@@ -197,6 +249,8 @@ Result<bool> Session::undo() {
 Result<bool> Session::redo() {
   State& s = *state_;
   if (s.is_replay) return false;
+  if (Result<bool> done = s.sew_again(); !done.ok() || *done) return done;
+  if (s.forgets_undone) return false;
   Result<bool> done = s.simulation->redo();
   if (!done.ok()) s.simulation->stop_recording();
   s.count();
@@ -242,7 +296,9 @@ bool Session::is_recording() const {
 }
 
 Status Session::export_mesh(const std::filesystem::path& path) const {
-  return io::write_mesh(path, io::to_mesh_data(mesh(), find_components(mesh()), state_->file_vertex));
+  io::MeshData data = io::to_mesh_data(mesh(), find_components(mesh()), state_->file_vertex);
+  data.region_names = state_->region_names;
+  return io::write_mesh(path, data);
 }
 
 // --- what there is
@@ -293,8 +349,16 @@ void Session::draw(Marks& marks, bool shows_ideal) const {
   }
   if (s.last_input.blade && s.blade_source != State::BladeSource::kHand) {
     draw_line(s.last_input.blade->edge, Ink::kBlade, marks);
+    const bool is_shown = s.is_replay || s.blade_source == State::BladeSource::kScript;
+    const bool is_ghost = !s.is_replay && s.scene.view && s.scene.view->is_demonstration;
+    if (is_shown) draw_scalpel(*s.last_input.blade, s.blade_way, s.scene, is_ghost, marks);
   }
+  const bool is_demonstration = !s.is_replay && s.scene.view && s.scene.view->is_demonstration;
   for (const Hook& hook : s.last_input.hooks) {
+    if (is_demonstration && hook.id < kFirstHandHook) {
+      draw_hook(hook, s.scene, marks);
+      continue;
+    }
     if (hook.id < kFirstHandHook || s.is_replay) marks.balls.push_back({to_float(hook.position), Ink::kHook, 7, true});
   }
   for (const Tool& tool : s.last_input.tools) draw_tool(tool, marks);

@@ -3,6 +3,7 @@
 // that is played again. No clock, no thread, no window.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -23,7 +24,7 @@ inline namespace v0 {
 namespace app {
 
 /// The scene of a mesh without one: soft tissue (20 kPa, 1000 kg/m³) whose longest side is 10 cm, held by its
-/// lowest tenth on a table under gravity along −`up`.
+/// lowest tenth on a table under gravity along −`up`. Regions whose names speak of a tissue are made of it.
 ///
 /// @param body  the mesh's bounds, in its own unit. @param up  unit.
 [[nodiscard]] Scene scene_of_mesh(const std::filesystem::path& mesh, const Box& body, const Vec3& up);
@@ -37,6 +38,7 @@ struct SessionOptions {
   LogSink log;                   ///< hears what a stroke could not do as asked
   std::filesystem::path record;  ///< from the start; empty: no recording, until one is begun
   Vec3 up = Vec3::UnitZ();       ///< of a mesh without a scene; unit
+  std::string surface = {};      ///< takes the place of the scene's `model.surface`; empty: that stays
   bool plays_script = true;      ///< the strokes of a scene are made until a hand takes over
   /// Strokes that undo can take back, the last ones: the memory of those before them is freed, so that a session may
   /// last. 0: all. While a recording is played all are kept, since it may take any back.
@@ -93,6 +95,12 @@ class Session {
   void follow(const Stroke& stroke);
   /// Whether such a stroke is under way.
   [[nodiscard]] bool is_following() const;
+  /// Ends the strokes and hooks of the scene where they are, until the body starts anew: a person goes on.
+  void end_script();
+  /// Sets a suture or a staple between two places of the rest shape, length unit. `undo` takes it out again. Errors:
+  /// kBadArgument while a recording is played; as `Simulation::add_suture`.
+  Status add_suture(const std::array<Vec3, 2>& rest_places, const Suture& suture);
+  /// Takes the last stroke or suture back, whichever came later.
   Result<bool> undo();
   Result<bool> redo();
   /// Back to the start, a recording of the session included: it begins again under the same name with a number,

@@ -51,8 +51,9 @@ Status read_calls(Reader& reader, std::vector<Call>& calls) {
   }
 }
 
-void take(io::LoadedMesh loaded, std::vector<std::uint32_t>& file_vertex, TetMesh& mesh) {
+void take(io::LoadedMesh loaded, std::vector<std::uint32_t>& file_vertex, io::RegionNames& names, TetMesh& mesh) {
   file_vertex = std::move(loaded.file_vertex);
+  names = std::move(loaded.region_names);
   mesh = std::move(loaded.mesh);
 }
 
@@ -68,6 +69,7 @@ Scene scene_of_mesh(const fs::path& mesh, const Box& body, const Vec3& up) {
   scene.options.body.damping = 2;
   scene.options.body.self.on = true;
   scene.options.materials.fallback.young = kYoung;
+  scene.has_materials_by_name = true;
   const double low = std::min(body.lo.dot(up), body.hi.dot(up)), height = std::abs(size.dot(up));
   scene.attachments.push_back({HalfSpace{up, low + kHeldShare * height}});
   scene.tools.push_back({"table", {}, {PlaneTool{up, low}}});
@@ -94,13 +96,13 @@ Result<Session> Session::open(const fs::path& path, const SessionOptions& option
 }
 
 Result<Session> Session::open(const Scene& scene, const SessionOptions& options) {
-  Result<io::LoadedMesh> loaded = load_model(scene);
-  if (!loaded.ok()) return loaded.error();
   auto state = std::make_unique<State>();
   state->options = options;
   state->scene = scene;
+  Result<io::LoadedMesh> loaded = take_model(state->scene);
+  if (!loaded.ok()) return loaded.error();
   state->title = scene.name;
-  take(std::move(loaded).value(), state->file_vertex, state->initial);
+  take(std::move(loaded).value(), state->file_vertex, state->region_names, state->initial);
   return begin(std::move(state));
 }
 
@@ -116,7 +118,7 @@ Result<Session> Session::open_simulation_recording(const fs::path& path, const S
   state->title = state->scene.name.empty() ? path.filename().string() : state->scene.name;
   state->recording_name = path.string();
   state->is_replay = true;
-  take(std::move(loaded).value(), state->file_vertex, state->initial);
+  take(std::move(loaded).value(), state->file_vertex, state->region_names, state->initial);
   return begin(std::move(state));
 }
 
@@ -133,11 +135,12 @@ Result<Session> Session::open_engine_recording(const fs::path& path, const Sessi
   state->title = path.filename().string();
   state->recording_name = path.string();
   state->is_replay = state->is_engine_replay = true;
-  take(std::move(loaded).value(), state->file_vertex, state->initial);
+  take(std::move(loaded).value(), state->file_vertex, state->region_names, state->initial);
   return begin(std::move(state));
 }
 
 Result<Session> Session::begin(std::unique_ptr<State> state) {
+  if (!state->options.surface.empty()) state->scene.model.surface = state->options.surface;
   if (const Status status = state->start(); !status.ok()) return status.error();
   const fs::path record = state->options.record;
   Session session(std::move(state));
@@ -163,11 +166,15 @@ Status Session::State::start() {
   followed.reset();
   blade_source = BladeSource::kNone;
   stroke_under_way = 0;
+  sewn.clear();
+  unpicked.clear();
+  forgets_undone = false;
   next_call = 0;
   attempt_began.reset();
   scorer.reset();
   if (scene.exercise) scorer.emplace(scene, initial);
   plays_script = options.plays_script;
+  plays_hooks = true;
   count();
   return {};
 }

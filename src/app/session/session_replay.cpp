@@ -18,7 +18,7 @@ bool has_blade(const SimulationCall& call) {
 /// Whether a person would call this the end of a step: a stroke ends, or something is taken back.
 bool ends_step(const std::vector<SimulationCall>& calls, std::size_t i) {
   const SimulationCallKind kind = calls[i].kind;
-  if (kind == SimulationCallKind::kUndo || kind == SimulationCallKind::kRedo) return true;
+  if (kind != SimulationCallKind::kFrame && kind != SimulationCallKind::kSettle) return true;
   return i > 0 && has_blade(calls[i - 1]) && !has_blade(calls[i]);
 }
 
@@ -57,6 +57,12 @@ Status Session::State::play(const SimulationCall& call) {
     case SimulationCallKind::kRedo:
       note(Operation::Kind::kRedo, "Stroke made again");
       return status_of(simulation->redo());
+    case SimulationCallKind::kSuture:
+      return sew(call.suture.ends, call.suture.suture);
+    case SimulationCallKind::kUnpick:
+      std::erase_if(sewn, [&](const Sewn& suture) { return suture.call.id == call.suture.id; });
+      note(Operation::Kind::kUndo, "Suture taken out");
+      return simulation->remove_suture(call.suture.id);
   }
   return {};
 }

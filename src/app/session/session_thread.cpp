@@ -13,7 +13,9 @@
 
 #include "app/jobs/cut_job.h"
 #include "app/text/text_file.h"
+#include "app/view/fine_view.h"
 #include "incise/core/triple_buffer.h"
+#include "incise/mesh/bounds.h"
 
 namespace incise {
 inline namespace v0 {
@@ -39,21 +41,15 @@ std::array<Eigen::Vector3f, 4> corners_of(const TetMesh& mesh, TetId tet) {
   return corners;
 }
 
-/// Of the body as it stands, without vertices that no tet uses.
-Box bounds_of(const TetMesh& mesh) {
-  Box box;
-  mesh.for_each_vertex([&](VertexId v) {
-    if (mesh.tet_of(v).is_valid()) box.extend(mesh.current(v));
-  });
-  return box;
-}
-
 }  // namespace
 
 struct SessionThread::State {
   State(Session opened, const SessionThreadOptions& chosen) : options(chosen), session(std::move(opened)) {}
 
-  using Command = std::function<void()>;
+  struct Command {
+    std::function<void()> run;
+    std::uint64_t after = 0;  // a moment of the hands
+  };
 
   SessionThreadOptions options;
 
@@ -70,6 +66,7 @@ struct SessionThread::State {
   Session session;
   SurfaceOptions surface_options;
   std::optional<SurfaceView> surface;
+  std::optional<FineView> fine;  // where the scene has one, it is shown unless a clip plane looks inside
   std::optional<QualityMonitor> quality;
   std::optional<ValidityMonitor> validity;
   std::vector<TetId> worst;  // tets, as many as are shown
@@ -78,6 +75,7 @@ struct SessionThread::State {
   std::optional<std::pair<Side, std::uint32_t>> probed;  // with the generation of its tet
   std::uint64_t log_seen = 0;
   bool shows_ideal = false;
+  bool was_device_live = true;
   unsigned steps_left = 0;  // to be made while it is paused
   Clock::time_point next_frame;
   Clock::time_point rate_since;
@@ -85,13 +83,18 @@ struct SessionThread::State {
   double rate_seconds = 0;
   std::thread thread;
 
-  void post(Command command);
+  void post(std::function<void()> command);
+  void post_after_gestures(std::function<void()> command);
+  [[nodiscard]] bool comes_later(const Command& command) const;
   void run();
   bool run_commands();
   void look_at_session();
   void begin_session();
   void open(const std::filesystem::path& path);
+  void open(StartingBody body);
   void frame();
+  void take_device(HandState& now);
+  void feel();
   void pace();
   void wait();
   void publish();
@@ -110,13 +113,28 @@ struct SessionThread::State {
   [[nodiscard]] ShouldStop until_next_command();
 };
 
-void SessionThread::State::post(Command command) {
+void SessionThread::State::post(std::function<void()> command) {
   {
     const std::lock_guard lock(mutex);
-    commands.push_back(std::move(command));
+    commands.push_back({std::move(command), 0});
     ++waiting;
   }
   wakes.notify_one();
+}
+
+/// Of a simulation that lags behind the hand: what was asked for after a stroke comes after that stroke.
+void SessionThread::State::post_after_gestures(std::function<void()> command) {
+  {
+    const std::lock_guard lock(mutex);
+    commands.push_back({std::move(command), hands.now()});
+    ++waiting;
+  }
+  wakes.notify_one();
+}
+
+/// A step comes before what was asked for after it, and so does a gesture, while time goes on.
+bool SessionThread::State::comes_later(const Command& command) const {
+  return steps_left > 0 || (!options.is_paused && !hands.has_passed(command.after));
 }
 
 void SessionThread::State::run() {
@@ -142,12 +160,12 @@ bool SessionThread::State::run_commands() {
     Command command;
     {
       const std::lock_guard lock(mutex);
-      if (commands.empty() || steps_left > 0) return !is_first;  // a step comes before what was asked for after it
+      if (commands.empty() || comes_later(commands.front())) return !is_first;
       command = std::move(commands.front());
       commands.pop_front();
       --waiting;
     }
-    command();
+    command.run();
     view.busy.clear();
   }
 }
@@ -157,6 +175,9 @@ void SessionThread::State::look_at_session() {
   const Engine& engine = session.engine();
   surface.emplace(engine.mesh(), engine.journal());
   surface->set_options(surface_options);
+  Result<std::optional<FineView>> made = fine_view_of(session.scene(), engine.mesh(), engine.journal());
+  if (!made.ok()) tell(made.error().message);
+  fine = made.ok() ? std::move(made).value() : std::nullopt;
   quality.emplace(engine.mesh(), engine.journal());
   validity.emplace(engine.mesh(), volume_tolerance(engine.options()));
   checked.move_to(engine.journal());
@@ -167,6 +188,7 @@ void SessionThread::State::look_at_session() {
   view.scene = std::make_shared<const Scene>(session.scene());
   view.title = session.title();
   view.quality_before = quality->before();
+  if (options.device) options.device->begin(session.scene(), current_bounds(engine.mesh()));
   log_seen = 0;
   view.log = std::make_shared<const std::vector<Operation>>();
   rate_since = Clock::now();
@@ -192,16 +214,43 @@ void SessionThread::State::open(const std::filesystem::path& path) {
   tell("Opened " + path.filename().string());
 }
 
+void SessionThread::State::open(StartingBody body) {
+  busy(std::string("Making the ") + kStartingBodies[static_cast<std::size_t>(body)].name);
+  const Result<Scene> scene = scene_of(body);
+  if (!scene.ok()) return tell(scene.error().message);
+  Result<Session> opened = Session::open(*scene, options.session);
+  if (!opened.ok()) return tell(opened.error().message);
+  session = std::move(opened).value();
+  options.is_paused = false;
+  begin_session();
+}
+
 void SessionThread::State::frame() {
   HandState now;
   {
     const std::lock_guard lock(mutex);
-    now = hands.pop();
+    now = session.is_following() ? hands.pop_hooks() : hands.pop();
   }
   if (steps_left > 0) --steps_left;
+  if (options.device) take_device(now);
   tell(session.frame(now));
+  if (options.device) feel();
   const ReplayPlace place = session.place();
   if (session.is_replay() && place.call >= place.calls) options.is_paused = true;
+}
+
+/// The device has the blade; the other hand has the mouse.
+void SessionThread::State::take_device(HandState& now) {
+  now.blade = options.device->blade(current_bounds(session.mesh()));
+  const bool is_live = options.device->is_live();
+  if (std::exchange(was_device_live, is_live) == is_live) return;
+  tell(is_live ? "The haptic device answers: it has the blade" : "The haptic device does not answer: it has no force");
+}
+
+/// A recording that is played is another one's work.
+void SessionThread::State::feel() {
+  const Simulation* simulation = session.is_replay() ? nullptr : session.simulation();
+  options.device->feel(simulation == nullptr ? HapticSnapshot() : simulation->haptic_snapshot());
 }
 
 /// Waits until the next frame is due.
@@ -215,7 +264,7 @@ void SessionThread::State::pace() {
   while (!quits && is_running() && Clock::now() < next_frame) {
     if (run_commands()) publish();
     std::unique_lock lock(mutex);
-    wakes.wait_until(lock, next_frame, [&] { return quits || !commands.empty(); });
+    wakes.wait_until(lock, next_frame, [&] { return quits || (!commands.empty() && !comes_later(commands.front())); });
   }
 }
 
@@ -244,10 +293,16 @@ void SessionThread::State::publish() {
   const Engine& engine = session.engine();
   surface->follow(engine.mesh(), engine.journal());
   surface->fill(engine.mesh(), view.surface);
+  if (fine && !surface_options.clip) {
+    if (const Status shown = fine->show(engine.mesh(), engine.journal(), view.surface); !shown.ok()) {
+      tell(shown);
+      fine.reset();
+    }
+  }
   if (quality->follow(engine.mesh(), engine.journal())) find_worst();
   view.quality = quality->now();
   check_validity();
-  view.body = surface_options.clip ? bounds_of(engine.mesh()) : bounds_of(view.surface);
+  view.body = surface_options.clip ? current_bounds(engine.mesh()) : bounds_of(view.surface);
   view.figures = session.figures();
   view.place = session.place();
   view.is_replay = session.is_replay();
@@ -295,6 +350,7 @@ void SessionThread::State::score(const std::filesystem::path& json, const std::f
 void SessionThread::State::draw_marks() {
   view.marks = {};
   session.draw(view.marks, shows_ideal);
+  if (options.device) options.device->draw(view.marks);
   const TetMesh& mesh = session.mesh();
   for (const TetId tet : worst) add_edges(corners_of(mesh, tet), Ink::kWorst, view.marks);
   view.probe.reset();
@@ -354,6 +410,9 @@ void SessionThread::set_hands(const HandState& hands) {
 void SessionThread::open(const std::filesystem::path& path) {
   state_->post([s = state_.get(), path] { s->open(path); });
 }
+void SessionThread::open(StartingBody body) {
+  state_->post([s = state_.get(), body] { s->open(body); });
+}
 void SessionThread::pause(bool is_paused) {
   state_->post([s = state_.get(), is_paused] { s->options.is_paused = is_paused; });
 }
@@ -371,19 +430,26 @@ void SessionThread::reset() {
   });
 }
 void SessionThread::undo() {
-  state_->post([s = state_.get()] {
+  state_->post_after_gestures([s = state_.get()] {
     const Result<bool> done = s->session.undo();
-    s->tell(done.ok() ? (*done ? "Stroke taken back" : "Nothing to undo") : done.error().message);
+    s->tell(done.ok() ? (*done ? s->session.log().operations().back().text : "Nothing to undo") : done.error().message);
   });
 }
 void SessionThread::redo() {
-  state_->post([s = state_.get()] {
+  state_->post_after_gestures([s = state_.get()] {
     const Result<bool> done = s->session.redo();
-    s->tell(done.ok() ? (*done ? "Stroke made again" : "Nothing to redo") : done.error().message);
+    s->tell(done.ok() ? (*done ? s->session.log().operations().back().text : "Nothing to redo") : done.error().message);
   });
 }
 void SessionThread::follow(const Stroke& stroke) {
-  state_->post([s = state_.get(), stroke] { s->session.follow(stroke); });
+  state_->post_after_gestures([s = state_.get(), stroke] { s->session.follow(stroke); });
+}
+void SessionThread::end_script() {
+  state_->post([s = state_.get()] { s->session.end_script(); });
+}
+void SessionThread::add_suture(const std::array<Vec3, 2>& rest_places, const Suture& suture) {
+  state_->post_after_gestures(
+      [s = state_.get(), rest_places, suture] { s->tell(s->session.add_suture(rest_places, suture)); });
 }
 void SessionThread::probe(Side side) {
   state_->post([s = state_.get(), side] {

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "app/hands/device_hand.h"
 #include "app/session/probe.h"
 #include "app/session/quality_monitor.h"
 #include "app/session/session.h"
+#include "app/session/starting_body.h"
 #include "app/session/validity_monitor.h"
 #include "app/view/surface_view.h"
 
@@ -47,6 +49,8 @@ struct SessionThreadOptions {
   double speed = 1;        ///< of the simulation against the clock; 0: as fast as it can
   bool is_paused = false;
   std::size_t worst_shown = 0;
+  /// A hand at a haptic device, which then has the blade; that of `set_hands` counts no more. May be null.
+  std::shared_ptr<DeviceHand> device;
 };
 
 /// Runs a session on a thread of its own, at the pace of the clock, and shows every frame to one other thread: neither
@@ -67,12 +71,16 @@ class SessionThread {
 
   void set_hands(const HandState& hands);
   void open(const std::filesystem::path& path);
+  /// One of the bodies that need no file.
+  void open(StartingBody body);
   void pause(bool is_paused);
   void step();  ///< one frame, and pauses
   void reset();
   void undo();
   void redo();
   void follow(const Stroke& stroke);
+  void end_script();
+  void add_suture(const std::array<Vec3, 2>& rest_places, const Suture& suture);
   void probe(Side side);
   void seek(std::uint64_t call);
   void seek_next_step();

@@ -4,11 +4,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <string>
 #include <system_error>
+
+#include "app/text/write_all.h"
 
 namespace incise {
 inline namespace v0 {
@@ -18,14 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr mode_t kMode = 0666;
-
-Error io_error(const fs::path& path, const std::string& why) {
-  return {ErrorCode::kIo, path.string() + ": cannot be written: " + why, {}};
-}
-
-Error io_error(const fs::path& path) {
-  return io_error(path, std::strerror(errno));
-}
 
 /// While it lives, signals wait: one that ends the program would leave the file beside.
 class SignalsWait {
@@ -51,7 +43,7 @@ AppendFile::~AppendFile() {
 
 Status AppendFile::append(std::string_view text) {
   if (broken_) return *broken_;
-  Status status = file_ < 0 ? open_and_write(text) : write(text);
+  Status status = file_ < 0 ? open_and_write(text) : write_all(file_, text, path_);
   if (!status.ok()) broken_ = status.error();
   return status;
 }
@@ -59,10 +51,10 @@ Status AppendFile::append(std::string_view text) {
 Status AppendFile::open_and_write(std::string_view text) {
   std::error_code code;
   const fs::file_status status = fs::status(path_, code);
-  if (fs::is_directory(status)) return io_error(path_, "it is a directory; name a file");
+  if (fs::is_directory(status)) return write_error(path_, "it is a directory; name a file");
   if (!fs::exists(status) || fs::is_regular_file(status)) return create(text);
   file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-  return file_ < 0 ? io_error(path_) : write(text);
+  return file_ < 0 ? write_error(path_) : write_all(file_, text, path_);
 }
 
 Status AppendFile::create(std::string_view text) {
@@ -70,22 +62,13 @@ Status AppendFile::create(std::string_view text) {
   fs::path beside = path_;
   beside += ".incise-part";
   file_ = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kMode);
-  if (file_ < 0) return io_error(path_);
+  if (file_ < 0) return write_error(path_);
   std::error_code code;
-  Status status = write(text);
+  Status status = write_all(file_, text, path_);
   if (status.ok()) fs::rename(beside, path_, code);
-  if (status.ok() && code) status = io_error(path_, code.message());
+  if (status.ok() && code) status = write_error(path_, code.message());
   if (!status.ok()) fs::remove(beside, code);
   return status;
-}
-
-Status AppendFile::write(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(file_, text.data(), text.size());
-    if (count < 0 && errno != EINTR) return io_error(path_);
-    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return {};
 }
 
 }  // namespace app

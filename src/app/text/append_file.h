@@ -28,7 +28,6 @@ class AppendFile {
  private:
   Status open_and_write(std::string_view text);
   Status create(std::string_view text);
-  Status write(std::string_view text);
 
   std::filesystem::path path_;
   int file_ = -1;

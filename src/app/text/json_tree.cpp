@@ -256,7 +256,8 @@ bool JsonReader::boolean(const JsonValue& value, const std::string& path, bool& 
 bool JsonReader::text(const JsonValue& value, const std::string& path, std::string& out) {
   if (value.kind != Kind::kString) return fail(value, path, "must be a string, not " + shown(value));
   out = value.text;
-  return true;
+  // As a file's name it would end there for the system, and go on for whoever compares it.
+  return out.find('\0') == std::string::npos || fail(value, path, "must not have a null character in it");
 }
 
 std::string at(const std::string& path, std::size_t index) {

@@ -53,9 +53,13 @@ Camera aim(const Vec3& across, const SurfaceFrame& frame, const Viewport& viewpo
 
 }  // namespace
 
-Picture picture_of_cut(const TetMesh& mesh, const Journal& journal, const Viewport& viewport) {
+Result<Picture> picture_of_cut(const TetMesh& mesh, const Journal& journal, const Viewport& viewport, FineView* fine) {
   Picture picture;
-  SurfaceView(mesh, journal).fill(mesh, picture.surface);
+  if (fine == nullptr) {
+    SurfaceView(mesh, journal).fill(mesh, picture.surface);
+  } else if (const Status shown = fine->show(mesh, journal, picture.surface); !shown.ok()) {
+    return shown.error();
+  }
   const Vec3 across = across_walls(picture.surface);
   const bool has_spread = spread(mesh, picture.surface);
   picture.options.theme = Theme::kLight;

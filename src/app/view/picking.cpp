@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/view/picking.h"
 
+#include <array>
 #include <limits>
 #include <vector>
+
+#include "incise/geom/closest.h"
 
 namespace incise {
 inline namespace v0 {
@@ -43,6 +46,14 @@ double met_at(const Seen& a, const Seen& b, const Seen& c) {
   return along >= 0 ? along : kNowhere;
 }
 
+Vec3 rest_of(const SurfaceTopology& topology, std::size_t triangle, const std::array<double, 3>& weights) {
+  Vec3 place = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    place += weights[i] * topology.rest[topology.triangles[triangle][i]].cast<double>();
+  }
+  return place;
+}
+
 }  // namespace
 
 std::optional<SurfaceHit> pick(const SurfaceFrame& surface, const Ray& ray) {
@@ -66,6 +77,11 @@ std::optional<SurfaceHit> pick(const SurfaceFrame& surface, const Ray& ray) {
   hit.side = topology.sides[hit.triangle];
   hit.point = ray.origin + hit.distance * ray.direction;
   hit.normal = to_b.cross(to_c).stableNormalized();
+  if (topology.rest.empty()) {
+    hit.rest = hit.point;
+    return hit;
+  }
+  hit.rest = rest_of(topology, hit.triangle, closest_on_triangle(hit.point, from, from + to_b, from + to_c).weights);
   return hit;
 }
 

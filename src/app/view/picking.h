@@ -15,6 +15,7 @@ struct SurfaceHit {
   std::size_t triangle = 0;     ///< its slot in the topology
   Side side;                    ///< which side of which tet
   Vec3 point = Vec3::Zero();    ///< length unit, as the body stands
+  Vec3 rest = Vec3::Zero();     ///< the same place in the rest shape, to the precision of pictures
   Vec3 normal = Vec3::UnitZ();  ///< of the triangle, outwards, unit
   double distance = 0;          ///< from the ray's origin
 };

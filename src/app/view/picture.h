@@ -4,10 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "app/scene/scene_view.h"
 #include "app/view/camera.h"
+#include "app/view/instrument.h"
+#include "app/view/solid.h"
 #include "app/view/surface_view.h"
 
 namespace incise {
@@ -23,6 +26,8 @@ struct ViewOptions {
   bool shows_occlusion = true;  ///< darkens hollows, to read depth
   bool shows_newest = true;     ///< tints the walls of the newest stroke: its incision faces
   bool shows_front = true;      ///< draws where cuts end inside the body
+  bool shows_shadows = false;   ///< of the body, its instruments and what lies around it, on each other
+  TissueLook look = TissueLook::kSkin;
 };
 
 /// What a mark stands for; the theme says in which colour. No two are told apart by colour alone.
@@ -64,6 +69,7 @@ struct Marks {
   std::vector<Line> lines;
   std::vector<Ball> balls;
   std::vector<Triangle> triangles;
+  std::vector<Instrument> instruments;  ///< solid; where there are some, blade lines show inside alone
 };
 
 /// Everything that is drawn.
@@ -72,6 +78,7 @@ struct Picture {
   Camera camera;
   ViewOptions options;
   Marks marks;
+  std::shared_ptr<const std::vector<SolidCorner>> ground;  ///< what lies around the body; may be null
 };
 
 /// The box of all points of a frame; empty where there is none. Cost: O(points).

@@ -37,6 +37,7 @@ ViewOptions view_options_of(const Scene& scene) {
   options.color = view.color;
   options.shows_wireframe = view.shows_wireframe;
   options.skin_opacity = view.skin_opacity;
+  options.look = view.look;
   return options;
 }
 

@@ -48,7 +48,7 @@ void spread_pieces(const TetMesh& mesh, const Components& pieces, double share, 
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (!vertices[i].is_valid()) continue;
     const Vec3& shift = shifts[pieces.label[mesh.tet_of(vertices[i]).value]];
-    frame.positions[i] = (mesh.current(vertices[i]) + shift).cast<float>();
+    frame.positions[i] = (frame.positions[i].cast<double>() + shift).cast<float>();
   }
 }
 

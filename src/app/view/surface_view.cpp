@@ -18,6 +18,7 @@ namespace app {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr float kUnknownDepth = 1e9F;              // length units
 constexpr double kIdealRatio = 4.898979485566356;  // 2√6, of a regular tet
 constexpr double kMostBytes = 255;
 
@@ -32,6 +33,12 @@ Kind kind_of(const TriangleLook& look) {
 std::uint8_t quality_byte_of(const TetMesh& mesh, TetId tet) {
   const TetVertices& v = mesh.vertices(tet);
   return quality_byte(longest_edge_over_inradius(mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])));
+}
+
+double mean_volume(const TetMesh& mesh) {
+  double sum = 0;
+  mesh.for_each_tet([&](TetId tet) { sum += mesh.rest_volume(tet); });
+  return sum / static_cast<double>(std::max<std::size_t>(mesh.tet_count(), 1));
 }
 
 /// Both lips have an edge of the front once each, and in opposite directions: it is seen once. An edge within the lips
@@ -93,6 +100,7 @@ struct SurfaceView::State {
   StarWalker walker;             // scratch
   ChangedTets changes;           // scratch
   std::uint32_t newest = 0;      // the greatest tag of a wall
+  double small_volume = 0;       // below it a tet is too small
   JournalCursor cursor;
   bool is_stale = true;  // the options changed
 
@@ -108,12 +116,18 @@ struct SurfaceView::State {
   void hide_tet(TetId tet);
   void hide_side(Side side);
   void grade(const TetMesh& mesh, TetId tet);
+  [[nodiscard]] std::uint8_t size_flag(const TetMesh& mesh, TetId tet) const {
+    return mesh.rest_volume(tet) < small_volume ? TriangleLook::kSmall : std::uint8_t{0};
+  }
   std::uint32_t take_slot();
   std::uint32_t take_point(VertexId vertex, Kind kind);
   void drop_point(std::uint32_t point, Kind kind);
   void mark_newest(const TetMesh& mesh);
   void find_front(const TetMesh& mesh);
   void find_contour();
+  void find_rest(const TetMesh& mesh);
+  void find_depths();
+  bool carry_depth(const std::array<std::uint32_t, 3>& corners);
   void drop_clipped(std::vector<std::array<std::uint32_t, 2>>& edges) const;
 };
 
@@ -130,6 +144,7 @@ void SurfaceView::State::rebuild(const TetMesh& mesh) {
   for (auto& points : point_of) points.assign(mesh.vertex_slots(), kNone);
   newest = 0;
   find_clipped(mesh);
+  if (small_volume == 0) small_volume = kSmallShare * mean_volume(mesh);
   mesh.for_each_tet([&](TetId tet) { show_tet(mesh, tet); });
   publish(mesh);
 }
@@ -187,6 +202,7 @@ void SurfaceView::State::show_side(const TetMesh& mesh, Side side, std::uint8_t 
     look.flags = TriangleLook::kWall;
     look.stroke = static_cast<std::uint8_t>(link.tag());
   }
+  look.flags |= size_flag(mesh, side.tet());
   const std::uint32_t slot = take_slot();
   const auto corners = mesh.vertices(side);
   for (std::size_t i = 0; i < 3; ++i) work.triangles[slot][i] = take_point(corners[i], kind_of(look));
@@ -219,6 +235,8 @@ void SurfaceView::State::grade(const TetMesh& mesh, TetId tet) {
     if (slot == kNone) continue;
     if (!quality) quality = quality_byte_of(mesh, tet);
     work.looks[slot].quality = *quality;
+    const unsigned other_flags = work.looks[slot].flags & ~unsigned{TriangleLook::kSmall};
+    work.looks[slot].flags = static_cast<std::uint8_t>(other_flags | size_flag(mesh, tet));
   }
 }
 
@@ -261,7 +279,8 @@ void SurfaceView::State::mark_newest(const TetMesh& mesh) {
     TriangleLook& look = work.looks[slot];
     if ((look.flags & TriangleLook::kWall) == 0) continue;
     const bool is_newest = mesh.link(work.sides[slot]).tag() == newest;  // `stroke` alone repeats after 256
-    look.flags = static_cast<std::uint8_t>(TriangleLook::kWall | (is_newest ? TriangleLook::kNewest : 0));
+    const unsigned others = look.flags & ~unsigned{TriangleLook::kNewest};
+    look.flags = static_cast<std::uint8_t>(others | (is_newest ? TriangleLook::kNewest : 0U));
   }
 }
 
@@ -284,8 +303,53 @@ void SurfaceView::State::publish(const TetMesh& mesh) {
   mark_newest(mesh);
   find_front(mesh);
   find_contour();
+  find_rest(mesh);
+  find_depths();
   ++work.version;
   published = std::make_shared<const SurfaceTopology>(work);
+}
+
+void SurfaceView::State::find_rest(const TetMesh& mesh) {
+  work.rest.resize(work.vertices.size(), Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < work.vertices.size(); ++i) {
+    if (work.vertices[i].is_valid()) work.rest[i] = mesh.rest(work.vertices[i]).cast<float>();
+  }
+}
+
+/// By the edges of the walls, from the rims inwards. A few passes over all of them, to and fro, are as good as exact:
+/// what they have not reached lies deep.
+void SurfaceView::State::find_depths() {
+  constexpr int kPasses = 6;
+  const float deep = std::numeric_limits<float>::max();
+  work.depths.assign(work.vertices.size(), 0);
+  std::vector<std::uint32_t> walls;
+  for (std::uint32_t slot = 0; slot < work.triangles.size(); ++slot) {
+    if ((work.looks[slot].flags & TriangleLook::kWall) == 0) continue;
+    walls.push_back(slot);
+    for (const std::uint32_t point : work.triangles[slot]) work.depths[point] = deep;
+  }
+  for (const auto& [from, to] : work.contour_edges) work.depths[from] = work.depths[to] = 0;
+  bool has_changed = !walls.empty();
+  for (int pass = 0; pass < kPasses && has_changed; ++pass) {
+    has_changed = false;
+    for (const std::uint32_t slot : walls) has_changed = carry_depth(work.triangles[slot]) || has_changed;
+    std::reverse(walls.begin(), walls.end());
+  }
+  // A wall without a rim, as of a cut that lies within the body: as deep as can be told.
+  for (float& depth : work.depths) depth = depth == deep ? kUnknownDepth : depth;
+}
+
+/// From the corners of a triangle that lie higher to the others. Returns whether any is higher now.
+bool SurfaceView::State::carry_depth(const std::array<std::uint32_t, 3>& corners) {
+  bool has_changed = false;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::uint32_t from = corners[i % 3], to = corners[(i + 1 + i / 3) % 3];
+    const float depth = work.depths[from] + (work.rest[to] - work.rest[from]).norm();
+    if (!(depth < work.depths[to])) continue;
+    work.depths[to] = depth;
+    has_changed = true;
+  }
+  return has_changed;
 }
 
 /// Where a wall has no other wall beside it: an edge of walls that is there once.

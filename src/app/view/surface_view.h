@@ -21,6 +21,7 @@ struct TriangleLook {
   static constexpr std::uint8_t kWall = 1;      ///< of a cut; else skin
   static constexpr std::uint8_t kNewest = 2;    ///< a wall of the newest stroke
   static constexpr std::uint8_t kInside = 4;    ///< between two tets, seen because of a clip plane
+  static constexpr std::uint8_t kSmall = 8;     ///< its tet is too small: see `kSmallShare`
   static constexpr std::uint8_t kUnused = 128;  ///< a free slot: its corners are all the same point
 
   std::uint8_t flags = kUnused;
@@ -30,6 +31,12 @@ struct TriangleLook {
 
   friend bool operator==(const TriangleLook&, const TriangleLook&) = default;
 };
+
+/// A tet of less than this share of the body's mean tet, as it is when it is first shown, is too small: the size
+/// threshold of the paper's edge merging, by which its Figure 7 has yellow tets.
+inline constexpr double kSmallShare = 0.01;
+/// Above this L/r it is bad-shaped there, and red: the shape threshold.
+inline constexpr double kRedRatio = 15;
 
 /// L/r as a byte: 0 for a regular tet (2√6), 255 from 200 on, logarithmic between. 255 for flat tets.
 [[nodiscard]] std::uint8_t quality_byte(double lr);
@@ -43,9 +50,11 @@ struct SurfaceTopology {
   /// Per slot: three indices of points, counter-clockwise seen from outside. Skin and walls share no points, nor do
   /// `kInside` triangles with either, so that normals averaged at points keep the rims sharp.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<TriangleLook> looks;                          ///< per slot
-  std::vector<Side> sides;                                  ///< per slot: which side of which tet it is
-  std::vector<VertexId> vertices;                           ///< per point: the mesh vertex that it stands for
+  std::vector<TriangleLook> looks;    ///< per slot
+  std::vector<Side> sides;            ///< per slot: which side of which tet it is
+  std::vector<VertexId> vertices;     ///< per point: the mesh vertex that it stands for
+  std::vector<Eigen::Vector3f> rest;  ///< per point: its place in the rest shape, length unit
+  std::vector<float> depths;  ///< per point: of a wall, how far below the rim it is along the wall at rest; else 0
   std::vector<std::array<std::uint32_t, 2>> contour_edges;  ///< pairs of points: where walls meet skin, a wound's rim
   std::vector<std::array<std::uint32_t, 2>> front_edges;    ///< pairs of points: where cuts end inside the body
   std::size_t used = 0;                                     ///< slots that are no free ones

@@ -51,6 +51,7 @@ enum class Action : std::uint8_t {
   kOcclusion,
   kTheme,
   kPanels,
+  kResearch,
   kLarger,
   kSmaller,
   kIdeal,

@@ -9,7 +9,10 @@
 #include <system_error>
 #include <utility>
 
+#include "app/scene/view_names.h"
+#include "app/view/drapes.h"
 #include "app/view/scene_camera.h"
+#include "app/viewer/first_steps.h"
 
 namespace incise {
 inline namespace v0 {
@@ -70,12 +73,17 @@ struct Viewer::State {
   fs::path sequence_folder;
   fs::path attempt;  // the recording of what was scored last
   Vec3 clip_normal = Vec3::UnitX();
+  FirstSteps first_steps;
+  bool is_demonstrating = false;
+  Cursor cursor = Cursor::kArrow;
 
   [[nodiscard]] ToolContext context(const Viewport& viewport) const {
     return {viewport, &session.view().surface, session.view().body};
   }
   [[nodiscard]] Viewport free_part(const Viewport& viewport) const;
   void begin_session(const Viewport& viewport);
+  void end_demonstration();
+  void choose_cursor(const PointerEvent& event);
   void say(const std::string& text);
   void hand_over();
   void change_settings(double depth_factor, double tilt);
@@ -103,6 +111,7 @@ Viewer::~Viewer() = default;
 
 void Viewer::handle(const PointerEvent& event, const Viewport& viewport) {
   State& s = *state_;
+  if (event.kind != PointerEvent::Kind::kMove && event.kind != PointerEvent::Kind::kRelease) s.end_demonstration();
   PointerEvent seen = event;
   const bool is_press = event.kind == PointerEvent::Kind::kPress && event.button == PointerEvent::Button::kLeft;
   const bool is_looking = kTools[static_cast<std::size_t>(s.tools.tool())].only_looks;
@@ -118,19 +127,43 @@ void Viewer::handle(const PointerEvent& event, const Viewport& viewport) {
     s.say("Paused: " + key_of(Action::kPause) + " goes on");
   }
   s.tools.handle(seen, s.context(viewport), s.picture.camera);
+  s.choose_cursor(seen);
   s.hand_over();
+}
+
+/// The first input: from now on it is the person who cuts.
+void Viewer::State::end_demonstration() {
+  if (!std::exchange(is_demonstrating, false)) return;
+  session.end_script();
+  first_steps.take_over();
+  is_changed = true;
+}
+
+void Viewer::State::choose_cursor(const PointerEvent& event) {
+  const bool is_watched = !options.mouse_is_hand || session.view().is_replay;
+  const bool only_looks = kTools[static_cast<std::size_t>(tools.tool())].make == nullptr;
+  if (event.alt || only_looks || is_watched) {
+    cursor = Cursor::kHand;
+  } else if (tools.is_busy() || tools.is_on_tissue()) {
+    cursor = session.view().is_paused ? Cursor::kBarred : Cursor::kCross;
+  } else {
+    cursor = Cursor::kArrow;  // beside the body a drag may still begin
+  }
 }
 
 void Viewer::State::hand_over() {
   session.set_hands(tools.hands());
-  if (const std::optional<Stroke> stroke = tools.take_plane_cut()) session.follow(*stroke);
+  if (const std::optional<Stroke> stroke = tools.take_stroke()) session.follow(*stroke);
+  if (const std::optional<Stitch> stitch = tools.take_stitch()) session.add_suture(stitch->rest_places, stitch->suture);
   if (const std::optional<SurfaceHit> hit = tools.take_probe()) session.probe(hit->side);
+  if (const std::string why = tools.take_refusal(); !why.empty()) say(why);
   is_changed = true;
 }
 
 void Viewer::act(Action action, const Viewport& viewport) {
   State& s = *state_;
   s.is_changed = true;
+  s.end_demonstration();
   if (s.act_on_tools(action) || s.act_on_time(action) || s.act_on_files(action)) return;
   if (s.act_on_camera(action, viewport) || s.act_on_view(action)) return;
   s.act_on_window(action);
@@ -144,6 +177,10 @@ void Viewer::set_clip_depth(double depth) {
 
 void Viewer::open(const fs::path& path) {
   state_->session.open(path);
+}
+
+void Viewer::open(StartingBody body) {
+  state_->session.open(body);
 }
 
 void Viewer::notify(const std::string& text) {
@@ -324,7 +361,7 @@ bool Viewer::State::act_on_view(Action action) {
       show_surface();
       return true;
     case Action::kColor:
-      view.color = static_cast<ColorBy>((static_cast<unsigned>(view.color) + 1) % 4);
+      view.color = static_cast<ColorBy>((static_cast<unsigned>(view.color) + 1) % kColorNames.size());
       return true;
     case Action::kWorstTets:
       shown.shows_worst = !shown.shows_worst;
@@ -379,6 +416,11 @@ void Viewer::State::act_on_window(Action action) {
   switch (action) {
     case Action::kPanels:
       shown.panels = static_cast<Panels>((static_cast<unsigned>(shown.panels) + 1) % 3);
+      if (!shown.is_research && shown.panels == Panels::kFigures) shown.panels = Panels::kNone;
+      break;
+    case Action::kResearch:
+      shown.is_research = !shown.is_research;
+      shown.panels = Panels::kAll;
       break;
     case Action::kLarger:
     case Action::kSmaller:
@@ -416,6 +458,7 @@ bool Viewer::update(const Viewport& viewport, double now) {
     s.session_seen = view.session;
     if (s.notices_seen != view.notices) s.say(view.notice);
     s.notices_seen = view.notices;
+    s.first_steps.see(view.figures.strokes, !s.tools.hands().hooks.empty(), s.is_demonstrating);
     s.is_changed = true;
   }
   if (!s.shown.notice.empty() && now > s.notice_until) {
@@ -434,7 +477,9 @@ bool Viewer::update(const Viewport& viewport, double now) {
 /// but for the field of view, which is that of the whole height.
 Viewport Viewer::State::free_part(const Viewport& viewport) const {
   if (shown.panels != Panels::kAll) return viewport;
-  return {std::max(1, static_cast<int>(options.free_share.x() * viewport.width)), viewport.height};
+  const Vec2& share = shown.is_research ? options.research_share : options.free_share;
+  return {std::max(1, static_cast<int>(share.x() * viewport.width)),
+          std::max(1, static_cast<int>(share.y() * viewport.height))};
 }
 
 void Viewer::State::begin_session(const Viewport& viewport) {
@@ -446,10 +491,18 @@ void Viewer::State::begin_session(const Viewport& viewport) {
     picture.camera = camera_of(scene, view.body, free_part(viewport));
     if (!options.keeps_view) shown.options = view_options_of(scene);
     shown.options.shows_occlusion = options.shades_hollows;
+    shown.options.shows_shadows = options.has_shadows;
     shown.is_clipped = false;
     if (scene.view && scene.view->clip && !options.keeps_view) clip_as(*scene.view->clip);
   }
   scene_seen = scene_now;
+  const bool has_drapes = scene.view && scene.view->has_drapes;
+  picture.ground.reset();
+  if (has_drapes) {
+    picture.ground = std::make_shared<const std::vector<SolidCorner>>(drapes_around(view.body, picture.camera.up));
+  }
+  is_demonstrating = scene.view && scene.view->is_demonstration && !view.is_replay;
+  first_steps.begin(is_demonstrating);
   show_surface();
   session.set_hands(tools.hands());
 }
@@ -474,6 +527,15 @@ ViewerState& Viewer::state() {
 }
 const Hud& Viewer::hud() const {
   return state_->hud;
+}
+std::string_view Viewer::next_step() const {
+  return state_->first_steps.text();
+}
+bool Viewer::is_demonstrating() const {
+  return state_->is_demonstrating;
+}
+Cursor Viewer::cursor() const {
+  return state_->cursor;
 }
 SessionThread& Viewer::session() {
   return state_->session;

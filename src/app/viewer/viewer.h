@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/hands/tools.h"
 #include "app/session/session_thread.h"
@@ -18,23 +19,34 @@ namespace incise {
 inline namespace v0 {
 namespace app {
 
-/// How much is shown beside the picture.
+/// How much is shown beside the picture; `kFigures` for research alone.
 enum class Panels : std::uint8_t { kAll, kFigures, kNone };
+
+/// What the pointer looks like: it tells what a press would do.
+enum class Cursor : std::uint8_t {
+  kArrow,
+  kCross,   ///< on tissue, with a tool
+  kHand,    ///< turns or moves the view
+  kBarred,  ///< nothing can be done here
+};
 
 struct ViewerOptions {
   std::filesystem::path folder = ".";  ///< of screenshots, recordings and meshes that are written
   ViewOptions view;
   bool keeps_view = false;     ///< `view` stands, whatever a scene says
   bool shades_hollows = true;  ///< at first; it costs a renderer without a graphics processor much
+  bool has_shadows = true;     ///< at first
   bool mouse_is_hand = true;   ///< false: no tool but the probe takes the mouse, whose left drags turn the view
   Vec2 free_share =
       Vec2::Ones();  ///< of the picture, around its middle, that panels leave free: bodies are framed there
+  Vec2 research_share = Vec2::Ones();  ///< the same with the panels of research
 };
 
 /// What the person sees beside the body; a front end draws it and may change it.
 struct ViewerState {
   ViewOptions options;
   Panels panels = Panels::kAll;
+  bool is_research = false;  ///< all figures are shown; else little more than the body and the tools
   bool shows_help = false;
   bool is_clipped = false;
   double clip_depth = 0.5;  ///< share of the body, seen along the clip plane's normal, that is cut away; in [0, 1]
@@ -61,6 +73,7 @@ class Viewer {
   void set_clip_depth(double depth);
   /// A file was dropped, or named.
   void open(const std::filesystem::path& path);
+  void open(StartingBody body);
   /// Says something to the person for a few seconds, at `now` s.
   void notify(const std::string& text);
 
@@ -75,6 +88,11 @@ class Viewer {
   [[nodiscard]] const ViewerState& state() const;
   [[nodiscard]] ViewerState& state();
   [[nodiscard]] const Hud& hud() const;
+  /// What to do next, for a person who does this for the first time; empty: they know.
+  [[nodiscard]] std::string_view next_step() const;
+  /// Whether a demonstration runs that the next press or key ends.
+  [[nodiscard]] bool is_demonstrating() const;
+  [[nodiscard]] Cursor cursor() const;
   [[nodiscard]] SessionThread& session();
   [[nodiscard]] Camera& camera();
   [[nodiscard]] ToolMachine& tools();

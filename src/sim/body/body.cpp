@@ -21,7 +21,7 @@ Status check(const BodyOptions& o) {
   const auto is_positive = [](double x) { return x > 0 && std::isfinite(x); };
   const auto is_not_negative = [](double x) { return x >= 0 && std::isfinite(x); };
   if (!is_positive(o.length_unit)) return bad("the length unit must be above 0 m");
-  if (!o.gravity.allFinite()) return bad("gravity must be finite");
+  if (!(o.gravity.array().abs() <= kGreatestExtent).all()) return bad("gravity must be finite, at most 1e+30 m/s²");
   if (!is_not_negative(o.damping)) return bad("the damping must be at least 0 per second");
   if (o.substeps < 1 || o.substeps > 1000) return bad("the number of substeps must lie in [1, 1000]");
   if (o.iterations < 1 || o.iterations > 1000) return bad("the number of iterations must lie in [1, 1000]");
@@ -106,6 +106,7 @@ Status DeformableBody::hold(VertexId vertex, double stiffness) {
   } else {
     s.set_hold(vertex, {stiffness, s.places[vertex.value], s.rest[vertex]});
   }
+  s.bones_changed = s.has_bones;
   s.settle_vertex(vertex);
   s.order.wake_star(vertex, s.stars);
   return {};
@@ -216,7 +217,9 @@ Vec3 DeformableBody::velocity(VertexId vertex) const {
 Status DeformableBody::set_velocity(VertexId vertex, const Vec3& velocity) {
   State& s = *state_;
   if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live");
-  if (!velocity.allFinite()) return bad("the velocity of vertex " + std::to_string(vertex.value) + " is not finite");
+  if (!(velocity.array().abs() <= kGreatestExtent).all()) {  // beyond it energies overflow
+    return bad("the velocity of vertex " + std::to_string(vertex.value) + " is not finite, or beyond 1e+30 m/s");
+  }
   if (s.held[vertex] == detail::Held::kRigidly) return {};
   s.dissolve_crumb_at(vertex);
   s.set_momentum(vertex, s.mass_of(vertex) / s.unit() * velocity);
@@ -289,12 +292,7 @@ Mat3 DeformableBody::local_stiffness(VertexId vertex) const {
   s.stars.for_each_tet(vertex, [&](TetId t) {
     unsigned corner = 0;
     while (s.tets[t][corner] != vertex) ++corner;
-    const detail::Element element = s.element(t);
-    const Vec3 slope = detail::volume_slope(s.corners(t), corner);
-    stiffness += element.bulk * slope * slope.transpose();
-    for (unsigned j = 0; j < 4; ++j) {
-      if (j != corner) stiffness.diagonal().array() -= element.laplacian[kEdgeOfCorners[corner][j]];
-    }
+    stiffness += detail::stiffness_at(s.soft_element(t, true), s.corners(t), corner);  // of bone by its modulus
   });
   if (s.nodal.is_on) stiffness += s.pressure_stiffness(vertex);
   return stiffness;  // kg/s², whatever the length unit
@@ -331,6 +329,11 @@ std::uint64_t DeformableBody::hash() const {
     for (unsigned i = 0; i < 3; ++i) {
       hash.add(state_->places[slot].data()[i]);
       hash.add(momentum.data()[i]);
+    }
+  }
+  if (state_->is_viscous) {
+    for (std::uint32_t t = 0; t < state_->tets.size(); ++t) {
+      if (state_->tets[TetId(t)][0].is_valid()) state_->add_metrics(TetId(t), hash);
     }
   }
   state_->contact.add_to(hash);

@@ -19,6 +19,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   }
   State& s = *state_;
   s.label_stale_pieces();
+  if (s.bones_changed) s.bones.find(s);
   if (s.drifted > 0.5 * s.extent) s.centre();
   const bool touches = s.options.self.on && s.options.relaxation == Relaxation::kBlockDescent;
   if (touches) s.contact.find(s, dt);
@@ -26,8 +27,11 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   s.wake_tied();
   s.lend_to_seam();
   s.prepare_pulls();
+  s.bones.wake(s);
   s.order.refresh();
+  s.bones.begin(s);
   s.list_pressed();
+  s.list_strained();
   AdvanceReport report;
   report.active_vertices = s.order.awake_count();
   s.for_each_awake([&](std::uint32_t v) { s.travelled[VertexId(v)] = 0; });
@@ -41,8 +45,12 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
     s.move_carried();
     s.end_substep(h, report.fastest);
     s.correct_motion(h);
+    s.bones.settle(s);
   }
   s.keep_energy(before, dt);
+  s.bones.settle(s);
+  s.relax_stresses(dt);
+  report.torn_holds = s.give_way();
   s.move_crumbs(dt);
   s.drifted += report.fastest * dt;
   if (touches) {
@@ -57,6 +65,8 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
 detail::Descent DeformableBody::State::descent() {
   detail::Descent d{floats.data(), stars.blocks(),         stars.all(),   motions.data(), terms.data(),
                     uses.data(),   contact.terms().data(), contact.uses()};
+  d.stiffening = stars.stiffening();
+  d.fibres = stars.fibres();
   if (nodal.is_on) {
     d.pressures = nodal.pressures();
     d.node_stiffnesses = nodal.stiffnesses();
@@ -160,8 +170,7 @@ void DeformableBody::State::wake_where_pulls_differ(const std::vector<Pull>& nex
   }
 }
 
-/// Lists what pulls at each vertex: springs that hold, pulls and ties alike.
-void DeformableBody::State::prepare_pulls() {
+void DeformableBody::State::forget_terms() {
   for (const detail::PullTerm& term : terms) {
     for (unsigned i = 0; i < term.corners; ++i) {
       if (term.weights[i] != 0) motions[VertexId(term.vertices[i])].pulls = 0;
@@ -169,14 +178,30 @@ void DeformableBody::State::prepare_pulls() {
   }
   terms.clear();
   uses.clear();
-  for (const Pull& pull : pulls) terms.push_back(detail::term_of(pull, middle, unit()));
+}
+
+void DeformableBody::State::add_holds() {
   for (const auto& [v, hold] : holds) {
-    if (!hold.is_rigid()) {
-      terms.push_back(
-          detail::term_of({{VertexId(v)}, {1, 0, 0, 0}, hold.target, Vec3::Zero(), hold.stiffness}, middle, unit()));
-    }
+    if (hold.is_rigid()) continue;
+    terms.push_back(
+        detail::term_of({{VertexId(v)}, {1, 0, 0, 0}, hold.target, Vec3::Zero(), hold.stiffness}, middle, unit()));
+    if (!hold.limit.tears) terms.back().limit = hold.limit.force / unit();
   }
+}
+
+/// Lists what pulls at each vertex: springs that hold, pulls and ties alike.
+void DeformableBody::State::prepare_pulls() {
+  forget_terms();
+  for (const Pull& pull : pulls) terms.push_back(detail::term_of(pull, middle, unit()));
+  add_holds();
   for (const Tie& tie : ties) terms.push_back(detail::term_of(tie, unit()));
+  list_uses();
+}
+
+/// Lists the springs that hold vertices, and nothing else.
+void DeformableBody::State::prepare_holds() {
+  forget_terms();
+  add_holds();
   list_uses();
 }
 
@@ -244,6 +269,11 @@ void DeformableBody::State::begin_substep(double h) {
   });
 }
 
+/// More sweeps of what `list_strained` lists, for substeps of so many seconds, and how many rings of neighbours that
+/// are.
+static constexpr double kUsualSubstep = 1.0 / 240;
+static constexpr unsigned kStrainedSweeps = 20, kStrainedRings = 2;
+
 /// The two parts at once, the seam after them.
 void DeformableBody::State::descend(double h) {
   const detail::Descent d = descent();
@@ -255,12 +285,45 @@ void DeformableBody::State::descend(double h) {
     detail::project(*this, h);
     return;
   }
+  bones.straighten(*this);
   find_pressures();
   visit([&](std::span<const std::uint32_t> part) { detail::pick_starts(d, part); });
   if (options.coarse) lattice.correct(*this);
   for (unsigned i = 0; i < options.iterations; ++i) {
     visit([&](std::span<const std::uint32_t> part) { detail::sweep(d, part, i % 2 == 1); });
+    bones.visit(*this);
   }
+  const double longer = std::clamp(h / kUsualSubstep, 1.0, 4.0);
+  const auto more = strained.empty() ? 0U : static_cast<unsigned>(kStrainedSweeps * longer);
+  for (unsigned i = 0; i < more; ++i) detail::sweep(d, strained, i % 2 == 1);
+}
+
+/// Where tissue has stiffened a hundred times under a load, sweeps carry a change through it far more slowly than
+/// through what is around it: what pulls with a limit act on, the blade's, and some rings of neighbours, are swept
+/// more.
+void DeformableBody::State::list_strained() {
+  strained.clear();
+  if (!stars.stiffens) return;
+  is_resting.resize(places.size(), 0);
+  const auto take = [&](VertexId v) {
+    if (is_resting[v] != 0 || !order.is_awake(v)) return;
+    is_resting[v] = 1;
+    strained.push_back(v.value);
+  };
+  for (const Pull& pull : pulls) {
+    if (std::isinf(pull.limit) || pull.axis.isZero(0))
+      continue;  // tools and hooks do not press tissue as hard as a blade
+    for (unsigned i = 0; i < 4; ++i) {
+      if (pull.weights[i] != 0 && pull.stiffness > 0) take(pull.vertices[i]);
+    }
+  }
+  std::size_t next = 0;
+  for (unsigned ring = 0; ring < kStrainedRings; ++ring) {
+    for (const std::size_t end = strained.size(); next < end; ++next) {
+      detail::SweepOrder::for_each_neighbour(stars, VertexId(strained[next]), take);
+    }
+  }
+  for (const std::uint32_t v : strained) is_resting[VertexId(v)] = 0;
 }
 
 /// The slopes of the energy in all awake vertices, 4 numbers per vertex slot.
@@ -294,13 +357,14 @@ void DeformableBody::State::end_substep(double h, double& fastest) {
   fastest = std::sqrt(fastest2);
 }
 
-/// Lets vertices go towards their balance with what stands around them, without inertia.
-void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsigned sweeps) {
+/// Lets vertices go towards their balance with what stands around them, without inertia: with the terms that are
+/// listed, or without any.
+void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsigned sweeps, bool with_terms) {
   if (vertices.empty()) return;
   for (const std::uint32_t slot : vertices) {
     detail::Motion& motion = motions[VertexId(slot)];
     motion.weight = 0;
-    motion.pulls = 0;
+    if (!with_terms) motion.pulls = 0;
     motion.contacts = 0;
   }
   std::vector<std::array<float, 3>> before;

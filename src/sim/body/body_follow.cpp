@@ -53,12 +53,44 @@ Stiffness stiffness_of(const Material& material, double unit, bool is_averaged) 
   return {own * unit + mu, mu, (material.lambda() - own) * unit};
 }
 
+/// Of all that relaxes, by the shear modulus at rest.
+double relaxing_share(const Material& material) {
+  double sum = 0;
+  for (const PronyTerm& term : material.prony) sum += term.share;
+  return sum;
+}
+
 }  // namespace
 
 detail::Element DeformableBody::State::element(TetId t) const {
-  const Stiffness stiffness = stiffness_of(materials.of(regions[t]), unit(), nodal.is_on);
-  return detail::element_of(corners_at_rest(t), stiffness.lambda, stiffness.mu, options.thinnest, 6 * options.crumb,
-                            stiffness.shared);
+  return is_bone(t) ? detail::Element{} : soft_element(t, true);
+}
+
+/// What relaxes resists shear alone: its −μ (J − 1) takes μ/3 from the modulus of volume, which its λ gives back.
+detail::Element DeformableBody::State::soft_element(TetId t, bool has_offset) const {
+  const Material& material = materials.of(regions[t]);
+  const std::array<Vec3, 4> p = corners_at_rest(t);
+  Stiffness stiffness = stiffness_of(material, unit(), nodal.is_on);
+  const double at_rest = stiffness.mu;
+  double stiffening = stars.stiffens ? material.stiffening : 0.0;
+  if (is_viscous) {
+    const double more = relaxing_share(material);
+    stiffness.lambda += more * stiffness.mu / 3;
+    stiffness.mu *= 1 + more;
+    stiffening *= 1 + more;
+  }
+  detail::Element element = (has_offset ? detail::element_of : detail::slopes_of)(
+      p, stiffness.lambda, stiffness.mu, options.thinnest, 6 * options.crumb, stiffness.shared, stiffening);
+  if (stars.has_fibres && material.fibre_young > 0) {
+    detail::add_fibres(p, Vec3(material.fibre[0], material.fibre[1], material.fibre[2]), material.fibre_young * unit(),
+                       options.thinnest, element);
+  }
+  for (unsigned k = 0; is_viscous && k < material.prony.size(); ++k) {
+    if (material.prony[k].share > 0) {
+      detail::set_metric(p, material.prony[k].share * at_rest, options.thinnest, metric(t, k), element);
+    }
+  }
+  return element;
 }
 
 void DeformableBody::State::ensure(std::uint32_t slots, std::uint32_t tet_slots) {
@@ -87,9 +119,8 @@ bool DeformableBody::State::add_tet(const TetMesh& mesh, TetId t) {
     return false;
   }
   regions[t] = mesh.region(t);
-  const Stiffness stiffness = stiffness_of(materials.of(regions[t]), unit(), nodal.is_on);
-  const detail::Element element =
-      detail::slopes_of(p, stiffness.lambda, stiffness.mu, options.thinnest, 6 * options.crumb, stiffness.shared);
+  note_bone(t);
+  const detail::Element element = is_bone(t) ? detail::Element{} : soft_element(t, false);
   stars.add(t, tets[t], element);
   if (nodal.is_on) nodal.put(t, detail::six_volumes(p), element);
   note_changed(tets[t]);
@@ -99,6 +130,7 @@ bool DeformableBody::State::add_tet(const TetMesh& mesh, TetId t) {
 bool DeformableBody::State::remove_tet(TetId t) {
   if (t.value >= tets.size() || !tets[t][0].is_valid()) return false;
   stars.remove(t, tets[t]);
+  note_bone(t);
   note_changed(tets[t]);
   tets[t][0] = VertexId();
   return true;
@@ -124,8 +156,8 @@ void DeformableBody::State::settle_vertex(VertexId v) {
     ++count;
   });
   motion.reach = count > 0 ? static_cast<float>(0.25 * sum / count) : 0.0F;
-  if (held[v] == Held::kRigidly) set_momentum(v, Vec3::Zero());
-  if (count == 0 || held[v] == Held::kRigidly) {
+  if (held[v] == Held::kRigidly || bones.is_fixed(v)) set_momentum(v, Vec3::Zero());
+  if (count == 0 || held[v] == Held::kRigidly || bones.is_fixed(v)) {
     order.drop(v);
   } else {
     order.settle(v, stars);
@@ -186,16 +218,25 @@ void DeformableBody::State::lay_out_stars() {
 /// Of a tet's mean volume at load: a lump a hundredth of a cell wide. Moved by a cell it would swell a million times.
 static constexpr double kCrumb = 3e-6;
 
+/// Whether some material is of a kind that block descent alone knows.
+template <class Is>
+bool DeformableBody::State::has_material(const Is& is) const {
+  if (options.relaxation != Relaxation::kBlockDescent) return false;
+  return is(materials.fallback) || std::any_of(materials.by_region.begin(), materials.by_region.end(),
+                                               [&](const Materials::Entry& e) { return is(e.material); });
+}
+
 /// Volumes are averaged where that makes a difference.
 bool DeformableBody::State::is_to_average() const {
-  if (!options.average_volumes || options.relaxation != Relaxation::kBlockDescent) return false;
-  const auto shares = [](const Material& material) { return material.poisson > kOwnPoisson; };
-  return shares(materials.fallback) || std::any_of(materials.by_region.begin(), materials.by_region.end(),
-                                                   [&](const Materials::Entry& e) { return shares(e.material); });
+  return options.average_volumes && has_material([](const Material& m) { return m.poisson > kOwnPoisson; });
 }
 
 void DeformableBody::State::build(const TetMesh& mesh) {
   nodal.is_on = is_to_average();
+  stars.has_fibres = has_material([](const Material& m) { return m.fibre_young > 0; });
+  stars.stiffens = stars.has_fibres || has_material([](const Material& m) { return m.stiffening > 0; });
+  is_viscous = has_material([](const Material& m) { return m.is_viscous(); });
+  has_bones = has_material([](const Material& m) { return m.rigid; });
   ensure(mesh.vertex_slots(), mesh.tet_slots());
   mesh.for_each_vertex([&](VertexId v) {
     rest[v] = mesh.rest(v);
@@ -220,12 +261,14 @@ void DeformableBody::State::build(const TetMesh& mesh) {
   lay_out_stars();
   mass_id = *attributes.add(mesh, {"mass", Domain::kVertex, 1, Transfer::kConserve, {}, {}});
   momentum_id = *attributes.add(mesh, {"momentum", Domain::kVertex, 3, Transfer::kConserve, {}, {}});
+  if (is_viscous) add_metrics(mesh);
   std::copy(mass.begin(), mass.end(), masses());
   for (std::uint32_t v = 0; v < rest.size(); ++v) settle_vertex(VertexId(v));
   if (options.self.on) contact.read_all(*this, mesh);
   largest_crumb = detail::kCrumbPiece * volumes / 6 / static_cast<double>(std::max<std::size_t>(mesh.tet_count(), 1));
   centre();
   label_pieces();
+  bones_changed = has_bones;
 }
 
 // --- holds
@@ -361,10 +404,11 @@ Result<FollowReport> DeformableBody::follow(const Journal& journal, const TetMes
   s.put_fresh(mesh);
   s.add_touched(mesh, report);
   if (has_rewound) rewind.put_back(s);
+  if (has_rewound && s.is_viscous) s.forget_stresses();
   s.settle_changed();
   s.ensure(mesh.vertex_slots(), mesh.tet_slots());
   if (s.options.self.on) s.follow_contact(mesh, has_rewound);
-  s.finish_follow(report);
+  s.finish_follow(has_rewound, report);
   return report;
 }
 
@@ -373,6 +417,7 @@ void DeformableBody::State::remove_touched(const TetMesh& mesh, FollowReport& re
   for (const std::uint32_t t : touched.tets) is_touched_tet[t] = 0;
   if (options.self.on) named_tets = touched.tets;
   std::erase_if(touched.tets, [&](std::uint32_t t) { return !differs(mesh, TetId(t)); });
+  note_energy();
   for (const std::uint32_t t : touched.tets) report.removed_tets += remove_tet(TetId(t)) ? 1U : 0U;
 }
 
@@ -405,12 +450,14 @@ void DeformableBody::State::settle_changed() {
 }
 
 /// What was put in place goes towards its balance.
-void DeformableBody::State::finish_follow(FollowReport& report) {
+void DeformableBody::State::finish_follow(bool has_rewound, FollowReport& report) {
   release_lost_holds();
   std::erase_if(touched.fresh, [&](std::uint32_t v) { return v >= places.size() || !order.moves(VertexId(v)); });
   report.fresh_vertices = touched.fresh.size();
   stale_pieces = std::max(stale_pieces, 1U);
+  if (bones_changed) bones.find(*this);
   relax(touched.fresh, 4);
+  if (!has_rewound) report.fresh_vertices += balance();
   touched.tets.clear();
   touched.fresh.clear();
 }

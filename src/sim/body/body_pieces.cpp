@@ -2,6 +2,7 @@
 // Free pieces move as rigid bodies must: what the unfinished descent takes from their momentum is given back.
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sim/body/body_state.h"
@@ -165,7 +166,11 @@ void DeformableBody::State::find_free_pieces() {
     piece.is_free = true;
     piece.is_held = false;
   }
-  for (const auto& [v, hold] : holds) pieces[piece_of[VertexId(v)]].is_held = true;
+  for (const auto& [v, hold] : holds) {
+    Piece& piece = pieces[piece_of[VertexId(v)]];
+    if (std::isinf(hold.limit.force)) piece.is_held = true;
+    piece.is_free = false;  // pins that give way carry what they hold
+  }
   for (const Pull& pull : pulls) {
     for (unsigned i = 0; i < 4; ++i) {
       if (pull.weights[i] != 0 && pull.stiffness > 0) pieces[piece_of[pull.vertices[i]]].is_free = false;

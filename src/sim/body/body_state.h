@@ -5,10 +5,12 @@
 #include <map>
 #include <vector>
 
+#include "incise/core/hash.h"
 #include "incise/core/parallel.h"
 #include "incise/mesh/attributes.h"
 #include "incise/mesh/journal_cursor.h"
 #include "incise/sim/body.h"
+#include "sim/body/bones.h"
 #include "sim/body/coarse_lattice.h"
 #include "sim/body/nodal_volumes.h"
 #include "sim/body/self_contact.h"
@@ -25,6 +27,7 @@ struct Hold {
   double stiffness = 0;
   Vec3 target = Vec3::Zero();
   Vec3 rest = Vec3::Zero();  ///< the vertex' place in the rest shape that the target is for
+  HoldLimit limit{};         ///< of a spring
   [[nodiscard]] bool is_rigid() const { return !(stiffness < kRigid); }
   static constexpr double kRigid = 1e30;
 };
@@ -83,6 +86,7 @@ struct Crumb {
 struct Touched {
   std::vector<std::uint32_t> tets;
   std::vector<std::uint32_t> fresh;  ///< vertices that the rest shape has anew, or elsewhere
+  double energy = 0;                 ///< of the tets before: elastic, without that of averaged volumes
 };
 
 }  // namespace detail
@@ -109,6 +113,8 @@ struct DeformableBody::State {
   std::vector<Vec3> places_before;  // at the start of the advance under way, where its energy is watched
   Attributes attributes;            // mass and momentum of the vertices: kept through every edit
   AttributeId mass_id, momentum_id;
+  AttributeId metric_id;    // of tets, where tissue relaxes: those of its Prony terms, 6 numbers each
+  bool is_viscous = false;  // some material relaxes
   std::map<std::uint32_t, detail::Hold> holds;
   std::map<std::uint32_t, detail::Hold> lost_holds;  // of vertices that died: undo may bring them back
   IdArray<VertexId, detail::Held> held;              // what `holds` says
@@ -123,8 +129,9 @@ struct DeformableBody::State {
   detail::Stars stars;
   detail::SweepOrder order;
   detail::NodalVolumes nodal;
-  std::vector<std::uint32_t> pressed;  // awake vertices and their neighbours, of this `advance`
-  GrowArray<float> floats;             // places against the middle, and pressures, 4 per vertex
+  std::vector<std::uint32_t> strained;  // awake vertices around pulls, where tissue stiffens; of this `advance`
+  std::vector<std::uint32_t> pressed;   // awake vertices and their neighbours, of this `advance`
+  GrowArray<float> floats;              // places against the middle, and pressures, 4 per vertex
   IdArray<VertexId, detail::Motion> motions;
   std::vector<detail::PullTerm> terms;
   std::vector<detail::PullUse> uses;
@@ -138,6 +145,9 @@ struct DeformableBody::State {
   std::vector<detail::Piece> pieces;
   std::vector<std::uint32_t> group_of;  // by piece
   std::vector<detail::Group> groups;
+  detail::Bones bones;
+  bool has_bones = false;      // some material is rigid
+  bool bones_changed = false;  // they are to be found anew
   bool has_free_group = false, has_carried_piece = false;
   std::vector<detail::Crumb> crumbs;
   IdArray<VertexId, std::uint8_t> in_crumb;  // whether a vertex is in one of them
@@ -176,7 +186,10 @@ struct DeformableBody::State {
   }
   [[nodiscard]] std::array<Vec3, 4> corners_at_rest(TetId t) const;
   [[nodiscard]] std::array<Vec3, 4> corners(TetId t) const;
+  /// Of bone there is none: nothing of it deforms.
   [[nodiscard]] detail::Element element(TetId t) const;
+  [[nodiscard]] detail::Element soft_element(TetId t, bool has_offset) const;
+  [[nodiscard]] bool is_bone(TetId t) const { return has_bones && materials.of(regions[t]).rigid; }
   [[nodiscard]] detail::Descent descent();
   void round_place(VertexId v);
 
@@ -190,6 +203,9 @@ struct DeformableBody::State {
   // building and following (body_follow.cpp)
   void build(const TetMesh& mesh);
   [[nodiscard]] bool is_to_average() const;
+  template <class Is>
+  [[nodiscard]] bool has_material(const Is& is) const;
+  void note_bone(TetId t) { bones_changed = bones_changed || is_bone(t); }
   void ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots);
   void lay_out_stars();
   void note_tet(TetId t);
@@ -199,7 +215,7 @@ struct DeformableBody::State {
   void put_fresh(const TetMesh& mesh);
   void add_touched(const TetMesh& mesh, FollowReport& report);
   void settle_changed();
-  void finish_follow(FollowReport& report);
+  void finish_follow(bool has_rewound, FollowReport& report);
   void follow_contact(const TetMesh& mesh, bool has_rewound);
   bool add_tet(const TetMesh& mesh, TetId t);
   bool remove_tet(TetId t);
@@ -208,6 +224,11 @@ struct DeformableBody::State {
   void release_lost_holds();
   void drop_lost_pulls(const TetMesh& mesh);
   [[nodiscard]] bool differs(const TetMesh& mesh, TetId t) const;
+
+  // joined lips go towards their balance (body_balance.cpp)
+  void note_energy();
+  [[nodiscard]] bool has_joined_lips() const;
+  std::size_t balance();
 
   // ties (body_ties.cpp)
   [[nodiscard]] Vec3 span_of(const Tie& tie) const;
@@ -218,6 +239,16 @@ struct DeformableBody::State {
   void drop_lost_ties(const TetMesh& mesh);
   [[nodiscard]] double tied_energy() const;
   [[nodiscard]] Status check(const Tie& tie, std::size_t index) const;
+
+  // stresses that relax (body_viscous.cpp)
+  void add_metrics(const TetMesh& mesh);
+  [[nodiscard]] detail::Metric metric(TetId t, unsigned term) const;
+  void add_metrics(TetId t, StateHash& hash) const;
+  void relax_stresses(double dt);
+  void forget_stresses();
+
+  // pins (body_pins.cpp)
+  [[nodiscard]] std::size_t give_way();
 
   // averaged volumes, in double precision (body_pressure.cpp)
   template <class Visit>
@@ -235,18 +266,22 @@ struct DeformableBody::State {
     }
   }
   void centre();
+  void forget_terms();
+  void add_holds();
   void prepare_pulls();
+  void prepare_holds();
   void wake_pulled(const Pull& pull);
   [[nodiscard]] bool is_as_before(const Pull& a, const Pull& b) const;
   void wake_where_pulls_differ(const std::vector<Pull>& next);
   void list_uses();
   void list_pressed();
+  void list_strained();
   void find_pressures();
   void begin_substep(double h);
   void descend(double h);
   void find_slopes(float* slopes);
   void end_substep(double h, double& fastest);
-  void relax(std::span<const std::uint32_t> vertices, unsigned sweeps);
+  void relax(std::span<const std::uint32_t> vertices, unsigned sweeps, bool with_terms = false);
   [[nodiscard]] bool has_moved(VertexId v) const;
   void fall_asleep();
 

@@ -344,7 +344,6 @@ void CoarseLattice::gather(const DeformableBody::State& state) {
 
 /// What the nodes' moves are for the vertices; returns the length of the longest.
 double CoarseLattice::spread(const DeformableBody::State& state) {
-  double longest2 = 0;
   state.for_each_awake([&](std::uint32_t slot) {
     const VertexId v(slot);
     Row step{};
@@ -352,7 +351,11 @@ double CoarseLattice::spread(const DeformableBody::State& state) {
       for (unsigned k = 0; k < 4; ++k) step[k] += weight * nodes_[node][k];
     });
     steps_[slot] = step;
-    const double length2 = dot(step, step);
+  });
+  state.bones.make_rigid(state, steps_);
+  double longest2 = 0;
+  state.for_each_awake([&](std::uint32_t slot) {
+    const double length2 = dot(steps_[slot], steps_[slot]);
     longest2 = length2 <= longest2 ? longest2 : length2;  // what is no number stays
   });
   return std::sqrt(longest2);
@@ -393,7 +396,7 @@ void CoarseLattice::correct(DeformableBody::State& state) {
   const double at_end = slope_along(state);
   // The slope is as good as linear: to where it is 0, or on as far as may be.
   const double curvature = at_end - at_start;
-  double share = kLongest;
+  double share = state.stars.stiffens ? 1.0 : kLongest;  // further on, tissue that stiffens may stand up against it
   if (curvature > 0) share = std::min(share, -at_start / curvature);
   if (!(at_start < 0) || !std::isfinite(at_end)) share = 0;
   go(state, share * first);

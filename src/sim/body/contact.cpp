@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "incise/mesh/tet_mesh.h"
 #include "sim/body/tool_touch.h"
 
 namespace incise {
@@ -28,7 +29,7 @@ Status check_tool(const RodTool& rod) {
 }
 
 Status check_tool(const PlaneTool& plane) {
-  if (!std::isfinite(plane.offset)) return bad("the offset of a plane must be finite");
+  if (!(std::abs(plane.offset) <= kGreatestExtent)) return bad("the offset of a plane must lie within 1e+30");
   return std::abs(plane.normal.squaredNorm() - 1) < 1e-6 ? Status{}
                                                          : Status{bad("the normal of a plane must be of length 1")};
 }

@@ -117,6 +117,12 @@ HWY_INLINE Lanes operator*(Lanes a, Lanes b) {
   return {hn::Mul(a.v, b.v)};
 }
 
+HWY_INLINE Lanes operator/(Lanes a, Lanes b) {
+  return {hn::Div(a.v, b.v)};
+}
+HWY_INLINE Lanes square_root(Lanes a) {
+  return {hn::Sqrt(a.v)};
+}
 HWY_INLINE Lanes absolute(Lanes a) {
   return {hn::Abs(a.v)};
 }
@@ -183,6 +189,12 @@ HWY_INLINE Lanes operator*(Lanes a, Lanes b) {
   return {hn::Mul(a.low, b.low), hn::Mul(a.high, b.high)};
 }
 
+HWY_INLINE Lanes operator/(Lanes a, Lanes b) {
+  return {hn::Div(a.low, b.low), hn::Div(a.high, b.high)};
+}
+HWY_INLINE Lanes square_root(Lanes a) {
+  return {hn::Sqrt(a.low), hn::Sqrt(a.high)};
+}
 HWY_INLINE Lanes absolute(Lanes a) {
   return {hn::Abs(a.low), hn::Abs(a.high)};
 }
@@ -246,6 +258,12 @@ inline Lanes operator-(const Lanes& a, const Lanes& b) {
 }
 inline Lanes operator*(const Lanes& a, const Lanes& b) {
   return each([&](unsigned i) { return a.v[i] * b.v[i]; });
+}
+inline Lanes operator/(const Lanes& a, const Lanes& b) {
+  return each([&](unsigned i) { return a.v[i] / b.v[i]; });
+}
+inline Lanes square_root(const Lanes& a) {
+  return each([&](unsigned i) { return std::sqrt(a.v[i]); });
 }
 inline Lanes absolute(const Lanes& a) {
   return each([&](unsigned i) { return a.v[i] < 0 ? -a.v[i] : a.v[i]; });

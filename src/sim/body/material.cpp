@@ -21,6 +21,22 @@ Status check(const Material& material, const std::string& whose) {
   if (!(material.cut_friction >= 0 && std::isfinite(material.cut_friction))) {
     return bad("the friction of cutting must be at least 0 N/m");
   }
+  if (!(material.stiffening >= 0 && material.stiffening <= 100)) return bad("the stiffening must lie in [0, 100]");
+  if (!(material.fibre_young >= 0 && std::isfinite(material.fibre_young))) {
+    return bad("what fibres add to Young's modulus must be at least 0 Pa");
+  }
+  const auto [x, y, z] = material.fibre;
+  const double length2 = x * x + y * y + z * z;
+  if (!std::isfinite(length2) || (material.fibre_young > 0 && !(length2 > 0))) {
+    return bad("fibres need a direction that is not zero");
+  }
+  for (const PronyTerm& term : material.prony) {
+    if (!(term.share >= 0 && term.share <= 100)) return bad("the share of a Prony term must lie in [0, 100]");
+    if (term.share > 0 && !(term.seconds >= 1e-4 && term.seconds <= 1e4)) {
+      return bad("a Prony term must relax within 1e-4 to 1e4 s");
+    }
+  }
+  if (!(material.rupture >= 0 && material.rupture <= 0.5)) return bad("the rupture must lie in [0, 0.5]");
   return {};
 }
 

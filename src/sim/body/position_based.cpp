@@ -123,7 +123,7 @@ class Projection {
     const Vec3 before = multiplier;
     multiplier -= (off + compliance * multiplier) / sum;
     const double most = term.limit * h_ * h_;  // multipliers are forces times h²
-    if (term.has_axis && multiplier.norm() > most) multiplier *= most / multiplier.norm();
+    if (multiplier.norm() > most) multiplier *= most / multiplier.norm();
     const Vec3 more = multiplier - before;
     for (unsigned i = 0; i < term.corners; ++i) {
       if (term.weights[i] != 0) x_[term.vertices[i]] += weights_[term.vertices[i]] * term.weights[i] * more;

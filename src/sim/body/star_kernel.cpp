@@ -28,9 +28,74 @@ constexpr std::size_t kFetchAhead = 2;  // vertices
 /// What a visit wants of a star: the slope of the energy; its curvature, too; or both where volumes are averaged.
 enum class Wanted { kSlope, kSlopeAveraged, kBoth, kBothAveraged };
 
+/// The laws that the tets of a body have; each one has the terms of those before it.
+enum class Law { kSoft, kStiffening, kFibres };
+
 constexpr bool with_curvature(Wanted wanted) {
   return wanted == Wanted::kBoth || wanted == Wanted::kBothAveraged;
 }
+
+inline Lanes least_of_two(const Lanes& a, const Lanes& b) {
+  const Lanes over = a - b;
+  return a - where_positive(over, over);
+}
+
+/// What stiffening does to the tets of a block, seen from one corner: `stiffened` in lanes.
+struct StiffLanes {
+  Lanes soft, within, base, base2, base4;
+
+  // The other corners lie at a, b and c, and `swelling` is (bulk/2 · V − pressure) V.
+  [[gnu::always_inline]] inline StiffLanes(const StarBlock& block, const StiffeningBlock& more, const Lanes& swelling,
+                                           const Lanes& aa, const Lanes& bb, const Lanes& cc, const Lanes& ab,
+                                           const Lanes& bc, const Lanes& ca)
+      : soft(swelling - load(more.offset.data()) -
+             all(0.5F) *
+                 ((load(block.to_a.data()) * aa + (load(block.to_b.data()) * bb + load(block.to_c.data()) * cc)) +
+                  (load(more.a_b.data()) * ab + (load(more.b_c.data()) * bc + load(more.c_a.data()) * ca)))),
+        within(least_of_two(soft, load(more.most.data()))),
+        base(all(1) + load(more.by.data()) * within),
+        base2(base * base),
+        base4(base2 * base2) {}
+
+  [[nodiscard]] inline Lanes factor() const { return base4 * base2 * base; }
+  [[nodiscard]] inline Lanes growth(const StiffeningBlock& more) const {
+    return where_positive(load(more.most.data()) - soft, all(7) * load(more.by.data()) * (base4 * base2));
+  }
+  [[nodiscard]] inline Lanes energy() const {
+    const Lanes grown = within * (base + all(1)) * (base2 + all(1)) * ((base4 + all(1)) * all(0.125F));
+    return grown + factor() * (soft - within);
+  }
+};
+
+/// Fibres of the tets of a block, seen from one corner: they pull where they are longer than at rest.
+struct FibreLanes {
+  Lanes x, y, z, own, stiffness, more, over, by;
+
+  // The other corners lie at a, b and c. The corner's own part is what theirs lack to 0.
+  [[gnu::always_inline]] inline FibreLanes(const FibreBlock& block, const Lanes& ax, const Lanes& ay, const Lanes& az,
+                                           const Lanes& bx, const Lanes& by_, const Lanes& bz, const Lanes& cx,
+                                           const Lanes& cy, const Lanes& cz)
+      : x(load(block.a.data()) * ax + (load(block.b.data()) * bx + load(block.c.data()) * cx)),
+        y(load(block.a.data()) * ay + (load(block.b.data()) * by_ + load(block.c.data()) * cy)),
+        z(load(block.a.data()) * az + (load(block.b.data()) * bz + load(block.c.data()) * cz)),
+        own(all(0) - (load(block.a.data()) + (load(block.b.data()) + load(block.c.data())))),
+        stiffness(load(block.stiffness.data())),
+        more(square_root(x * x + y * y + z * z) - all(1)),
+        over(where_positive(more, more)),
+        by(all(1) / (all(1) + over)) {}
+
+  [[nodiscard]] inline Lanes energy() const { return all(0.5F) * stiffness * over * over; }
+  /// Of the slope, by the fibre as it stands.
+  [[nodiscard]] inline Lanes pull() const { return own * stiffness * over * by; }
+  /// Along the fibre. Those that are about to be taut count: no visit finds itself beyond where they begin to pull.
+  [[nodiscard]] inline Lanes curvature() const {
+    return where_positive(more + all(kNearlyTaut), own * own * stiffness);
+  }
+  /// Of that, across the fibre.
+  [[nodiscard]] inline Lanes across() const { return over * by; }
+
+  static constexpr float kNearlyTaut = 0.02F;
+};
 
 /// How six volumes change with a vertex: first those of its tets, row by row; then of its neighbours and of itself, by
 /// rows and by columns, with their stiffnesses and pressures. What no neighbour fills is 0.
@@ -47,9 +112,11 @@ struct StarSum {
   inline explicit StarSum(const Lanes& zero)
       : gx(zero), gy(zero), gz(zero), xx(zero), xy(zero), xz(zero), yy(zero), yz(zero), zz(zero) {}
 
-  template <Wanted kWanted>
-  [[gnu::always_inline]] inline void add(const StarBlock& block, const Descent& d, const Lanes& x, const Lanes& y,
-                                         const Lanes& z, float own_pressure, float* normals) {
+  template <Wanted kWanted, Law kLaw>
+  [[gnu::always_inline]] inline void add(const StarBlock& block, [[maybe_unused]] const StiffeningBlock* stiffening,
+                                         [[maybe_unused]] const FibreBlock* fibre_block, const Descent& d,
+                                         const Lanes& x, const Lanes& y, const Lanes& z, float own_pressure,
+                                         float* normals) {
     Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
     Lanes of_nodes = all(own_pressure);
     if constexpr (kWanted == Wanted::kSlopeAveraged) {
@@ -72,8 +139,51 @@ struct StarSum {
     const Lanes volume6 = all(0) - (nx * ax + ny * ay + nz * az);
     const Lanes bulk = load(block.bulk.data()), pressure = load(block.pressure.data());
     Lanes swell = bulk * volume6 - absolute(pressure);
-    if constexpr (kWanted == Wanted::kSlopeAveraged) swell = swell + where_positive(pressure, of_nodes);
     const Lanes to_a = load(block.to_a.data()), to_b = load(block.to_b.data()), to_c = load(block.to_c.data());
+    if constexpr (kLaw != Law::kSoft) {
+      const Lanes vx = wx - ux, vy = wy - uy, vz = wz - uz;
+      Lanes sx = swell * nx + (to_a * ax + (to_b * bx + to_c * cx));
+      Lanes sy = swell * ny + (to_a * ay + (to_b * by + to_c * cy));
+      Lanes sz = swell * nz + (to_a * az + (to_b * bz + to_c * cz));
+      Lanes swelling = (swell - all(0.5F) * bulk * volume6) * volume6;
+      // Curvature of the fibres: `across` in all directions, and of `pull` along them.
+      Lanes across = all(0), pull_x = all(0), pull_y = all(0), pull_z = all(0), fx = all(0), fy = all(0), fz = all(0);
+      if constexpr (kLaw == Law::kFibres) {
+        const FibreLanes fibres(*fibre_block, ax, ay, az, bx, by, bz, cx, cy, cz);
+        const Lanes pull = fibres.pull(), bent = fibres.curvature();
+        sx = sx + pull * fibres.x, sy = sy + pull * fibres.y, sz = sz + pull * fibres.z;
+        swelling = swelling + fibres.energy();
+        across = bent * fibres.across();
+        fx = fibres.by * fibres.x, fy = fibres.by * fibres.y, fz = fibres.by * fibres.z;
+        const Lanes along = bent - across;
+        pull_x = along * fx, pull_y = along * fy, pull_z = along * fz;
+      }
+      const StiffLanes stiff(block, *stiffening, swelling, ax * ax + ay * ay + az * az, bx * bx + by * by + bz * bz,
+                             cx * cx + cy * cy + cz * cz, ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz,
+                             wx * wx + wy * wy + wz * wz);
+      const Lanes factor = stiff.factor();
+      gx = gx + factor * sx, gy = gy + factor * sy, gz = gz + factor * sz;
+      if constexpr (kWanted == Wanted::kSlopeAveraged) {
+        const Lanes shared = where_positive(pressure, of_nodes);
+        gx = gx + shared * nx, gy = gy + shared * ny, gz = gz + shared * nz;
+      }
+      if constexpr (!with_curvature(kWanted)) return;
+      // The Laplacian's diagonal is in the vertex' own, but for what the factor adds.
+      Lanes more = (all(1) - factor) * (to_a + (to_b + to_c));
+      const Lanes growth = stiff.growth(*stiffening);
+      const Lanes bent = factor * bulk, kx = bent * nx, ky = bent * ny, kz = bent * nz;
+      const Lanes tx = growth * sx, ty = growth * sy, tz = growth * sz;
+      if constexpr (kLaw == Law::kFibres) {
+        more = more + factor * across;
+        xx = xx + factor * pull_x * fx, xy = xy + factor * pull_x * fy, xz = xz + factor * pull_x * fz;
+        yy = yy + factor * pull_y * fy, yz = yz + factor * pull_y * fz, zz = zz + factor * pull_z * fz;
+      }
+      xx = xx + (kx * nx + tx * sx) + more, xy = xy + (kx * ny + tx * sy), xz = xz + (kx * nz + tx * sz);
+      yy = yy + (ky * ny + ty * sy) + more, yz = yz + (ky * nz + ty * sz), zz = zz + (kz * nz + tz * sz) + more;
+      if constexpr (kWanted == Wanted::kBothAveraged) store_rows(nx, ny, nz, normals);
+      return;
+    }
+    if constexpr (kWanted == Wanted::kSlopeAveraged) swell = swell + where_positive(pressure, of_nodes);
     gx = gx + (swell * nx + (to_a * ax + (to_b * bx + to_c * cx)));
     gy = gy + (swell * ny + (to_a * ay + (to_b * by + to_c * cy)));
     gz = gz + (swell * nz + (to_a * az + (to_b * bz + to_c * cz)));
@@ -145,16 +255,20 @@ inline void settle_pressures(const Descent& d, std::uint32_t vertex, const Aroun
 }
 
 /// Inlined wherever it is called: the sweep is too slow with a call for each vertex.
-template <Wanted kWanted>
+template <Wanted kWanted, Law kLaw>
 [[gnu::always_inline]] inline Quadratic star_quadratic(const Descent& d, std::uint32_t vertex, const Around& around) {
   const Star& star = d.stars[vertex];
   const float* place = d.places + std::size_t{4} * vertex;
   const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
   StarSum sum(all(0));
   const StarBlock* block = d.blocks + star.first;
+  const StiffeningBlock* stiffening = kLaw != Law::kSoft ? d.stiffening + star.first : nullptr;
+  const FibreBlock* fibres = kLaw == Law::kFibres ? d.fibres + star.first : nullptr;
   float* normals = around.normals;
   for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) {
-    sum.template add<kWanted>(*block, d, x, y, z, place[3], normals);
+    sum.template add<kWanted, kLaw>(*block, stiffening, fibres, d, x, y, z, place[3], normals);
+    if constexpr (kLaw != Law::kSoft) ++stiffening;
+    if constexpr (kLaw == Law::kFibres) ++fibres;
     if constexpr (kWanted == Wanted::kBothAveraged) normals += std::size_t{4} * kLanes;
   }
   if constexpr (kWanted == Wanted::kBothAveraged) {
@@ -181,12 +295,12 @@ inline void add_inertia(const Motion& motion, const float* x, Quadratic& q) {
   q.curvature[5] += stiffness;
 }
 
-template <Wanted kWanted>
+template <Wanted kWanted, Law kLaw>
 [[gnu::always_inline]] inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex,
                                                         const Around& around = {}) {
   const Motion& motion = d.motions[vertex];
   const float* x = d.places + std::size_t{4} * vertex;
-  Quadratic q = star_quadratic<kWanted>(d, vertex, around);
+  Quadratic q = star_quadratic<kWanted, kLaw>(d, vertex, around);
   add_inertia(motion, x, q);
   if (motion.pulls > 0) add_pulls(d, motion, q);
   if (motion.contacts > 0) add_contacts(d, motion, q);
@@ -244,11 +358,11 @@ inline void fetch(const Descent& d, std::uint32_t vertex) {
 }
 
 /// Hands the quadratic to `move`, which may move the vertex; pressures are kept up with it.
-template <class Move>
+template <Law kLaw, class Move>
 [[gnu::always_inline]] inline void visit_averaged(const Descent& d, std::uint32_t v, const Around& around,
                                                   const Move& move) {
   float* x = d.places + std::size_t{4} * v;
-  const Quadratic q = whole_quadratic<Wanted::kBothAveraged>(d, v, around);
+  const Quadratic q = whole_quadratic<Wanted::kBothAveraged, kLaw>(d, v, around);
   const float before[3] = {x[0], x[1], x[2]};
   move(q, x);
   const float moved[3] = {x[0] - before[0], x[1] - before[1], x[2] - before[2]};
@@ -271,83 +385,90 @@ inline Around lay_out(float* normals, float* columns, std::size_t count) {
           columns + 8 * count};
 }
 
-template <class Move>
+template <Law kLaw, class Move>
 void visit_large(const Descent& d, std::uint32_t v, const Move& move) {
   const std::size_t count = columns_of(d.neighbours[v].count);
   std::vector<float> normals(std::size_t{4} * kLanes * d.stars[v].used_blocks()), columns(9 * count);
-  visit_averaged(d, v, lay_out(normals.data(), columns.data(), count), move);
+  visit_averaged<kLaw>(d, v, lay_out(normals.data(), columns.data(), count), move);
 }
 
-template <bool kAveraged, class Move>
+template <bool kAveraged, Law kLaw, class Move>
 [[gnu::always_inline]] inline void visit(const Descent& d, std::uint32_t v, const Move& move) {
   if constexpr (kAveraged) {
     if (d.stars[v].used_blocks() > kMostBlocks || d.neighbours[v].count >= kMostColumns) {
-      visit_large(d, v, move);
+      visit_large<kLaw>(d, v, move);
       return;
     }
     alignas(32) float normals[std::size_t{4} * kLanes * kMostBlocks];
     alignas(32) float columns[9 * kMostColumns];
-    visit_averaged(d, v, lay_out(normals, columns, kMostColumns), move);
+    visit_averaged<kLaw>(d, v, lay_out(normals, columns, kMostColumns), move);
   } else {
-    move(whole_quadratic<Wanted::kBoth>(d, v), d.places + std::size_t{4} * v);
+    move(whole_quadratic<Wanted::kBoth, kLaw>(d, v), d.places + std::size_t{4} * v);
   }
 }
 
-template <bool kAveraged>
+/// Calls `work.operator()<is averaged, law>()` as the body is.
+template <bool kAveraged, class Work>
+[[gnu::always_inline]] inline void for_law(const Descent& d, const Work& work) {
+  if (d.fibres != nullptr) {
+    work.template operator()<kAveraged, Law::kFibres>();
+  } else if (d.stiffening != nullptr) {
+    work.template operator()<kAveraged, Law::kStiffening>();
+  } else {
+    work.template operator()<kAveraged, Law::kSoft>();
+  }
+}
+template <class Work>
+[[gnu::always_inline]] inline void for_kind(const Descent& d, const Work& work) {
+  d.node_stiffnesses != nullptr ? for_law<true>(d, work) : for_law<false>(d, work);
+}
+
+template <bool kAveraged, Law kLaw>
 inline void sweep_each(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
   const std::size_t count = order.size();
   const auto at = [&](std::size_t i) { return order[is_backward ? count - 1 - i : i]; };
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = at(i);
     if (i + kFetchAhead < count) fetch(d, at(i + kFetchAhead));
-    visit<kAveraged>(d, v,
-                     [&](const Quadratic& q, float* x) { descend(q, static_cast<double>(d.motions[v].reach), x); });
+    if (d.motions[v].is_rigid) continue;
+    visit<kAveraged, kLaw>(
+        d, v, [&](const Quadratic& q, float* x) { descend(q, static_cast<double>(d.motions[v].reach), x); });
   }
 }
 
 void sweep_all(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
-  if (d.node_stiffnesses != nullptr) {
-    sweep_each<true>(d, order, is_backward);
-  } else {
-    sweep_each<false>(d, order, is_backward);
-  }
+  for_kind(d, [&]<bool kAveraged, Law kLaw>() { sweep_each<kAveraged, kLaw>(d, order, is_backward); });
 }
 
-template <bool kAveraged>
+template <bool kAveraged, Law kLaw>
 inline void pick_each(const Descent& d, std::span<const std::uint32_t> order) {
   for (const std::uint32_t v : order) {
     const Motion& motion = d.motions[v];
-    if (!motion.leaps) continue;
-    visit<kAveraged>(d, v, [&](const Quadratic& q, float* x) {
+    if (!motion.leaps || motion.is_rigid) continue;
+    visit<kAveraged, kLaw>(d, v, [&](const Quadratic& q, float* x) {
       if (value_at_start(q, motion, x) < 0) put(motion.start[0], motion.start[1], motion.start[2], x[3], x);
     });
   }
 }
 
 void pick_all(const Descent& d, std::span<const std::uint32_t> order) {
-  if (d.node_stiffnesses != nullptr) {
-    pick_each<true>(d, order);
-  } else {
-    pick_each<false>(d, order);
-  }
+  for_kind(d, [&]<bool kAveraged, Law kLaw>() { pick_each<kAveraged, kLaw>(d, order); });
 }
 
-template <Wanted kWanted>
+template <Wanted kWanted, Law kLaw>
 inline void slopes_of_each(const Descent& d, std::span<const std::uint32_t> order, float* slopes) {
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
-    const std::array<double, 3> slope = whole_quadratic<kWanted>(d, order[i]).slope;
+    const std::array<double, 3> slope = whole_quadratic<kWanted, kLaw>(d, order[i]).slope;
     put(static_cast<float>(slope[0]), static_cast<float>(slope[1]), static_cast<float>(slope[2]), 0,
         slopes + std::size_t{4} * order[i]);
   }
 }
 
 void slopes_of_all(const Descent& d, std::span<const std::uint32_t> order, float* slopes) {
-  if (d.node_stiffnesses != nullptr) {
-    slopes_of_each<Wanted::kSlopeAveraged>(d, order, slopes);
-  } else {
-    slopes_of_each<Wanted::kSlope>(d, order, slopes);
-  }
+  for_kind(d, [&]<bool kAveraged, Law kLaw>() {
+    slopes_of_each<kAveraged ? Wanted::kSlopeAveraged : Wanted::kSlope, kLaw>(d, order, slopes);
+  });
 }
 
 /// Six volumes of the tets of a star that take part in its average.
@@ -407,7 +528,49 @@ inline double star_energy(const Descent& d, const Star& star, const float* place
   return 0.25 * (static_cast<double>(s[0]) - static_cast<double>(s[1]));
 }
 
+/// The same where tissue stiffens: a quarter of each tet's energy.
+template <bool kHasFibres>
+inline double stiff_star_energy(const Descent& d, const Star& star, const float* place) {
+  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+  Lanes energy = all(0);
+  const StarBlock* block = d.blocks + star.first;
+  const StiffeningBlock* more = d.stiffening + star.first;
+  for (std::uint32_t i = 0; i < star.used_blocks(); ++i, ++block, ++more) {
+    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+    load_points(d.places, block->a.data(), ax, ay, az);
+    load_points(d.places, block->b.data(), bx, by, bz);
+    load_points(d.places, block->c.data(), cx, cy, cz);
+    ax = ax - x, ay = ay - y, az = az - z;
+    bx = bx - x, by = by - y, bz = bz - z;
+    cx = cx - x, cy = cy - y, cz = cz - z;
+    const Lanes ux = bx - ax, uy = by - ay, uz = bz - az, wx = cx - ax, wy = cy - ay, wz = cz - az;
+    const Lanes vx = wx - ux, vy = wy - uy, vz = wz - uz;
+    const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+    const Lanes half = load(block->bulk.data()) * volume6 * all(0.5F);
+    Lanes swelling = (half - absolute(load(block->pressure.data()))) * volume6;
+    if constexpr (kHasFibres) {
+      const FibreLanes fibres(d.fibres[star.first + i], ax, ay, az, bx, by, bz, cx, cy, cz);
+      swelling = swelling + fibres.energy();
+    }
+    const StiffLanes stiff(*block, *more, swelling, ax * ax + ay * ay + az * az, bx * bx + by * by + bz * bz,
+                           cx * cx + cy * cy + cz * cz, ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz,
+                           wx * wx + wy * wy + wz * wz);
+    energy = energy + stiff.energy();
+  }
+  float s[4];
+  sum_lanes(energy, energy, energy, energy, s);
+  return 0.25 * static_cast<double>(s[0]);
+}
+
 void add_energies(const Descent& d, std::span<const std::uint32_t> order, double& sum) {
+  if (d.fibres != nullptr) {
+    for (const std::uint32_t v : order) sum += stiff_star_energy<true>(d, d.stars[v], d.places + std::size_t{4} * v);
+    return;
+  }
+  if (d.stiffening != nullptr) {
+    for (const std::uint32_t v : order) sum += stiff_star_energy<false>(d, d.stars[v], d.places + std::size_t{4} * v);
+    return;
+  }
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
     sum += star_energy(d, d.stars[order[i]], d.places + std::size_t{4} * order[i]);
@@ -416,11 +579,7 @@ void add_energies(const Descent& d, std::span<const std::uint32_t> order, double
 
 void find_quadratic(const Descent& d, std::uint32_t vertex, Quadratic& quadratic) {
   const auto copy = [&](const Quadratic& q, float* /*x*/) { quadratic = q; };
-  if (d.node_stiffnesses != nullptr) {
-    visit<true>(d, vertex, copy);
-  } else {
-    visit<false>(d, vertex, copy);
-  }
+  for_kind(d, [&]<bool kAveraged, Law kLaw>() { visit<kAveraged, kLaw>(d, vertex, copy); });
 }
 
 }  // namespace INCISE_LANES_NAMESPACE
@@ -481,7 +640,12 @@ static PullState tie_state(const PullTerm& term, const Vec3& off) {
 PullState pull_state(const PullTerm& term, const Vec3& off) {
   if (term.is_tie()) return tie_state(term, off);
   if (!term.has_axis) {
-    return {term.stiffness * off, term.stiffness, 0, 0.5 * term.stiffness * off.squaredNorm()};
+    const double length = off.norm();
+    if (!(term.stiffness * length > term.limit)) {
+      return {term.stiffness * off, term.stiffness, 0, 0.5 * term.stiffness * off.squaredNorm()};
+    }
+    const Yielding spring = yielding(term.stiffness, term.limit, length);
+    return {spring.secant * off, spring.secant, 0, spring.energy};
   }
   PullState state;
   const double along = term.axis.dot(off);

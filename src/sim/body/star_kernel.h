@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "incise/geom/vec.h"
@@ -26,7 +27,8 @@ struct Motion {
   std::uint32_t first_pull = 0, pulls = 0;  ///< its part of the list of pull uses
   std::uint32_t first_contact = 0;          ///< likewise of contact uses
   std::uint16_t contacts = 0;
-  bool leaps = false;  ///< its velocity takes it far enough to do harm
+  bool leaps = false;     ///< its velocity takes it far enough to do harm
+  bool is_rigid = false;  ///< it moves with its bone: visits leave it where it is
 };
 
 /// A pull or a tie as the descent sees it; places against the body's middle. Of a tie the point is b − a.
@@ -37,8 +39,8 @@ struct PullTerm {
   Vec3 target = Vec3::Zero();
   Vec3 axis = Vec3::Zero();
   double stiffness = 0;
-  double limit = 0;            ///< of the force along the axis
-  double drag = 0;             ///< the same across it: 0: none
+  double limit = std::numeric_limits<double>::infinity();  ///< of the force, along the axis where there is one
+  double drag = 0;                                         ///< the same across it: 0: none
   Vec3 anchor = Vec3::Zero();  ///< with drag: where the point is held across the axis, against the target
   bool has_axis = false, pushes_only = false;
   double rest_length = 0;   ///< of a tie
@@ -70,6 +72,10 @@ struct Descent {
   const NeighbourList* neighbours = nullptr;
   const std::uint32_t* neighbour_slots = nullptr;
   const std::uint16_t* rings = nullptr;
+  // of tissue that stiffens; null where none does
+  const StiffeningBlock* stiffening = nullptr;
+  // of tissue with fibres; null where there are none
+  const FibreBlock* fibres = nullptr;
 };
 
 /// The energy of one vertex as a quadratic: value 0 at its place, slope, and symmetric curvature (xx xy xz yy yz zz).

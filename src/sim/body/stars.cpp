@@ -2,6 +2,7 @@
 #include "sim/body/stars.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace incise {
 inline namespace v0 {
@@ -25,6 +26,8 @@ std::uint32_t Stars::take(std::uint16_t count) {
   }
   const auto first = static_cast<std::uint32_t>(blocks_.size());
   blocks_.resize(first + count);
+  if (stiffens) stiffening_.resize(first + count);
+  if (has_fibres) fibres_.resize(first + count);
   owners_.resize(first + count);
   return first;
 }
@@ -34,6 +37,45 @@ void Stars::clear_lane(const Star& star, std::uint32_t lane, VertexId vertex) {
   const std::uint32_t i = lane % kLanes;
   block.a[i] = block.b[i] = block.c[i] = vertex.value;
   block.bulk[i] = block.pressure[i] = block.to_a[i] = block.to_b[i] = block.to_c[i] = 0;
+  if (stiffens) put_stiffening(star.first + lane / kLanes, i, 0, {});
+  if (has_fibres) put_fibres(star.first + lane / kLanes, i, 0, {});
+}
+
+void Stars::put_laplacian(std::uint32_t at, std::uint32_t slot, unsigned corner, const Element& element) {
+  const auto& [a, b, c] = kSideCorners[corner];
+  StarBlock& block = blocks_[at];
+  block.to_a[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[corner][a]]);
+  block.to_b[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[corner][b]]);
+  block.to_c[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[corner][c]]);
+}
+
+void Stars::put_fibres(std::uint32_t at, std::uint32_t slot, unsigned corner, const Element& element) {
+  const auto& [a, b, c] = kSideCorners[corner];
+  FibreBlock& block = fibres_[at];
+  block.a[slot] = static_cast<float>(element.along[a]);
+  block.b[slot] = static_cast<float>(element.along[b]);
+  block.c[slot] = static_cast<float>(element.along[c]);
+  block.stiffness[slot] = static_cast<float>(element.fibre);
+}
+
+void Stars::set_laplacian(TetId tet, const TetVertices& vertices, const Element& element) {
+  for (unsigned i = 0; i < 4; ++i) {
+    const std::uint32_t lane = lane_of_[tet][i], at = stars_[vertices[i]].first + lane / kLanes;
+    put_laplacian(at, lane % kLanes, i, element);
+    if (stiffens) put_stiffening(at, lane % kLanes, i, element);
+  }
+}
+
+void Stars::put_stiffening(std::uint32_t at, std::uint32_t slot, unsigned corner, const Element& element) {
+  const auto& [a, b, c] = kSideCorners[corner];
+  StiffeningBlock& block = stiffening_[at];
+  block.a_b[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[a][b]]);
+  block.b_c[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[b][c]]);
+  block.c_a[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[c][a]]);
+  block.offset[slot] = static_cast<float>(element.offset);
+  block.by[slot] = static_cast<float>(element.stiffening);
+  block.most[slot] = element.stiffening > 0 ? static_cast<float>((kStiffest - 1) / element.stiffening)
+                                            : std::numeric_limits<float>::max();
 }
 
 void Stars::lay_out(VertexId vertex, std::uint32_t tets) {
@@ -51,6 +93,8 @@ void Stars::grow(Star& star, VertexId vertex) {
   star.first = take(star.blocks);
   for (std::uint32_t i = 0; i < old.blocks; ++i) {
     blocks_[star.first + i] = blocks_[old.first + i];
+    if (stiffens) stiffening_[star.first + i] = stiffening_[old.first + i];
+    if (has_fibres) fibres_[star.first + i] = fibres_[old.first + i];
     owners_[star.first + i] = owners_[old.first + i];
   }
   for (std::uint32_t lane = old.blocks * kLanes; lane < star.blocks * kLanes; ++lane) clear_lane(star, lane, vertex);
@@ -77,9 +121,9 @@ void Stars::add(TetId tet, const TetVertices& vertices, const Element& element) 
     block.c[slot] = vertices[c].value;
     block.bulk[slot] = static_cast<float>(element.bulk);
     block.pressure[slot] = static_cast<float>(element.give > 0 ? element.pressure : -element.pressure);
-    block.to_a[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[i][a]]);
-    block.to_b[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[i][b]]);
-    block.to_c[slot] = static_cast<float>(element.laplacian[kEdgeOfCorners[i][c]]);
+    put_laplacian(at, slot, i, element);
+    if (stiffens) put_stiffening(at, slot, i, element);
+    if (has_fibres) put_fibres(at, slot, i, element);
     owners_[at][slot] = tet.value * 4 + i;
     lane_of_[tet][i] = static_cast<std::uint16_t>(lane);
   }
@@ -97,6 +141,24 @@ void Stars::move_lane(const Star& star, std::uint32_t from, std::uint32_t to) {
   target.to_a[j] = source.to_a[i];
   target.to_b[j] = source.to_b[i];
   target.to_c[j] = source.to_c[i];
+  if (stiffens) {
+    const StiffeningBlock& other = stiffening_[star.first + from / kLanes];
+    StiffeningBlock& into = stiffening_[star.first + to / kLanes];
+    into.a_b[j] = other.a_b[i];
+    into.b_c[j] = other.b_c[i];
+    into.c_a[j] = other.c_a[i];
+    into.offset[j] = other.offset[i];
+    into.by[j] = other.by[i];
+    into.most[j] = other.most[i];
+  }
+  if (has_fibres) {
+    const FibreBlock& other = fibres_[star.first + from / kLanes];
+    FibreBlock& into = fibres_[star.first + to / kLanes];
+    into.a[j] = other.a[i];
+    into.b[j] = other.b[i];
+    into.c[j] = other.c[i];
+    into.stiffness[j] = other.stiffness[i];
+  }
   const std::uint32_t moved = owner(star, from);
   owners_[star.first + to / kLanes][j] = moved;
   lane_of_[TetId(moved / 4)][moved % 4] = static_cast<std::uint16_t>(to);

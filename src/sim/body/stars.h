@@ -25,6 +25,20 @@ struct StarBlock {
   std::array<float, kLanes> to_a, to_b, to_c;  ///< the row of its Laplacian
 };
 
+/// What else is known of the tets of a block where tissue stiffens: their energies, seen from the vertex.
+struct StiffeningBlock {
+  std::array<float, kLanes> a_b, b_c, c_a;  ///< of the Laplacian, between the other corners
+  std::array<float, kLanes> offset;         ///< of `Element`
+  std::array<float, kLanes> by;             ///< `Element::stiffening`
+  std::array<float, kLanes> most;           ///< ψ beyond which it stiffens no more
+};
+
+/// What is known of the fibres of the tets of a block, seen from the vertex.
+struct FibreBlock {
+  std::array<float, kLanes> a, b, c;    ///< of `Element::along`, of the other corners
+  std::array<float, kLanes> stiffness;  ///< `Element::fibre`
+};
+
 /// The blocks of one vertex.
 struct Star {
   std::uint32_t first = 0;   ///< block
@@ -38,6 +52,11 @@ struct Star {
 /// can be: where a body is cut they are cold. Blocks of stars that outgrew their place are used again.
 class Stars {
  public:
+  /// Whether tets may stiffen; to be set before anything is laid out.
+  bool stiffens = false;
+  /// Whether tets may have fibres; then they may stiffen, too.
+  bool has_fibres = false;
+
   /// Makes room for as many slots.
   void ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots);
   /// Lays an empty star out for `tets` tets, behind those laid out before: called in the order of the sweeps.
@@ -47,10 +66,16 @@ class Stars {
   /// Takes the four views of a tet out that is there; `vertices` as they were when it was added. It leaves holes, which
   /// tets that are added next fill: nothing but these two calls may be made before `close` was called for each vertex.
   void remove(TetId tet, const TetVertices& vertices);
+  /// Replaces the Laplacian of a tet that is there.
+  void set_laplacian(TetId tet, const TetVertices& vertices, const Element& element);
   /// Closes the holes of a star. Cost: O(its tets) where there are any.
   void close(VertexId vertex);
 
   [[nodiscard]] const StarBlock* blocks() const { return blocks_.data(); }
+  /// As many, or null where nothing stiffens.
+  [[nodiscard]] const StiffeningBlock* stiffening() const { return stiffens ? stiffening_.data() : nullptr; }
+  /// Likewise, where nothing has fibres.
+  [[nodiscard]] const FibreBlock* fibres() const { return has_fibres ? fibres_.data() : nullptr; }
   [[nodiscard]] const Star& of(VertexId vertex) const { return stars_[vertex]; }
   [[nodiscard]] const Star* all() const { return stars_.data(); }
   /// The sum of the Laplacian's diagonal over the star: its stretch part of the stiffness.
@@ -79,7 +104,13 @@ class Stars {
   void clear_lane(const Star& star, std::uint32_t lane, VertexId vertex);
   void move_lane(const Star& star, std::uint32_t from, std::uint32_t to);
 
+  void put_laplacian(std::uint32_t at, std::uint32_t slot, unsigned corner, const Element& element);
+  void put_stiffening(std::uint32_t at, std::uint32_t slot, unsigned corner, const Element& element);
+  void put_fibres(std::uint32_t at, std::uint32_t slot, unsigned corner, const Element& element);
+
   GrowArray<StarBlock> blocks_;
+  GrowArray<StiffeningBlock> stiffening_;
+  GrowArray<FibreBlock> fibres_;
   GrowArray<Owners> owners_;  // by lane: tet · 4 + corner
   IdArray<VertexId, Star> stars_;
   IdArray<VertexId, Holes> holes_;

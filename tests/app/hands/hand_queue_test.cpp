@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -77,6 +78,39 @@ TEST(HandQueue, ASlowSimulationGetsTheNewestPlace) {
     for (int i = 1; i <= 20; ++i) queue.push(down(frame + 0.01 * i));
     EXPECT_EQ(pop(queue), frame + 0.01 * 20);
   }
+}
+
+/// On a circle of radius 10, `share` of its way around. The blade is 1 long.
+HandState around(double share) {
+  HandState hands;
+  const double angle = 2 * M_PI * share;
+  hands.blade = BladePose{
+      {{10 * std::cos(angle), 10 * std::sin(angle), 0}, {10 * std::cos(angle), 10 * std::sin(angle), 1}}, Vec3::Zero()};
+  return hands;
+}
+
+TEST(HandQueue, ACircleBetweenTwoFramesStaysACircle) {
+  HandQueue queue;
+  constexpr int kEvents = 200;
+  for (int i = 0; i <= kEvents; ++i) queue.push(around(static_cast<double>(i) / kEvents));
+  queue.push({});
+  std::vector<Vec3> way;
+  for (HandState hands = queue.pop(); hands.blade; hands = queue.pop()) way.push_back(hands.blade->edge[0]);
+  EXPECT_TRUE(queue.is_empty());
+  EXPECT_LT(way.size(), 60U);  // far fewer than there were events
+  ASSERT_GT(way.size(), 10U);
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Vec3 middle = 0.5 * (way[i - 1] + way[i]);  // the furthest inside
+    EXPECT_GT(middle.norm(), 10 - 0.06);
+  }
+}
+
+TEST(HandQueue, AStrokeThatTurnsBackBetweenTwoFramesGoesAllTheWay) {
+  HandQueue queue;
+  for (const double x : {0.0, 1.0, 2.0, 3.0, 2.0, 1.0}) queue.push(down(x));
+  queue.push({});
+  const std::vector<double> expected = {0, 3, 1, -1};
+  for (const double x : expected) EXPECT_EQ(pop(queue), x);
 }
 
 TEST(HandQueue, HooksPassThrough) {

@@ -146,9 +146,9 @@ TEST(PlaneCutOnTissue, ALineAcrossTheMiddleLeavesTwoPieces) {
   cube.tools().choose(ToolKind::kPlaneCut);
   const Vec2 middle = cube.pixel(Vec3::Constant(0.5 * kSide));
   cube.drag(middle - Vec2(11, 40), middle + Vec2(9, 35), 10);  // the line need not reach across the body
-  const std::optional<Stroke> stroke = cube.tools().take_plane_cut();
+  const std::optional<Stroke> stroke = cube.tools().take_stroke();
   ASSERT_TRUE(stroke.has_value());
-  EXPECT_FALSE(cube.tools().take_plane_cut().has_value());
+  EXPECT_FALSE(cube.tools().take_stroke().has_value());
   ASSERT_TRUE(check(*stroke).ok());
   EXPECT_EQ(stroke->times, (std::vector<double>{0, 1}));
   Result<Engine> engine = Engine::create(TetMesh(cube.mesh()));

@@ -284,7 +284,7 @@ TEST_F(Hand, APlaneCutGoesFromOutsideTheBodyToOutside) {
   EXPECT_EQ(lines_of(marks(), Ink::kPreview), 1U);
   EXPECT_EQ(marks().triangles.size(), 2U);
   send(Kind::kRelease, {500, 380});
-  const std::optional<Stroke> stroke = tools_.take_plane_cut();
+  const std::optional<Stroke> stroke = tools_.take_stroke();
   ASSERT_TRUE(stroke.has_value());
   EXPECT_TRUE(check(*stroke).ok());
   const std::vector<Vec3>& first = stroke->edges.front();
@@ -309,11 +309,11 @@ TEST_F(Hand, ADegenerateLineCutsNothing) {
   send(Kind::kMove, {500, 380});
   send(Kind::kMove, {303, 424});
   send(Kind::kRelease, {303, 424});
-  EXPECT_FALSE(tools_.take_plane_cut().has_value());
+  EXPECT_FALSE(tools_.take_stroke().has_value());
   send(Kind::kPress, {300, 420});
   send(Kind::kMove, {500, 380});
   tools_.cancel();
-  EXPECT_FALSE(tools_.take_plane_cut().has_value());
+  EXPECT_FALSE(tools_.take_stroke().has_value());
 }
 
 TEST_F(Hand, AGraspMovesAcrossTheViewAndGoesWithTheRelease) {
@@ -333,7 +333,7 @@ TEST_F(Hand, AGraspMovesAcrossTheViewAndGoesWithTheRelease) {
   EXPECT_EQ(camera_.distance, distance);
   EXPECT_GT((tools_.hands().hooks[0].position - moved.position).dot(camera_.backward()), 0);
   EXPECT_LT((pixel(tools_.hands().hooks[0].position) - Vec2(100, 200)).norm(), 1e-6);
-  EXPECT_EQ(lines_of(marks(), Ink::kHook), 1U);
+  EXPECT_EQ(lines_of(marks(), Ink::kHook), 3U);  // the way of the pull, and two jaws
   send(Kind::kRelease, {100, 200});
   EXPECT_TRUE(tools_.hands().hooks.empty());
   send(Kind::kPress, top(0.5, 0.5));
@@ -467,7 +467,7 @@ TEST(Tools, RandomEventsNeverLeadToUnsoundHands) {
     Marks marks;
     cube.tools().draw(cube.context(), cube.camera(), marks);
     for (const Marks::Line& line : marks.lines) ASSERT_TRUE(line.from.allFinite() && line.to.allFinite());
-    if (const std::optional<Stroke> plane = cube.tools().take_plane_cut()) {
+    if (const std::optional<Stroke> plane = cube.tools().take_stroke()) {
       ASSERT_TRUE(check(*plane).ok());
       ++planes;
     }

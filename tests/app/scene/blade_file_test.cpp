@@ -132,4 +132,20 @@ TEST(BladeFile, names_lines_and_files) {
   EXPECT_NE(folder.error().message.find("is a directory"), std::string::npos);
 }
 
+TEST(BladeFile, strokes_may_stop_at_regions) {
+  const std::string edges = R"("edges":[{"t":0,"points":[[0,0,0],[1,0,0]]},{"t":1,"points":[[0,1,0],[1,1,0]]}])";
+  const std::string text = kHead + "{" + edges + R"(},{"name":"deep","stop_at":["fat",3],)" + edges + "}" + kTail;
+  const auto blade = app::parse_blade_file(text, "b.json");
+  ASSERT_TRUE(blade.ok()) << blade.error().message;
+  ASSERT_EQ(blade->size(), 2U);
+  EXPECT_TRUE((*blade)[0].stop_at.empty());
+  EXPECT_EQ((*blade)[1].stop_at, (std::vector<std::int32_t>{3}));
+  EXPECT_EQ((*blade)[1].stop_names, (std::vector<std::string>{"fat"}));
+  // Who knows of no regions says so, and does not cut deeper than was asked.
+  expect_error(text, "stroke 1 (deep) has stop_at");
+  expect_error(kHead + R"({"stop_at":[],)" + edges + "}" + kTail, "stop_at");
+  expect_error(kHead + R"({"stop_at":[-1],)" + edges + "}" + kTail, "must be a region's number or its name");
+  expect_error(kHead + R"({"stop_at":"fat",)" + edges + "}" + kTail, "stop_at");
+}
+
 }  // namespace

@@ -13,6 +13,8 @@
 #include "app/scene/scene_simulation.h"
 #include "app/text/text_file.h"
 #include "app/view/scene_camera.h"
+#include "incise/mesh/bounds.h"
+#include "incise/mesh/components.h"
 #include "support/folder.h"
 #include "support/scene_cases.h"
 
@@ -227,6 +229,76 @@ TEST(Scene, puts_sutures_in_when_they_begin) {
   EXPECT_LT((state.rest[1] - Vec3(0.7, 0.3, 0.4)).norm(), 1e-9);
 }
 
+TEST(Scene, refuses_materials_that_cannot_be) {
+  expect_refused("/materials/default/fibre", {1, 0}, "materials.default.fibre must be an array of 3");
+  expect_refused("/materials/default/fibre", {0, 0, 0}, "materials.default has \"fibre_young\", but no direction");
+  expect_refused("/materials/default/fibre_young", -1, "materials.default.fibre_young is -1");
+  expect_refused("/materials/default/prony/0/seconds", 0, "materials.default.prony[0].seconds is 0");
+  expect_refused("/materials/default/prony/0", Json{{"share", 1}},
+                 "materials.default.prony[0] lacks the key \"seconds\"");
+  const Json term = {{"share", 1}, {"seconds", 1}};
+  expect_refused("/materials/default/prony", {term, term, term, term}, "materials.default.prony");
+  expect_refused("/materials/default/rigid", 1, "materials.default.rigid must be true or false");
+}
+
+TEST(Scene, refuses_pins_and_hooks_that_bear_nothing) {
+  expect_refused("/attachments/1/strength", 0, "attachments[1].strength is 0; it must be above 0");
+  expect_refused("/attachments/0/strength", 1, "attachments[0] has a strength, but holds rigidly");
+  expect_refused("/hooks/0/strength", -1, "hooks[0].strength is -1; it must be above 0");
+  expect_refused("/hooks/0/tears", "no", "hooks[0].tears must be true or false");
+}
+
+/// Bodies share no points, even where these are in the same place, and keep their labels.
+TEST(Scene, puts_several_bodies_into_one_mesh) {
+  Json json = least_scene();
+  json["model"]["bodies"] = {{{"box", {{"cells", {1, 1, 1}}}}, {"region", 4}, {"move", {0, 0, 1}}},
+                             {{"box", {{"cells", {1, 2, 1}}}}, {"move", {3, 0, 0}}}};
+  const app::Scene scene = parsed(json);
+  const TetMesh mesh = app::load_model(scene)->mesh;
+  EXPECT_EQ(mesh.tet_count(), 48U + 6U + 12U);
+  EXPECT_EQ(find_components(mesh).count(), 3U);
+  std::size_t labelled = 0;
+  mesh.for_each_tet([&](TetId t) { labelled += mesh.region(t) == 4 ? 1U : 0U; });
+  EXPECT_EQ(labelled, 6U);
+  EXPECT_EQ(rest_bounds(mesh).hi, Vec3(4, 1, 2));
+  EXPECT_EQ(app::to_json(parsed(Json::parse(app::to_json(scene)))), app::to_json(scene));
+  json["model"]["bodies"][0]["file"] = "a.mesh";
+  EXPECT_NE(error_of(json).find("model.bodies[0] needs either the key \"file\" or the key \"box\""), std::string::npos);
+}
+
+TEST(Scene, refuses_a_stretch_out_of_range) {
+  expect_refused("/stretch", {1, 1, 2.5}, "stretch must lie in [0.5, 2] on every axis");
+  expect_refused("/stretch", {0.4, 1, 1}, "stretch must lie in [0.5, 2] on every axis");
+  expect_refused("/stretch", 1.2, "stretch must be an array of 3");
+}
+
+/// A bar that is drawn out and held at both ends pulls at them with what the law of its tissue says where it is free
+/// across: ψ = μ/2 (|F|² − 3) + μ/2 (J − 1)² − μ (J − 1) without Poisson's ratio.
+TEST(Scene, holds_a_stretched_body_drawn_out) {
+  Json json = least_scene();
+  json["model"]["box"] = {{"cells", {6, 2, 2}}, {"size", {3, 1, 1}}};
+  json["length_unit"] = 0.01;
+  json["materials"]["default"] = {{"young", 1e4}, {"poisson", 0}, {"density", 1000}};
+  json["gravity"] = {0, 0, 0};
+  json["damping"] = 20;
+  json["stretch"] = {1.2, 1, 1};
+  json["attachments"] = {{{"below", {-1, 0, 0, -2.999}}}, {{"below", {1, 0, 0, 0.001}}, {"stiffness", 1e4}}};
+  const app::Scene scene = parsed(json);
+  EXPECT_EQ(parsed(Json::parse(app::to_json(scene))).stretch, Vec3(1.2, 1, 1));
+  Simulation simulation = make_simulation(scene, std::move(load_model(scene)->mesh)).value();
+  double high = 0;
+  simulation.mesh().for_each_vertex([&](VertexId v) { high = std::max(high, simulation.mesh().current(v).x()); });
+  EXPECT_DOUBLE_EQ(high, 3.3);  // drawn out about the middle, at once
+  ASSERT_TRUE(simulation.settle(600, 1e-6).ok());
+  double held = 0;  // by the springs, which were without force at -0.3
+  simulation.mesh().for_each_vertex([&](VertexId v) {
+    if (simulation.mesh().rest(v).x() < 0.001) held += 1e4 * 0.01 * (simulation.mesh().current(v).x() + 0.3);
+  });
+  const double mu = 5000, s = 1.2, across2 = (2 * s - 1) / (s * s), volume = s * across2;
+  const double pull = mu * (s + (volume - 2) * across2) * 1e-4;
+  EXPECT_NEAR(held, pull, 0.03 * pull);
+}
+
 TEST(Scene, refuses_a_suture_where_there_is_no_tissue) {
   Json json = full_scene();
   json["sutures"][0]["to"] = {0.7, 0.3, 1.9};
@@ -432,6 +504,7 @@ std::set<std::string> keys_of(const Json& object) {
 /// The keys that the reader names where it meets one that it does not know.
 std::set<std::string> known_at(const std::string& pointer) {
   Json scene = full_scene();
+  scene["model"]["bodies"] = {{{"box", {{"cells", {1, 1, 1}}}}}};
   Json& object = scene[Json::json_pointer(pointer)];
   object["nonsense"] = 1;
   const std::string error = error_of(scene);
@@ -453,11 +526,13 @@ TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
   const std::vector<std::pair<std::string, std::string>> places = {
       {"", ""},
       {"/model", "/properties/model"},
-      {"/model/box", "/properties/model/properties/box"},
+      {"/model/box", "/$defs/box"},
+      {"/model/bodies/0", "/properties/model/properties/bodies/items"},
       {"/model/regions/0", "/properties/model/properties/regions/items"},
       {"/materials", "/properties/materials"},
       {"/materials/default", "/properties/materials/properties/default"},
       {"/materials/regions/0", "/properties/materials/properties/regions/items"},
+      {"/materials/default/prony/0", "/$defs/prony"},
       {"/attachments/0", "/properties/attachments/items"},
       {"/attachments/1/box", "/properties/attachments/items/properties/box"},
       {"/attachments/2/ball", "/properties/attachments/items/properties/ball"},

@@ -56,7 +56,10 @@ bool is_used(const SurfaceTopology& topology, std::size_t slot) {
 Shown shown_by(const SurfaceTopology& topology) {
   Shown shown;
   for (std::size_t slot = 0; slot < topology.triangles.size(); ++slot) {
-    if (is_used(topology, slot)) shown[topology.sides[slot].value] = topology.looks[slot];
+    if (!is_used(topology, slot)) continue;
+    TriangleLook look = topology.looks[slot];
+    look.flags = static_cast<std::uint8_t>(look.flags & ~unsigned{TriangleLook::kSmall});  // has a test of its own
+    shown[topology.sides[slot].value] = look;
   }
   return shown;
 }
@@ -143,6 +146,27 @@ TEST(SurfaceView, FollowsStrokesUndoAndRedo) {
   v.engine().undo();
   v.cut_plane(Vec3(1, -1, 0.1), 0.05);
   v.check();
+}
+
+TEST(SurfaceView, MarksTetsBelowAHundredthOfTheFirstOnes) {
+  EngineOptions options;
+  options.cut.profile = Profile::kPaper;
+  options.maintain.merge = options.maintain.improve = false;
+  Engine engine = Engine::create(cube_mesh(5), options).value();
+  SurfaceView view(engine.mesh(), engine.journal());
+  ASSERT_TRUE(engine.cut(plane_stroke({Vec3(-1, -1, -1), Vec3(2, 2, 2)}, Vec3(0.03, 0.01, 1), 0.64).value()).ok());
+  view.follow(engine.mesh(), engine.journal());
+  SurfaceFrame frame;
+  view.fill(engine.mesh(), frame);
+  std::size_t small_walls = 0;
+  for (std::size_t slot = 0; slot < frame.topology->looks.size(); ++slot) {
+    if (!is_used(*frame.topology, slot)) continue;
+    const unsigned flags = frame.topology->looks[slot].flags;
+    const double volume = engine.mesh().rest_volume(frame.topology->sides[slot].tet());
+    EXPECT_EQ((flags & TriangleLook::kSmall) != 0, volume < 0.01 / 750);
+    small_walls += (flags & TriangleLook::kSmall) != 0 && (flags & TriangleLook::kWall) != 0 ? 1U : 0U;
+  }
+  EXPECT_GT(small_walls, 50U);
 }
 
 TEST(SurfaceView, FollowsSeveralStrokesAtOnce) {
@@ -232,6 +256,36 @@ TEST(SurfaceView, FrontEdgesAreWhereAPartialCutEnds) {
     length += static_cast<double>((to - from).norm());
   }
   EXPECT_NEAR(length, 1, 0.1);
+}
+
+TEST(SurfaceView, PointsKnowTheirPlaceAtRestAndTheirDepth) {
+  View v(6, 0);
+  ASSERT_TRUE(v.engine().begin_stroke(View::pose(1.1)).ok());
+  for (const double z : {0.9, 0.7, 0.5}) ASSERT_TRUE(v.engine().step(View::pose(z)).ok());
+  ASSERT_TRUE(v.engine().end_stroke().ok());
+  v.check();
+  const SurfaceTopology& topology = v.topology();
+  ASSERT_EQ(topology.rest.size(), topology.vertices.size());
+  ASSERT_EQ(topology.depths.size(), topology.vertices.size());
+  float deepest = 0;
+  for (std::size_t slot = 0; slot < topology.triangles.size(); ++slot) {
+    if (!is_used(topology, slot)) continue;
+    const bool is_wall = (topology.looks[slot].flags & TriangleLook::kWall) != 0;
+    for (const std::uint32_t point : topology.triangles[slot]) {
+      const Eigen::Vector3f rest = v.mesh().rest(topology.vertices[point]).cast<float>();
+      EXPECT_EQ(topology.rest[point], rest);
+      // The cut reaches the skin above and at both sides; the way along edges is a little longer.
+      const float depth = std::min({1 - rest.z(), rest.y(), 1 - rest.y()});
+      if (is_wall) {
+        EXPECT_GE(topology.depths[point], depth - 0.05F);
+        EXPECT_LE(topology.depths[point], 1.5F * depth + 0.05F);
+      } else {
+        EXPECT_EQ(topology.depths[point], 0);
+      }
+      deepest = std::max(deepest, topology.depths[point]);
+    }
+  }
+  EXPECT_GT(deepest, 0.35F);
 }
 
 TEST(SurfaceView, ACompleteCutHasNoFront) {

@@ -244,16 +244,79 @@ TEST_F(ViewerTest, keys_toggle_what_is_shown) {
 
 TEST_F(ViewerTest, colours_and_panels_go_round) {
   std::set<app::ColorBy> colors;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 5; ++i) {
     colors.insert(state().options.color);
     act(Action::kColor);
   }
-  EXPECT_EQ(colors.size(), 4U);
+  EXPECT_EQ(colors.size(), 5U);
   EXPECT_EQ(state().options.color, app::ColorBy::kTissue);
+  for (const app::Panels panels : {app::Panels::kNone, app::Panels::kAll}) {
+    act(Action::kPanels);
+    EXPECT_EQ(state().panels, panels);
+  }
+  act(Action::kResearch);
+  EXPECT_TRUE(state().is_research);
   for (const app::Panels panels : {app::Panels::kFigures, app::Panels::kNone, app::Panels::kAll}) {
     act(Action::kPanels);
     EXPECT_EQ(state().panels, panels);
   }
+  act(Action::kResearch);
+  EXPECT_FALSE(state().is_research);
+}
+
+// --- a demonstration
+
+class DemonstrationTest : public ViewerTest {
+ protected:
+  void SetUp() override {
+    Json scene = cut_scene();
+    scene["view"] = {{"demonstration", true}};
+    show(opened(scene));
+  }
+  /// Makes so many frames, and waits for them.
+  void run(std::uint64_t frames) {
+    const std::uint64_t until = view().figures.frames + frames;
+    for (std::uint64_t i = 0; i < frames; ++i) thread_->step();
+    EXPECT_TRUE(sees([&](const SessionView& seen) { return seen.figures.frames == until; }));
+  }
+};
+
+TEST_F(DemonstrationTest, it_cuts_where_nobody_does_anything) {
+  EXPECT_TRUE(viewer_->is_demonstrating());
+  send(Kind::kMove, top(0.5));
+  run(30);
+  EXPECT_TRUE(viewer_->is_demonstrating());
+  EXPECT_EQ(view().figures.strokes, 1U);
+  EXPECT_EQ(viewer_->next_step(), "Press on the skin and drag: you hold the scalpel");
+}
+
+TEST_F(DemonstrationTest, the_first_press_ends_it) {
+  send(Kind::kPress, {5, 5});
+  send(Kind::kRelease, {5, 5});
+  EXPECT_FALSE(viewer_->is_demonstrating());
+  run(30);
+  EXPECT_EQ(view().figures.strokes, 0U);
+}
+
+TEST_F(DemonstrationTest, a_key_ends_it_and_a_reset_begins_it_anew) {
+  act(Action::kScreenshot);
+  EXPECT_FALSE(viewer_->is_demonstrating());
+  run(30);
+  EXPECT_EQ(view().figures.strokes, 0U);
+  act(Action::kReset);
+  ASSERT_TRUE(sees_session(2));
+  EXPECT_TRUE(viewer_->is_demonstrating());
+  run(30);
+  EXPECT_EQ(view().figures.strokes, 1U);
+}
+
+TEST_F(ViewerTest, scenes_that_are_no_demonstration_go_on_whatever_is_pressed) {
+  show(opened(cut_scene()));
+  EXPECT_FALSE(viewer_->is_demonstrating());
+  EXPECT_EQ(viewer_->next_step(), "");
+  act(Action::kTurnLeft);
+  for (int i = 0; i < 30; ++i) thread_->step();
+  EXPECT_TRUE(sees([](const SessionView& seen) { return seen.figures.strokes == 1; }));
 }
 
 TEST_F(ViewerTest, text_stays_readable) {

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// Little more than the body and the tools: what a person sees first.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "icons.h"
+#include "panel_parts.h"
+
+namespace incise_view {
+namespace {
+
+using namespace incise;
+using app::Action;
+using app::Viewer;
+
+constexpr float kIconSide = 1.55F, kButtonSide = 2.35F;  // heights of text
+constexpr float kCardWidth = 8.2F, kCardHeight = 2.6F;
+constexpr float kBottom = 4.2F;  // that the bar of time takes
+constexpr float kTimeLine = 13;
+constexpr double kInSkin = 7;  // mm of the ghost's scalpel, about
+constexpr double kFew = 0.9;   // simulated seconds per second that still count as keeping up
+
+/// A square with an icon. Returns whether it was pressed.
+bool icon_button(const char* id, Icon icon, bool is_on, const std::string& told) {
+  const float side = kButtonSide * em(), inner = kIconSide * em();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushStyleColor(ImGuiCol_Button, is_on ? ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive) : ImVec4(0, 0, 0, 0));
+  const bool is_pressed = ImGui::Button(id, {side, side});
+  ImGui::PopStyleColor();
+  const float off = 0.5F * (side - inner);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  draw_icon(list, icon, {at.x + off, at.y + off}, inner, color_of(ImGuiCol_Text));
+  if (is_on)
+    list.AddRectFilled({at.x, at.y + 0.2F * side}, {at.x + 0.14F * em(), at.y + 0.8F * side}, color_of(ImGuiCol_Text));
+  hint(told);
+  return is_pressed;
+}
+
+void action_icon(Viewer& viewer, const PanelContext& context, Action action, Icon icon, bool is_on = false) {
+  const std::string id = fmt::format("###action{}", static_cast<int>(action));
+  if (icon_button(id.c_str(), icon, is_on, fmt::format("{}  ({})", text_of(action), app::key_of(action)))) {
+    viewer.act(action, context.viewport);
+  }
+}
+
+void draw_tool_column(Viewer& viewer, const PanelContext& context) {
+  if (begin_panel("tool icons", {0, 0}, 0, ImGui::GetMainViewport()->Size.y - 2 * kMargin * em())) {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.15F * em(), 0.15F * em()});
+    // Two columns where one is too long.
+    const float needed = static_cast<float>(app::kToolCount + 2) * (kButtonSide + 0.15F) * em();
+    const bool is_tall = needed < ImGui::GetMainViewport()->Size.y - 3 * kMargin * em();
+    for (unsigned i = 0; i < app::kToolCount; ++i) {
+      const auto tool = static_cast<app::ToolKind>(i);
+      if (!is_tall && i % 2 == 1) ImGui::SameLine();
+      action_icon(viewer, context, app::action_of(tool), static_cast<Icon>(i), viewer.tools().tool() == tool);
+    }
+    action_icon(viewer, context, Action::kResearch, Icon::kResearch);
+    if (!is_tall) ImGui::SameLine();
+    action_icon(viewer, context, Action::kHelp, Icon::kHelp, std::as_const(viewer).state().shows_help);
+    ImGui::PopStyleVar();
+  }
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowSize().x;
+  ImGui::End();
+  const app::ToolKind tool = viewer.tools().tool();
+  ImGui::SetNextWindowPos({right + kMargin * em(), kMargin * em()});
+  ImGui::SetNextWindowSize({13.5F * em(), 0});
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                      ImGuiWindowFlags_NoNav;
+  if (ImGui::Begin("chosen tool", nullptr, kFlags)) {
+    text(app::name_of(tool));
+    ImGui::SameLine();
+    faint(fmt::format("({})", app::key_of(app::action_of(tool))));
+    tool_settings(viewer);
+  }
+  ImGui::End();
+}
+
+bool card(const char* id, Icon icon, const std::string& name, const std::string& told, bool is_on) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size(kCardWidth * em(), kCardHeight * em());
+  if (is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  const bool is_pressed = ImGui::Button(id, size);
+  if (is_on) ImGui::PopStyleColor();
+  hint(told);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float side = 1.7F * em();
+  draw_icon(list, icon, {at.x + 0.5F * em(), at.y + 0.5F * (size.y - side)}, side, color_of(ImGuiCol_Text));
+  list.AddText({at.x + 2.6F * em(), at.y + 0.5F * (size.y - em())}, color_of(ImGuiCol_Text), name.c_str());
+  return is_pressed;
+}
+
+std::string capital(std::string word) {
+  if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = static_cast<char>(word[0] - 'a' + 'A');
+  return word;
+}
+
+void draw_cards(Viewer& viewer, FileList& files) {
+  const float screen = ImGui::GetMainViewport()->Size.y;
+  if (begin_panel("bodies", {0.5F, 1 - kBottom * em() / screen}, 0, 2 * kBottom * em())) {
+    const app::SessionView& view = viewer.view();
+    for (std::size_t i = 0; i < app::kStartingBodies.size(); ++i) {
+      const app::StartingBodyRow& row = app::kStartingBodies[i];
+      const Icon icon = static_cast<Icon>(static_cast<std::size_t>(Icon::kSkin) + i);
+      if (i > 0) ImGui::SameLine();
+      const std::string id = fmt::format("###body{}", i);
+      if (card(id.c_str(), icon, capital(row.name), row.text, view.title == row.text)) {
+        viewer.open(static_cast<app::StartingBody>(i));
+      }
+    }
+    ImGui::SameLine();
+    if (card("###open", Icon::kFolder, "Open...", "A mesh, a scene or a recording of your own", false)) files.open();
+    if (const std::optional<std::filesystem::path> file = files.draw()) viewer.open(*file);
+  }
+  ImGui::End();
+}
+
+/// What was done so far, as dots on a line; of a recording that is played, where it stands.
+void draw_time_line(const app::SessionView& view) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size(kTimeLine * em(), kButtonSide * em());
+  ImGui::Dummy(size);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float middle = at.y + 0.5F * size.y;
+  list.AddLine({at.x, middle}, {at.x + size.x, middle}, color_of(ImGuiCol_TextDisabled), 2);
+  const double end = std::max(view.figures.seconds, 1e-3);
+  std::string newest;
+  for (const app::Operation& operation : *view.log) {
+    const float x = at.x + size.x * static_cast<float>(std::clamp(operation.time / end, 0.0, 1.0));
+    const bool is_cut = operation.kind == app::Operation::Kind::kStroke;
+    list.AddCircleFilled({x, middle}, (is_cut ? 0.32F : 0.2F) * em(),
+                         color_of(is_cut ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+    newest += fmt::format("{}{:.1f} s  {}", newest.empty() ? "" : "\n", operation.time, operation.text);
+  }
+  hint(newest.empty() ? "What you do is marked on this line" : newest);
+}
+
+void draw_time_bar(Viewer& viewer, const PanelContext& context, bool& shows_bodies) {
+  const app::SessionView& view = viewer.view();
+  if (begin_panel("time bar", {0.5F, 1}, 0, 2 * kBottom * em())) {
+    action_icon(viewer, context, Action::kUndo, Icon::kUndo);
+    ImGui::SameLine();
+    action_icon(viewer, context, Action::kRedo, Icon::kRedo);
+    ImGui::SameLine();
+    action_icon(viewer, context, Action::kPause, view.is_paused ? Icon::kGo : Icon::kPause);
+    ImGui::SameLine();
+    if (view.is_replay) {
+      replay_line(viewer, context);
+    } else {
+      draw_time_line(view);
+    }
+    ImGui::SameLine();
+    action_icon(viewer, context, Action::kReset, Icon::kRestart);
+    ImGui::SameLine();
+    action_icon(viewer, context, Action::kScreenshot, Icon::kPicture);
+    ImGui::SameLine();
+    if (icon_button("###other bodies", Icon::kBodies, shows_bodies, "Other bodies to cut"))
+      shows_bodies = !shows_bodies;
+  }
+  ImGui::End();
+}
+
+/// A dot and a few words on a rounded ground. Returns where its left edge is.
+float pill(float right, const app::Color& light, const std::string& words, const std::string& told, const char* id) {
+  const float pad = 0.7F * em(), height = 1.9F * em(), dot = 0.36F * em();
+  const float width = ImGui::CalcTextSize(words.c_str()).x + 2 * pad + 1.1F * em();
+  const ImVec2 at(right - width, kMargin * em());
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5F * height);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                      ImGuiWindowFlags_NoNav;
+  if (ImGui::Begin(id, nullptr, kFlags)) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddCircleFilled({at.x + pad + dot, at.y + 0.5F * height}, dot, color_of(light));
+    list.AddText({at.x + pad + 1.1F * em(), at.y + 0.5F * (height - em())}, color_of(ImGuiCol_Text), words.c_str());
+    if (ImGui::IsWindowHovered()) ImGui::SetTooltip("%s", told.c_str());
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  return at.x - 0.5F * em();
+}
+
+void draw_pills(const Viewer& viewer, const PanelContext& context) {
+  constexpr app::Color kGrey = {150, 150, 150}, kYellow = {240, 228, 66}, kGreen = {0, 158, 115}, kRed = {213, 94, 0};
+  const app::SessionView& view = viewer.view();
+  float right = ImGui::GetMainViewport()->Size.x - kMargin * em();
+  constexpr std::array<const char*, 4> kWords = {"Not checked yet", "Checking", "Sound mesh", "Broken mesh"};
+  constexpr std::array<app::Color, 4> kLights = {kGrey, kYellow, kGreen, kRed};
+  const auto state = static_cast<std::size_t>(view.validity.state);
+  right = pill(right, kLights[state], kWords[state],
+               "Whether the mesh can be simulated, checked after every stroke: " + view.validity.text, "validity pill");
+  const bool keeps_up = view.real_time >= kFew;
+  const std::string rate = view.is_paused ? "Paused"
+                           : keeps_up     ? "Real time"
+                                          : fmt::format("{:.0f} % of real time", 100 * view.real_time);
+  const std::string told = fmt::format("{:.0f} pictures and {:.0f} steps of the simulation each second{}",
+                                       viewer.hud().pictures_per_second(), view.steps_per_second,
+                                       context.is_software ? "; the processor draws" : "");
+  pill(right, view.is_paused ? kGrey : keeps_up ? kGreen : kYellow, rate, told, "rate pill");
+}
+
+/// One line in the upper middle: what happens, what was refused, or what to do next.
+void draw_caption(const Viewer& viewer) {
+  const app::SessionView& view = viewer.view();
+  const std::string& notice = viewer.state().notice;
+  const std::string_view next = viewer.next_step();
+  const std::string line = !view.busy.empty() ? view.busy + "..." : !notice.empty() ? notice : std::string(next);
+  if (line.empty()) return;
+  const ImVec2 screen = ImGui::GetMainViewport()->Size;
+  const float most = std::max(10 * em(), screen.x - 44 * em());
+  const float wanted = std::min(ImGui::CalcTextSize(line.c_str()).x + 2 * ImGui::GetStyle().WindowPadding.x + 1, most);
+  // Below the pills, which may be wide.
+  ImGui::SetNextWindowPos({0.5F * screen.x, 3.1F * em()}, ImGuiCond_Always, {0.5F, 0});
+  ImGui::SetNextWindowSize({wanted, 0});
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
+                                      ImGuiWindowFlags_NoNav;
+  if (ImGui::Begin("caption", nullptr, kFlags)) {
+    ImGui::PushTextWrapPos(0);
+    text(line);
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::End();
+}
+
+/// Beside the blade that nobody holds.
+void draw_ghost_hand(const Viewer& viewer, const PanelContext& context) {
+  if (!viewer.is_demonstrating()) return;
+  for (const app::Instrument& instrument : viewer.view().marks.instruments) {
+    if (!instrument.is_ghost) continue;
+    if (instrument.kind != app::InstrumentKind::kScalpel) continue;
+    const Vec3 on_skin = instrument.tip + kInSkin * instrument.millimetre * instrument.up;
+    const std::optional<app::Vec2> at = to_pixel(viewer.picture().camera, context.viewport, on_skin);
+    if (!at) continue;
+    const float side = 2.6F * em();
+    const ImVec2 finger(static_cast<float>(at->x()), static_cast<float>(at->y()));
+    const ImVec2 corner(finger.x - 0.43F * side, finger.y - 0.12F * side);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddCircle(finger, 0.55F * em(), IM_COL32(255, 255, 255, 190), 24, 2);
+    draw_icon(list, Icon::kHand, {corner.x + 1.5F, corner.y + 1.5F}, side, IM_COL32(0, 0, 0, 150));
+    draw_icon(list, Icon::kHand, corner, side, IM_COL32(255, 255, 255, 230));
+  }
+}
+
+}  // namespace
+
+void FirstPanels::draw(Viewer& viewer, const PanelContext& context) {
+  const app::SessionView& view = viewer.view();
+  // The first cut of one's own: now the body is what matters.
+  if (!viewer.is_demonstrating() && view.figures.strokes > strokes_) shows_bodies_ = false;
+  strokes_ = view.figures.strokes;
+  draw_ghost_hand(viewer, context);
+  draw_tool_column(viewer, context);
+  draw_pills(viewer, context);
+  draw_time_bar(viewer, context, shows_bodies_);
+  if (shows_bodies_) draw_cards(viewer, files_);
+  draw_caption(viewer);
+}
+
+}  // namespace incise_view

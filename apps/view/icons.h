@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Line drawings for buttons, made in code: no font and no picture is needed.
+#pragma once
+
+#include <imgui.h>
+
+#include <cstdint>
+
+namespace incise_view {
+
+/// The first ones are the tools, in the order of `ToolKind`.
+enum class Icon : std::uint8_t {
+  kTurn,
+  kScalpel,
+  kPlane,
+  kForceps,
+  kPin,
+  kProbe,
+  kHook,
+  kRetractor,
+  kScissors,
+  kPunch,
+  kSuture,
+  kStaple,
+  kUndo,
+  kRedo,
+  kPause,
+  kGo,
+  kRestart,
+  kPicture,
+  kResearch,
+  kHelp,
+  kBodies,
+  kSkin,
+  kLiver,
+  kVein,
+  kVertebra,
+  kFolder,
+  kHand,
+};
+
+/// Draws an icon in a square. `color` as Dear ImGui packs it.
+void draw_icon(ImDrawList& list, Icon icon, const ImVec2& corner, float side, ImU32 color);
+
+}  // namespace incise_view

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panel_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace incise_view {
+
+using namespace incise;
+using app::Action;
+using app::Viewer;
+
+namespace {
+
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+
+}  // namespace
+
+float em() {
+  return ImGui::GetFontSize();
+}
+void text(const std::string& line) {
+  ImGui::TextUnformatted(line.c_str());
+}
+void faint(const std::string& line) {
+  ImGui::TextDisabled("%s", line.c_str());
+}
+ImU32 color_of(ImGuiCol name, float opacity) {
+  return ImGui::GetColorU32(name, opacity);
+}
+ImU32 color_of(const app::Color& c) {
+  return IM_COL32(c[0], c[1], c[2], 255);
+}
+
+void heading(const char* name) {
+  ImGui::Spacing();
+  faint(name);
+}
+
+bool begin_panel(const char* name, const ImVec2& at, float width, float most_height) {
+  const ImGuiViewport* screen = ImGui::GetMainViewport();
+  const float margin = kMargin * em();
+  const ImVec2 inner(screen->Size.x - 2 * margin, screen->Size.y - 2 * margin);
+  ImGui::SetNextWindowPos({margin + at.x * inner.x, margin + at.y * inner.y}, ImGuiCond_Always, at);
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width > 0 ? width : inner.x, most_height});
+  return ImGui::Begin(name, nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
+void hint(const std::string& line) {
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", line.c_str());
+}
+
+std::string_view text_of(Action action) {
+  for (const app::KeyBinding& binding : app::key_bindings()) {
+    if (binding.action == action) return binding.text;
+  }
+  return {};
+}
+
+void action_button(Viewer& viewer, const PanelContext& context, Action action, const char* label, bool is_on,
+                   float width) {
+  if (is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  const std::string caption = fmt::format("{}{}###{}", is_on ? "> " : "", label, label);  // not by colour alone
+  if (ImGui::Button(caption.c_str(), {width, 0})) viewer.act(action, context.viewport);
+  if (is_on) ImGui::PopStyleColor();
+  hint(fmt::format("{}  ({})", text_of(action), app::key_of(action)));
+}
+
+bool tool_settings(Viewer& viewer) {
+  app::ToolSettings settings = viewer.tools().settings();
+  const double unit = viewer.view().scene ? 1e3 * viewer.view().scene->options.body.length_unit : 1;  // mm
+  bool has_changed = false, has_any = false;
+  ImGui::PushItemWidth(-1);
+  const app::ToolKind tool = viewer.tools().tool();
+  const auto length = [&](const char* name, const char* format, double& value) {
+    has_any = true;
+    auto shown = static_cast<float>(value * unit);
+    if (!ImGui::DragFloat(name, &shown, 0.02F * shown, 1e-3F, 1e4F, format)) return;
+    value = static_cast<double>(shown) / unit;
+    has_changed = true;
+  };
+  if (tool == app::ToolKind::kScalpel || tool == app::ToolKind::kScissors || tool == app::ToolKind::kPunch) {
+    length("##depth", "Depth %.1f mm", settings.depth);
+    hint("Drag, or Ctrl+wheel over the picture");
+  }
+  if (tool == app::ToolKind::kPunch) length("##ring", "Ring %.1f mm", settings.punch_radius);
+  if (tool == app::ToolKind::kScalpel) {
+    auto angle = static_cast<float>(settings.angle * 180 / std::numbers::pi);
+    if (ImGui::SliderFloat("##angle", &angle, -68, 68, "Angle %.0f deg")) {
+      settings.angle = static_cast<double>(angle) * std::numbers::pi / 180;
+      has_changed = true;
+    }
+    hint("Drag, or Shift+wheel over the picture");
+  }
+  if (tool == app::ToolKind::kGrasp || tool == app::ToolKind::kHook || tool == app::ToolKind::kRetractor) {
+    length("##radius", "Grip %.1f mm", settings.grasp_radius);
+  }
+  ImGui::PopItemWidth();
+  if (has_changed) viewer.tools().set(settings);
+  return has_any;
+}
+
+void replay_line(Viewer& viewer, const PanelContext& context) {
+  const app::SessionView& view = viewer.view();
+  auto call = static_cast<int>(view.place.call);
+  ImGui::SetNextItemWidth(18 * em());
+  const std::string format = fmt::format("%d of {}", view.place.calls);
+  if (ImGui::SliderInt("##place", &call, 0, static_cast<int>(view.place.calls), format.c_str())) {
+    viewer.session().seek(static_cast<std::uint64_t>(std::max(call, 0)));
+  }
+  ImGui::SameLine();
+  action_button(viewer, context, Action::kNextStep, "Next step", false);
+  ImGui::SameLine();
+  action_button(viewer, context, Action::kTakeOver, "Take over", false);
+}
+
+}  // namespace incise_view

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/jobs/batch_job.h"
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "app/jobs/batch_files.h"
+#include "app/jobs/batch_item.h"
+#include "app/jobs/batch_lines.h"
+#include "app/text/json_write.h"
+#include "app/text/text_file.h"
+#include "incise/core/hash.h"
+#include "incise/version.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxListed = 100;
+constexpr const char* kResults = "results.jsonl";
+
+// --- one worker
+
+class Worker {
+ public:
+  Worker(const BatchPlan& plan, const BatchJob& job) : plan_(plan), job_(job) {
+    report_.plan = plan.name;
+    report_.shard = job.shard;
+  }
+
+  Result<BatchReport> run() {
+    std::error_code code;
+    fs::create_directory(job_.folder, code);
+    Result<ShardFile> file = ShardFile::open(job_.folder, job_.shard);
+    if (!file.ok()) return file.error();
+    const Result<std::vector<std::size_t>> left = items_left();
+    if (!left.ok()) return left.error();
+    for (const std::size_t index : *left) {
+      if (job_.progress)
+        job_.progress(static_cast<std::size_t>(report_.skipped + report_.done),
+                      static_cast<std::size_t>(report_.items));
+      if (job_.should_stop && job_.should_stop()) report_.was_stopped = true;
+      if (report_.was_stopped) break;
+      if (const Status status = run_one(index, *file); !status.ok()) return status.error();
+    }
+    if (job_.progress)
+      job_.progress(static_cast<std::size_t>(report_.skipped + report_.done), static_cast<std::size_t>(report_.items));
+    return std::move(report_);
+  }
+
+ private:
+  /// Of the shard, without those that any worker has done.
+  Result<std::vector<std::size_t>> items_left() {
+    const Result<BatchLines> lines = read_batch_lines(plan_, job_.folder);
+    if (!lines.ok()) return lines.error();
+    std::vector<bool> is_done(plan_.items.size()), is_broken(plan_.items.size());
+    BatchFiles files(job_.folder, job_.retry ? BatchFiles::Care::kContent : BatchFiles::Care::kSizes);
+    for (const BatchLine& line : lines->lines) {
+      const auto item = static_cast<std::size_t>(line.item);
+      if (!job_.shard.has(item)) continue;
+      if (!line.has_failed || !job_.retry) is_done[item] = true;
+      if (take_away_broken(files, line)) is_broken[item] = true;
+    }
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < is_done.size(); ++i) {
+      if (!job_.shard.has(i)) continue;
+      ++report_.items;
+      if (!is_done[i] || is_broken[i]) left.push_back(i);
+    }
+    report_.skipped = report_.items - left.size();
+    return left;
+  }
+  /// Files that are not as a line has them give way to new ones. Whether there were any.
+  bool take_away_broken(BatchFiles& files, const BatchLine& line) const {
+    const std::vector<std::string> broken = files.broken(line);
+    std::error_code ignored;
+    for (const std::string& name : broken) fs::remove(job_.folder / name, ignored);
+    return !broken.empty();
+  }
+  Status run_one(std::size_t index, ShardFile& file) {
+    const BatchItemJob item_job{job_.folder, name_of(job_.shard), job_.threads, job_.log, job_.should_stop};
+    const Result<BatchItemResult> result = run_item(plan_, index, item_job);
+    if (!result.ok()) return result.error();
+    report_.was_stopped = result->was_stopped;
+    if (report_.was_stopped) return {};
+    if (Status status = file.append(result->line); !status.ok()) return status;
+    ++report_.done;
+    if (result->has_failed) {
+      const Json line = Json::parse(result->line);
+      report_.failed.push_back(plan_.items[index].name + ": " + line["error"]["message"].get<std::string>());
+    }
+    return {};
+  }
+
+  const BatchPlan& plan_;
+  const BatchJob& job_;
+  BatchReport report_;
+};
+
+// --- the merge
+
+class Merger {
+ public:
+  Merger(const BatchPlan& plan, const fs::path& folder)
+      : plan_(plan), folder_(folder), files_(folder, BatchFiles::Care::kContent) {
+    report_.plan = plan.name;
+    report_.items = plan.items.size();
+  }
+
+  Result<MergeReport> run() {
+    Result<BatchLines> lines = read_batch_lines(plan_, folder_);
+    if (!lines.ok()) return lines.error();
+    report_.shards = lines->shards;
+    if (lines->shards == 0) {
+      return Error{
+          ErrorCode::kBadFile, folder_.string() + ": has no results; run incise batch with -o there first", {}};
+    }
+    chosen_.assign(plan_.items.size(), nullptr);
+    for (const BatchLine& line : lines->lines) choose(line);
+    for (std::size_t i = 0; i < chosen_.size(); ++i) look_at(i);
+    if (!report_.is_whole()) return std::move(report_);
+    return write();
+  }
+
+ private:
+  /// A result takes the place of a failure; of two others, which must be equal, the first stays.
+  void choose(const BatchLine& line) {
+    const BatchLine*& chosen = chosen_[static_cast<std::size_t>(line.item)];
+    if (chosen == nullptr || (chosen->has_failed && !line.has_failed)) {
+      chosen = &line;
+    } else if (!line.has_failed || chosen->has_failed) {
+      ++report_.repeated;
+      const std::string& name = plan_.items[static_cast<std::size_t>(line.item)].name;
+      const bool is_told = !report_.contradictory.empty() && report_.contradictory.back() == name;
+      if (chosen->text != line.text && !is_told) report_.contradictory.push_back(name);
+    }
+  }
+  void look_at(std::size_t index) {
+    const BatchLine* line = chosen_[index];
+    if (line == nullptr) return report_.missing.push_back(plan_.items[index].name);
+    report_.failed += line->has_failed ? 1 : 0;
+    for (std::string& name : files_.broken(*line)) report_.broken_files.push_back(std::move(name));
+  }
+  Result<MergeReport> write() {
+    std::string text;
+    for (const BatchLine* line : chosen_) text += line->text;
+    report_.file = folder_ / kResults;
+    if (const Status status = write_text_file(report_.file, text); !status.ok()) return status.error();
+    return std::move(report_);
+  }
+
+  const BatchPlan& plan_;
+  const fs::path& folder_;
+  MergeReport report_;
+  BatchFiles files_;
+  std::vector<const BatchLine*> chosen_;
+};
+
+// --- computing again
+
+/// `count` of the lines with a result, one of each item, in the order of the plan: those with the least hashes.
+std::vector<const BatchLine*> sample(const std::vector<BatchLine>& lines, std::uint64_t count, std::uint64_t seed) {
+  std::map<std::uint64_t, const BatchLine*> by_item;
+  for (const BatchLine& line : lines) {
+    if (!line.has_failed) by_item.emplace(line.item, &line);
+  }
+  std::vector<std::pair<std::uint64_t, const BatchLine*>> drawn;
+  for (const auto& [item, line] : by_item) {
+    StateHash hash;
+    hash.add(seed);
+    hash.add(item);
+    drawn.emplace_back(hash.value(), line);
+  }
+  std::sort(drawn.begin(), drawn.end());
+  if (drawn.size() > count) drawn.resize(static_cast<std::size_t>(count));
+  std::vector<const BatchLine*> chosen;
+  for (const auto& [hash, line] : drawn) chosen.push_back(line);
+  std::sort(chosen.begin(), chosen.end(), [](const auto* a, const auto* b) { return a->item < b->item; });
+  return chosen;
+}
+
+/// How an item differs from its line; empty where it does not.
+std::string difference(const BatchItemResult& now, const BatchLine& line) {
+  if (now.has_failed) return "it fails now: " + now.line;
+  if (now.hash != line.hash) return "hash " + hash_text(now.hash) + " now, " + hash_text(line.hash) + " in the results";
+  if (now.state_hash == line.state_hash) return {};
+  return "state_hash " + hash_text(now.state_hash) + " now, " + hash_text(line.state_hash) + " in the results";
+}
+
+Json head(const char* what, const std::string& plan, std::uint64_t items) {
+  return {{"format", "incise-batch"},
+          {"version", 1},
+          {"program", "incise " INCISE_VERSION},
+          {"what", what},
+          {"plan", plan},
+          {"items", items}};
+}
+
+Json listed(const std::vector<std::string>& names) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < names.size() && i < kMaxListed; ++i) list.push_back(names[i]);
+  return {{"count", names.size()}, {"first", std::move(list)}};
+}
+
+std::string text_of(const Json& root) {
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+Result<BatchReport> run_batch(const BatchPlan& plan, const BatchJob& job) {
+  return Worker(plan, job).run();
+}
+
+Result<MergeReport> merge_batch(const BatchPlan& plan, const fs::path& folder) {
+  return Merger(plan, folder).run();
+}
+
+Result<VerifyReport> verify_batch(const BatchPlan& plan, const VerifyJob& job) {
+  const Result<BatchLines> lines = read_batch_lines(plan, job.folder);
+  if (!lines.ok()) return lines.error();
+  const std::vector<const BatchLine*> chosen = sample(lines->lines, job.items, job.seed);
+  if (chosen.empty()) {
+    return Error{
+        ErrorCode::kBadFile, job.folder.string() + ": has no results to compare with; run the batch first", {}};
+  }
+  VerifyReport report;
+  report.plan = plan.name;
+  const BatchItemJob item_job{{}, {}, job.threads, job.log, job.should_stop};
+  for (const BatchLine* line : chosen) {
+    if (job.progress) job.progress(static_cast<std::size_t>(report.items), chosen.size());
+    if (job.should_stop && job.should_stop()) report.was_stopped = true;
+    if (report.was_stopped) return report;
+    const auto index = static_cast<std::size_t>(line->item);
+    const Result<BatchItemResult> now = run_item(plan, index, item_job);
+    if (!now.ok()) return now.error();
+    report.was_stopped = now->was_stopped;
+    if (report.was_stopped) return report;
+    ++report.items;
+    const std::string text = difference(*now, *line);
+    if (!text.empty()) report.differences.push_back(plan.items[index].name + ": " + text);
+  }
+  if (job.progress) job.progress(chosen.size(), chosen.size());
+  return report;
+}
+
+std::string to_json(const BatchReport& report) {
+  Json root = head("run", report.plan, report.items);
+  root["shard"] = {{"index", report.shard.index}, {"count", report.shard.count}};
+  root["skipped"] = report.skipped;
+  root["done"] = report.done;
+  root["stopped"] = report.was_stopped;
+  root["failed"] = listed(report.failed);
+  return text_of(root);
+}
+
+std::string to_json(const MergeReport& report) {
+  Json root = head("merge", report.plan, report.items);
+  root["ok"] = report.is_whole();
+  root["file"] = report.file.string();
+  root["shards"] = report.shards;
+  root["failed"] = report.failed;
+  root["repeated"] = report.repeated;
+  root["missing"] = listed(report.missing);
+  root["contradictory"] = listed(report.contradictory);
+  root["broken_files"] = listed(report.broken_files);
+  return text_of(root);
+}
+
+std::string to_json(const VerifyReport& report) {
+  Json root = head("verify", report.plan, report.items);
+  root["ok"] = report.differences.empty();
+  root["stopped"] = report.was_stopped;
+  root["differences"] = listed(report.differences);
+  return text_of(root);
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

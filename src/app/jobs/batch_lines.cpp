@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/jobs/batch_lines.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "app/text/json_tree.h"
+#include "app/text/json_write.h"
+#include "app/text/line_source.h"
+#include "app/text/range_reader.h"
+#include "app/text/write_all.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr mode_t kMode = 0666;
+constexpr off_t kChunk = 4096;
+
+/// Reads the fields that the program needs again.
+class BatchLineReader {
+ public:
+  BatchLineReader(const BatchPlan& plan, std::string_view file_name) : plan_(plan), read_(file_name) {}
+
+  bool run(const JsonValue& root, BatchLine& line) {
+    if (root.kind != JsonValue::Kind::kObject) return read_.fail(root, "", "must be an object");
+    return read_item(root, line) && read_figures(root, line);
+  }
+  [[nodiscard]] const Error& error() const { return read_.error(); }
+
+ private:
+  bool read_item(const JsonValue& root, BatchLine& line) {
+    const JsonValue* item = read_.member(root, "", "item");
+    const JsonValue* key = item ? read_.member(root, "", "key") : nullptr;
+    std::uint64_t found = 0;
+    if (key == nullptr || !read_.whole(*item, "item", line.item) || !read_hash(*key, "key", found)) return false;
+    if (line.item < plan_.items.size() && plan_.items[static_cast<std::size_t>(line.item)].key == found) return true;
+    return read_.fail(root, "item " + std::to_string(line.item),
+                      "is of another plan, or of this plan before it was changed; use another folder");
+  }
+  bool read_figures(const JsonValue& root, BatchLine& line) {
+    line.has_failed = root.find("error") != nullptr;
+    if (line.has_failed) return true;
+    const JsonValue* hash = read_.member(root, "", "hash");
+    const JsonValue* state = root.find("state_hash");
+    return hash != nullptr && read_hash(*hash, "hash", line.hash) &&
+           (state == nullptr || read_hash(*state, "state_hash", line.state_hash)) && read_input(root, line) &&
+           read_file(root, line);
+  }
+  bool read_input(const JsonValue& root, BatchLine& line) {
+    const JsonValue* input = read_.member(root, "", "input");
+    if (input == nullptr || !read_file_name(*input, "input", "file", "before/", line.input_file)) return false;
+    const JsonValue* vertices = read_.member(*input, "input", "vertices");
+    const JsonValue* tets = vertices ? read_.member(*input, "input", "tets") : nullptr;
+    return tets != nullptr && read_.whole(*vertices, "input.vertices", line.input_vertices) &&
+           read_.whole(*tets, "input.tets", line.input_tets);
+  }
+  bool read_file(const JsonValue& root, BatchLine& line) {
+    if (!read_file_name(root, "", "strokes_file", "strokes/", line.strokes_file) ||
+        !read_file_name(root, "", "file", "after/", line.file)) {
+      return false;
+    }
+    if (line.file.empty()) return true;
+    const JsonValue* bytes = read_.member(root, "", "file_bytes");
+    const JsonValue* hash = bytes ? read_.member(root, "", "file_hash") : nullptr;
+    return hash != nullptr && read_.whole(*bytes, "file_bytes", line.file_bytes) &&
+           read_hash(*hash, "file_hash", line.file_hash);
+  }
+  /// One of the folder's own, since broken ones are removed; none is fine.
+  bool read_file_name(const JsonValue& object, const std::string& path, const char* key, std::string_view folder,
+                      std::string& out) {
+    const JsonValue* value = object.find(key);
+    if (value == nullptr) return true;
+    if (!read_.text(*value, under(path, key), out)) return false;
+    const bool is_own = out.rfind(folder, 0) == 0 && out.size() > folder.size() && out[folder.size()] != '.' &&
+                        out.find_first_of("/\\", folder.size()) == std::string::npos;
+    return is_own || read_.fail(*value, under(path, key),
+                                "must name a file in " + std::string(folder) + " of the batch's folder");
+  }
+  bool read_hash(const JsonValue& value, const std::string& path, std::uint64_t& out) {
+    std::string text;
+    if (!read_.text(value, path, text)) return false;
+    if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos) {
+      return read_.fail(value, path, "must be 16 hexadecimal digits in lower case");
+    }
+    out = std::stoull(text, nullptr, 16);
+    return true;
+  }
+
+  const BatchPlan& plan_;
+  RangeReader read_;
+};
+
+Status read_shard_file(const BatchPlan& plan, const fs::path& path, BatchLines& out) {
+  Result<LineSource> source = LineSource::open(path);
+  if (!source.ok()) return source.error();
+  std::string text;
+  while (true) {
+    const Result<bool> got = source->next(text);
+    if (!got.ok()) return got.error();
+    if (!*got) break;
+    const Result<JsonValue> root = parse_json(text, source->file_name(), {}, source->number());
+    if (!root.ok()) return root.error();
+    BatchLineReader reader(plan, source->file_name());
+    BatchLine line;
+    if (!reader.run(*root, line)) return reader.error();
+    line.text = text + "\n";
+    out.lines.push_back(std::move(line));
+  }
+  if (source->is_cut_off()) ++out.cut_off;
+  return {};
+}
+
+bool is_shard_file(const fs::path& path) {
+  return path.filename().string().rfind("shard-", 0) == 0 && path.extension() == ".jsonl";
+}
+
+}  // namespace
+
+std::string name_of(const Shard& shard) {
+  return fmt::format("shard-{:05}-of-{:05}", shard.index, shard.count);
+}
+
+Result<BatchLines> read_batch_lines(const BatchPlan& plan, const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code code;
+  for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+    if (is_shard_file(at->path())) files.push_back(at->path());
+  }
+  std::sort(files.begin(), files.end());
+  BatchLines lines;
+  lines.shards = files.size();
+  for (const fs::path& file : files) {
+    if (const Status status = read_shard_file(plan, file, lines); !status.ok()) return status.error();
+  }
+  return lines;
+}
+
+Result<ShardFile> ShardFile::open(const fs::path& folder, const Shard& shard) {
+  const fs::path path = folder / (name_of(shard) + ".jsonl");
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kMode);
+  if (file < 0) return write_error(path);
+  ShardFile opened(path, file);
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {  // file systems without locks do without
+    return Error{ErrorCode::kBadArgument,
+                 path.string() + ": another worker is at this shard; wait for it, or give this one another",
+                 {}};
+  }
+  if (const Status status = opened.take_off_unfinished(); !status.ok()) return status.error();
+  return opened;
+}
+
+ShardFile::ShardFile(ShardFile&& other) noexcept
+    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
+
+ShardFile::~ShardFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+Status ShardFile::take_off_unfinished() {
+  const off_t size = ::lseek(file_, 0, SEEK_END);
+  off_t end = size;  // behind the last newline
+  char chunk[kChunk];
+  while (end > 0) {
+    const off_t begin = std::max<off_t>(0, end - kChunk);
+    const ssize_t got = ::pread(file_, chunk, static_cast<std::size_t>(end - begin), begin);
+    if (got != end - begin) return write_error(path_);
+    const auto* found = static_cast<const char*>(::memrchr(chunk, '\n', static_cast<std::size_t>(got)));
+    if (found != nullptr) {
+      end = begin + (found - chunk) + 1;
+      break;
+    }
+    end = begin;
+  }
+  return end == size || ::ftruncate(file_, end) == 0 ? Status() : Status(write_error(path_));
+}
+
+Status ShardFile::append(std::string_view line) {
+  return write_all(file_, line, path_);
+}
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The results of a batch as its workers write them: a file of JSON lines for each shard.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/jobs/batch_plan.h"
+#include "app/jobs/batch_shard.h"
+#include "incise/core/result.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+
+/// A line of an item, as far as the program reads it again.
+struct BatchLine {
+  std::uint64_t item = 0;
+  bool has_failed = false;
+  std::string text;  ///< the whole line, with its newline
+  std::string file;  ///< with the mesh after the cut, seen from the folder; may be empty
+  std::uint64_t file_bytes = 0, file_hash = 0;
+  std::string strokes_file;  ///< likewise
+  std::string input_file;    ///< with the mesh before it; likewise
+  std::uint64_t input_vertices = 0, input_tets = 0;
+  std::uint64_t hash = 0, state_hash = 0;
+};
+
+/// Which lines a folder has, of all its shards, and of which there may be several of one item.
+struct BatchLines {
+  std::vector<BatchLine> lines;  ///< by shard file, in the order of their names, then as they stand there
+  std::size_t shards = 0;        ///< files
+  std::uint64_t cut_off = 0;     ///< lines without an end: their workers were killed, or are writing them
+};
+
+/// "shard-00001-of-00004", of which the file is `.jsonl`.
+[[nodiscard]] std::string name_of(const Shard& shard);
+
+/// Reads the lines of all shards in a folder; none where the folder is not there.
+/// Errors: kBadFile "FILE:LINE: what" for a line that is no result, or one of another plan. Cost: O(lines).
+[[nodiscard]] Result<BatchLines> read_batch_lines(const BatchPlan& plan, const std::filesystem::path& folder);
+
+/// The file of a shard, to which one worker at a time appends.
+///
+/// A line is in the hands of the operating system once `append` returns: a worker that is killed loses what it was
+/// computing, and nothing else. Not thread-safe.
+class ShardFile {
+ public:
+  /// Opens, or makes, the file, and takes a line off its end that a killed worker did not finish.
+  /// Errors: kIo where it cannot be written; kBadArgument where another worker has it open.
+  static Result<ShardFile> open(const std::filesystem::path& folder, const Shard& shard);
+  ShardFile(ShardFile&& other) noexcept;
+  ShardFile& operator=(ShardFile&& other) = delete;
+  ShardFile(const ShardFile&) = delete;
+  ShardFile& operator=(const ShardFile&) = delete;
+  ~ShardFile();
+
+  /// Appends a line, in one write. Errors: kIo, naming the file.
+  Status append(std::string_view line);
+
+ private:
+  ShardFile(std::filesystem::path path, int file) : path_(std::move(path)), file_(file) {}
+  Status take_off_unfinished();
+
+  std::filesystem::path path_;
+  int file_ = -1;
+};
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

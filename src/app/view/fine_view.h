@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "app/scene/scene.h"
+#include "app/view/surface_view.h"
+#include "incise/mesh/components.h"
+#include "incise/mesh/drawn_surface.h"
+#include "incise/mesh/embedded_surface.h"
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+
+/// Shows a fine surface that a body carries in the place of the skin of its mesh.
+class FineView {
+ public:
+  /// Takes a surface that is bound.
+  explicit FineView(EmbeddedSurface surface) : surface_(std::move(surface)) {}
+
+  /// Binds one to a mesh as it stands. Errors: as `EmbeddedSurface::bind`.
+  static Result<FineView> bind(FineSurface surface, const TetMesh& mesh, const Journal& journal);
+
+  /// Catches up with the journal and fills a frame, with points that stand for vertices of their tets and without lines
+  /// at rims, which would be dots where triangles are fine. Where the
+  /// surface cannot follow it is bound anew. Errors: as `EmbeddedSurface::bind`. Cost: O(points), and O(tets) where the
+  /// topology changed.
+  Status show(const TetMesh& mesh, const Journal& journal, SurfaceFrame& frame);
+
+  /// What it shows, as `show` left it.
+  [[nodiscard]] const DrawnSurface& drawn() const { return drawn_; }
+  /// The surface itself.
+  [[nodiscard]] const EmbeddedSurface& surface() const { return surface_; }
+
+ private:
+  [[nodiscard]] std::shared_ptr<const SurfaceTopology> topology_of(const TetMesh& mesh) const;
+
+  EmbeddedSurface surface_;
+  DrawnSurface drawn_;
+  std::shared_ptr<const SurfaceTopology> topology_;
+  std::uint64_t shown_ = 0;  // version of the surface
+  std::size_t position_ = 0;
+  std::uint64_t version_ = 0;
+};
+
+/// The fine surface that a scene's model names, bound to its mesh as it stands; none where it names none. Errors: as
+/// `find_model`, `read_fine_surface` and `EmbeddedSurface::bind`.
+[[nodiscard]] Result<std::optional<FineView>> fine_view_of(const Scene& scene, const TetMesh& mesh,
+                                                           const Journal& journal);
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace incise {
+inline namespace v0 {
+namespace app {
+
+/// What the window tells a person who meets it for the first time: one line at a time, each gone once it was done.
+class FirstSteps {
+ public:
+  /// A body was opened. Without a demonstration nothing is told: the person has chosen it.
+  void begin(bool is_demonstrated);
+  /// The first input: the demonstration is over.
+  void take_over();
+  /// What there is now: strokes in the body, and whether a hand holds tissue.
+  void see(std::uint64_t strokes, bool holds, bool is_demonstrating);
+
+  [[nodiscard]] std::string_view text() const;
+
+ private:
+  enum class Step : std::uint8_t { kWatch, kCut, kOpen, kUndo, kDone };
+
+  Step step_ = Step::kDone;
+  std::uint64_t strokes_ = 0;  // at the beginning of the step
+  bool is_counted_ = false;
+};
+
+}  // namespace app
+}  // namespace v0
+}  // namespace incise

@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: Apache-2.0
+// Batches without the command: workers, restarts, merging, computing again.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/jobs/batch_job.h"
+#include "app/jobs/batch_lines.h"
+#include "incise/io/mesh_loader.h"
+#include "incise/mesh/bounds.h"
+#include "support/folder.h"
+
+namespace {
+
+using namespace incise;
+using incise_test::read;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::size_t kItems = 10;
+
+json small_scene() {
+  return json::parse(R"({"format": "incise-scene", "version": 1, "model": {"box": {"cells": [3, 3, 3]}},
+    "length_unit": 0.01, "materials": {"default": {"toughness": 100}}, "attachments": [{"below": [0, 0, 1, 0.01]}],
+    "frames": 4})");
+}
+
+json small_plan() {
+  return {{"format", "incise-plan"},
+          {"version", 1},
+          {"name", "small"},
+          {"defaults", {{"mesh", "cube.mesh"}}},
+          {"items",
+           {{{"name", "half"}, {"plane", {1, 0, 0, 0.5}}, {"label", "train"}},
+            {{"name", "random"}, {"repeat", kItems - 2}, {"random", {{"seed", 5}, {"strokes", 2}}}},
+            {{"name", "pressed"},
+             {"mesh", ""},
+             {"scene", small_scene()},
+             {"random", {{"kinds", {"slit"}}, {"seconds", 0.2}}}}}}};
+}
+
+class Batch : public testing::Test {
+ protected:
+  [[nodiscard]] app::BatchPlan plan(const json& text) const {
+    const auto read = app::parse_batch_plan(text.dump(), "plan.json", (folder_ / "cube.mesh").substr(0, root_.size()));
+    EXPECT_TRUE(read.ok()) << read.error().message;
+    return read.ok() ? *read : app::BatchPlan();
+  }
+  app::BatchReport run(const std::string& name, app::Shard shard = {}, bool retry = false) {
+    app::BatchJob job;
+    job.folder = folder_ / name;
+    job.shard = shard;
+    job.retry = retry;
+    const auto report = app::run_batch(plan_, job);
+    EXPECT_TRUE(report.ok()) << report.error().message;
+    return report.ok() ? *report : app::BatchReport();
+  }
+  /// The merged results of a folder, empty where it is not whole.
+  std::string merged(const std::string& name) {
+    const auto report = app::merge_batch(plan_, folder_ / name);
+    EXPECT_TRUE(report.ok()) << report.error().message;
+    return report.ok() && report->is_whole() ? read(report->file) : "";
+  }
+  static std::vector<json> lines_of(const std::string& text) {
+    std::vector<json> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
+    return lines;
+  }
+
+  incise_test::Folder folder_;
+  std::string root_ = fs::path(folder_ / "x").parent_path().string();
+  std::string cube_ = folder_.write("cube.mesh", incise_test::cube_mesh(3, 0.1));
+  app::BatchPlan plan_ = plan(small_plan());
+};
+
+TEST_F(Batch, results_are_the_same_whatever_the_shards_were) {
+  EXPECT_EQ(run("one").done, kItems);
+  const std::string whole = merged("one");
+  EXPECT_EQ(lines_of(whole).size(), kItems);
+  for (std::uint32_t i = 3; i-- > 0;) run("three", {i, 3});
+  EXPECT_EQ(merged("three"), whole);
+  for (const auto& at : fs::directory_iterator(folder_ / "one/after")) {
+    EXPECT_EQ(read(at.path()), read(fs::path(folder_ / "three/after") / at.path().filename()));
+  }
+}
+
+TEST_F(Batch, a_line_says_what_came_out) {
+  run("out");
+  const std::vector<json> lines = lines_of(merged("out"));
+  ASSERT_EQ(lines.size(), kItems);
+  EXPECT_EQ(lines[0]["name"], "half");
+  EXPECT_EQ(lines[0]["label"], "train");
+  EXPECT_EQ(lines[0]["pieces"], 2);
+  EXPECT_EQ(lines[0]["input"]["tets"], 162);
+  EXPECT_NEAR(lines[0]["volumes"][0].get<double>(), 0.5, 1e-12);
+  EXPECT_TRUE(lines[0]["valid"]);
+  EXPECT_GT(lines[0]["quality"]["after"]["lr_mean"], 4.8);
+  EXPECT_EQ(lines[1]["name"], "random-0000");
+  EXPECT_EQ(lines[1]["strokes"], 2);
+  const json& pressed = lines[kItems - 1];
+  EXPECT_GT(pressed["forces"]["peak_force"], 0);
+  EXPECT_TRUE(pressed.contains("state_hash"));
+  const std::string page = read(INCISE_DOCS "/batches.md");
+  for (const auto& field : pressed.items()) EXPECT_NE(page.find("`" + field.key() + "`"), page.npos) << field.key();
+  for (const json& line : lines) {
+    const auto mesh = io::load_mesh(folder_ / ("out/" + line["file"].get<std::string>()));
+    ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+    EXPECT_EQ(mesh->mesh.tet_count(), line["tets"]);
+    const auto before = io::load_mesh(folder_ / ("out/" + line["input"]["file"].get<std::string>()));
+    EXPECT_EQ(before->mesh.tet_count(), line["input"]["tets"]);
+  }
+}
+
+TEST_F(Batch, the_strokes_that_were_written_make_the_same_cut) {
+  run("out");
+  const json line = lines_of(merged("out"))[3];
+  json text = {{"format", "incise-plan"},
+               {"version", 1},
+               {"items",
+                {{{"mesh", "out/" + line["input"]["file"].get<std::string>()},
+                  {"blade", "out/" + line["strokes_file"].get<std::string>()}}}}};
+  plan_ = plan(text);
+  run("again");
+  EXPECT_EQ(lines_of(merged("again"))[0]["tets"], line["tets"]);
+}
+
+TEST_F(Batch, a_second_run_computes_nothing) {
+  run("out", {0, 2});
+  const app::BatchReport other = run("out");  // another number of shards
+  EXPECT_EQ(other.skipped, kItems / 2);
+  EXPECT_EQ(other.done, kItems / 2);
+  EXPECT_EQ(run("out").skipped, kItems);
+  EXPECT_EQ(run("out", {4, 7}).done, 0U);
+}
+
+TEST_F(Batch, a_line_that_was_cut_off_is_computed_again) {
+  run("whole");
+  run("out");
+  const std::string file = folder_ / "out/shard-00000-of-00001.jsonl";
+  const std::string text = read(file);
+  for (const std::size_t left :
+       {text.size() - 1, text.size() - 40, text.find('\n') + 1, std::size_t{7}, std::size_t{0}}) {
+    fs::resize_file(file, left);
+    run("out");
+    EXPECT_EQ(read(file), text) << left;
+  }
+  EXPECT_EQ(merged("out"), merged("whole"));
+}
+
+TEST_F(Batch, a_shard_has_one_worker_at_a_time) {
+  fs::create_directory(folder_ / "out");
+  const auto file = app::ShardFile::open(folder_ / "out", {1, 2});
+  ASSERT_TRUE(file.ok());
+  app::BatchJob job;
+  job.folder = folder_ / "out";
+  job.shard = {1, 2};
+  const auto refused = app::run_batch(plan_, job);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("another worker is at this shard"), std::string::npos);
+  job.shard = {0, 2};
+  EXPECT_TRUE(app::run_batch(plan_, job).ok());
+}
+
+TEST_F(Batch, results_of_another_plan_are_refused) {
+  run("out");
+  json other = small_plan();
+  other["items"][1]["random"]["seed"] = 6;
+  plan_ = plan(other);
+  app::BatchJob job;
+  job.folder = folder_ / "out";
+  for (const std::string& message :
+       {app::run_batch(plan_, job).error().message, app::merge_batch(plan_, job.folder).error().message}) {
+    EXPECT_NE(message.find("shard-00000-of-00001.jsonl:2: item 1 is of another plan"), std::string::npos) << message;
+  }
+}
+
+TEST_F(Batch, a_merge_tells_what_is_missing) {
+  run("out", {0, 3});
+  run("out", {2, 3});
+  const auto report = app::merge_batch(plan_, folder_ / "out");
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->missing, (std::vector<std::string>{"random-0000", "random-0003", "random-0006"}));
+  EXPECT_FALSE(report->is_whole());
+  EXPECT_FALSE(fs::exists(folder_ / "out/results.jsonl"));
+}
+
+TEST_F(Batch, a_merge_takes_an_item_that_was_computed_twice_once) {
+  run("out");
+  const std::string whole = merged("out");
+  fs::copy_file(folder_ / "out/shard-00000-of-00001.jsonl", folder_ / "out/shard-00001-of-00002.jsonl");
+  const auto report = app::merge_batch(plan_, folder_ / "out");
+  EXPECT_EQ(report->repeated, kItems);
+  EXPECT_TRUE(report->is_whole());
+  EXPECT_EQ(read(report->file), whole);
+}
+
+TEST_F(Batch, a_merge_refuses_results_that_differ) {
+  run("out");
+  std::string text = read(folder_ / "out/shard-00000-of-00001.jsonl");
+  const std::size_t at = text.find("\"tets\":", text.find("\"pieces\"") - 40) + 7;
+  text[at] = text[at] == '9' ? '8' : '9';
+  folder_.write("out/shard-00000-of-00002.jsonl", text.substr(0, text.find('\n') + 1));
+  const auto report = app::merge_batch(plan_, folder_ / "out");
+  EXPECT_EQ(report->contradictory, std::vector<std::string>{"half"});
+  EXPECT_FALSE(report->is_whole());
+}
+
+TEST_F(Batch, a_merge_looks_at_the_files) {
+  run("out");
+  const std::string mesh = "after/random-0002.vtu";
+  std::string bytes = read(folder_ / ("out/" + mesh));
+  bytes[bytes.size() / 2] ^= 1;
+  folder_.write("out/" + mesh, bytes);
+  fs::remove(folder_ / "out/after/pressed.vtu");
+  const auto report = app::merge_batch(plan_, folder_ / "out");
+  EXPECT_EQ(report->broken_files, (std::vector<std::string>{mesh, "after/pressed.vtu"}));
+}
+
+/// A disk that was full, or lost power, keeps lines whose files are not whole.
+TEST_F(Batch, files_that_are_gone_or_cut_off_are_made_again) {
+  run("whole");
+  const std::string whole = merged("whole");
+  run("out");
+  const std::string before = lines_of(whole)[0]["input"]["file"];
+  fs::resize_file(folder_ / "out/after/random-0002.vtu", 100);
+  fs::remove(folder_ / "out/after/pressed.vtu");
+  fs::remove(folder_ / "out/strokes/random-0003.json");
+  fs::resize_file(folder_ / ("out/" + before), 0);
+  const auto told = app::merge_batch(plan_, folder_ / "out");
+  EXPECT_EQ(told->broken_files, (std::vector<std::string>{before, "after/random-0002.vtu", "strokes/random-0003.json",
+                                                          "after/pressed.vtu"}));
+  EXPECT_EQ(run("out").done, 4U);
+  EXPECT_EQ(merged("out"), whole);
+  for (const std::string& file : told->broken_files) {
+    EXPECT_EQ(read(folder_ / ("out/" + file)), read(folder_ / ("whole/" + file))) << file;
+  }
+}
+
+TEST_F(Batch, files_with_other_bytes_are_made_again_where_a_retry_reads_them) {
+  run("out");
+  const std::string whole = merged("out"), before = lines_of(whole)[0]["input"]["file"];
+  fs::remove(folder_ / "out/results.jsonl");
+  std::string bytes = read(folder_ / "out/after/random-0002.vtu");
+  bytes[bytes.size() / 2] ^= 1;
+  folder_.write("out/after/random-0002.vtu", bytes);
+  for (const std::string& file : {before, std::string("strokes/half.json")}) {
+    fs::resize_file(folder_ / ("out/" + file), fs::file_size(folder_ / ("out/" + file)) / 2);
+  }
+  EXPECT_EQ(run("out").done, 0U);
+  EXPECT_EQ(app::merge_batch(plan_, folder_ / "out")->broken_files.size(), 3U);
+  EXPECT_EQ(run("out", {}, true).done, 2U) << "the mesh before it is that of the item whose strokes are broken";
+  EXPECT_EQ(merged("out"), whole);
+}
+
+/// What is broken is removed: lines from elsewhere must not name what is not the batch's.
+TEST_F(Batch, lines_name_files_of_the_batch_alone) {
+  run("out");
+  const std::string shard = "out/shard-00000-of-00001.jsonl", text = read(folder_ / shard);
+  for (const std::string own : {"after/half.vtu", "strokes/half.json", "before/"}) {
+    for (const std::string other :
+         {"../cube.mesh", "after/../../cube.mesh", "before/..", "/etc/passwd", "after/", ""}) {
+      const std::size_t at = text.find(own), end = text.find('"', at);
+      folder_.write(shard, text.substr(0, at) + other + text.substr(end));
+      app::BatchJob job;
+      job.folder = folder_ / "out";
+      job.retry = true;
+      const auto report = app::run_batch(plan_, job);
+      ASSERT_FALSE(report.ok()) << own << " " << other;
+      EXPECT_NE(report.error().message.find("must name a file in"), std::string::npos) << report.error().message;
+      EXPECT_EQ(app::merge_batch(plan_, folder_ / "out").error().code, ErrorCode::kBadFile);
+    }
+  }
+  EXPECT_FALSE(read(cube_).empty());
+}
+
+TEST_F(Batch, an_item_that_fails_does_not_stop_the_others) {
+  json text = small_plan();
+  text["items"][0]["mesh"] = folder_.write("bad.mesh", "MeshVersionFormatted 2\nDimension 3\n");
+  plan_ = plan(text);
+  const app::BatchReport report = run("out");
+  EXPECT_EQ(report.done, kItems);
+  ASSERT_EQ(report.failed.size(), 1U);
+  EXPECT_EQ(report.failed[0].rfind("half: ", 0), 0U) << report.failed[0];
+  EXPECT_EQ(lines_of(merged("out"))[0]["error"]["code"], "bad_file");
+  EXPECT_EQ(run("out").skipped, kItems);
+  folder_.write("bad.mesh", read(cube_));
+  EXPECT_EQ(run("out", {}, true).done, 1U);
+  EXPECT_FALSE(lines_of(merged("out"))[0].contains("error"));
+}
+
+TEST_F(Batch, stops_where_asked_to_and_goes_on_later) {
+  app::BatchJob job;
+  job.folder = folder_ / "out";
+  int asked = 0;
+  job.should_stop = [&] { return ++asked > 3; };
+  const auto report = app::run_batch(plan_, job);
+  ASSERT_TRUE(report.ok());
+  EXPECT_TRUE(report->was_stopped);
+  EXPECT_EQ(report->done, 3U);
+  run("out");
+  run("whole");
+  EXPECT_EQ(merged("out"), merged("whole"));
+}
+
+TEST_F(Batch, items_that_are_computed_again_have_the_same_hashes) {
+  run("out");
+  app::VerifyJob job;
+  job.folder = folder_ / "out";
+  job.items = 100;
+  job.threads = 2;
+  const auto report = app::verify_batch(plan_, job);
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->items, kItems);
+  EXPECT_TRUE(report->differences.empty());
+  job.items = 3;
+  EXPECT_EQ(app::verify_batch(plan_, job)->items, 3U);
+}
+
+TEST_F(Batch, a_hash_that_differs_is_told) {
+  run("out");
+  std::string text = read(folder_ / "out/shard-00000-of-00001.jsonl");
+  const std::size_t at = text.find("\"state_hash\":\"") + 14;
+  text[at] = text[at] == '0' ? '1' : '0';
+  folder_.write("out/shard-00000-of-00001.jsonl", text);
+  app::VerifyJob job;
+  job.folder = folder_ / "out";
+  job.items = 100;
+  const auto report = app::verify_batch(plan_, job);
+  ASSERT_EQ(report->differences.size(), 1U);
+  EXPECT_EQ(report->differences[0].rfind("pressed: state_hash ", 0), 0U) << report->differences[0];
+}
+
+// --- shards
+
+TEST(BatchShard, may_be_counted_from_0_or_from_1) {
+  EXPECT_EQ(app::parse_shard("0/4")->index, 0U);
+  EXPECT_EQ(app::parse_shard("3/4")->index, 3U);
+  EXPECT_EQ(app::parse_shard("4/4")->index, 0U);
+  EXPECT_EQ(app::parse_shard("1/1")->index, 0U);
+  for (const char* text : {"", "/", "1", "1/", "/4", "5/4", "0/0", "-1/4", "1/4 ", "1/100000", "99999999999/3"}) {
+    EXPECT_FALSE(app::parse_shard(text).ok()) << text;
+  }
+}
+
+Result<std::optional<app::Shard>> slurm(const std::map<std::string, std::string>& variables) {
+  return app::slurm_shard([&](const char* name) {
+    const auto found = variables.find(name);
+    return found == variables.end() ? std::nullopt : std::optional<std::string>(found->second);
+  });
+}
+
+TEST(BatchShard, of_a_slurm_array_is_its_tasks_place) {
+  const auto task = [](const char* id, const char* low, const char* high, const char* step, const char* count) {
+    return slurm({{"SLURM_ARRAY_TASK_ID", id},
+                  {"SLURM_ARRAY_TASK_MIN", low},
+                  {"SLURM_ARRAY_TASK_MAX", high},
+                  {"SLURM_ARRAY_TASK_STEP", step},
+                  {"SLURM_ARRAY_TASK_COUNT", count}});
+  };
+  EXPECT_FALSE(slurm({})->has_value());
+  EXPECT_EQ((*task("7", "4", "7", "1", "4"))->index, 3U);
+  EXPECT_EQ((*task("4", "0", "8", "2", "5"))->index, 2U);
+  EXPECT_EQ((*task("4", "0", "8", "2", "5"))->count, 5U);
+  EXPECT_FALSE(task("5", "1", "5", "1", "3").ok());  // --array=1,3,5
+  EXPECT_FALSE(task("1", "1", "5", "1", "3").ok());
+  EXPECT_FALSE(slurm({{"SLURM_ARRAY_TASK_ID", "1"}}).ok());
+}
+
+// --- random strokes
+
+TEST(RandomStrokes, are_the_same_everywhere) {
+  StateHash hash;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    app::RandomStrokes wanted;
+    wanted.seed = seed;
+    wanted.strokes = 3;
+    for (const Stroke& stroke : app::random_strokes(wanted, {Vec3::Zero(), Vec3(3, 2, 1)})) {
+      EXPECT_TRUE(check(stroke).ok());
+      for (const auto& edge : stroke.edges) {
+        for (const Vec3& p : edge) {
+          for (int k = 0; k < 3; ++k) hash.add(p[k]);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(hash.value(), 0xd6fa1983b99807feU);  // plans that are published rely on it
+}
+
+TEST(RandomStrokes, planes_go_through_the_whole_body) {
+  app::RandomStrokes wanted;
+  wanted.kinds = {app::RandomKind::kPlane, app::RandomKind::kArc};
+  const Box body{Vec3(-1, -2, -3), Vec3(4, 3, 2)};
+  for (wanted.seed = 0; wanted.seed < 50; ++wanted.seed) {
+    const Stroke stroke = app::random_strokes(wanted, body).front();
+    for (const auto& edge : {stroke.edges.front(), stroke.edges.back()}) {
+      for (const Vec3& end : {edge.front(), edge.back()}) {
+        EXPECT_FALSE((end.array() >= body.lo.array()).all() && (end.array() <= body.hi.array()).all());
+      }
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What people do with a library that they have not read about: errors, never another result or a crash."""
+import copy
+import math
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import incise
+
+CUBE = incise.box((3, 3, 3)).compact()
+SYMBOLS = Path(__file__).parents[1] / "c" / "symbols.txt"
+
+
+def body(**options):
+    return incise.Simulation(CUBE.points, CUBE.tets, length_unit=0.1, **options)
+
+
+@pytest.mark.parametrize("regions", [
+    [1.5] * 162, [math.nan] * 162, [2**31] * 162, [-2**31 - 1] * 162, ["a"] * 162, [1j] * 162, [1] * 161, [[1]] * 162])
+def test_labels_are_whole_numbers_that_c_can_hold(regions):
+    with pytest.raises(incise.BadArgument):
+        incise.Engine(CUBE.points, CUBE.tets, regions)
+
+
+@pytest.mark.parametrize("regions", [[4.0] * 162, [True] * 162, np.full(162, -2**31), np.full(162, 7, np.uint8)])
+def test_labels_may_be_of_any_kind_that_is_whole(regions):
+    assert incise.Engine(CUBE.points, CUBE.tets, regions).regions[0] == regions[0]
+
+
+def test_points_are_real():
+    with pytest.raises(incise.BadArgument, match="complex"):
+        incise.Engine(CUBE.points.astype(complex), CUBE.tets)
+    with pytest.raises(incise.BadArgument, match="complex"):
+        incise.box((2, 2, 2)).cut_plane((1j, 0, 0), 0.5)
+
+
+def test_arrays_may_lie_in_memory_as_they_like():
+    whole = incise.Engine(CUBE.points, CUBE.tets).hash
+    for points, tets in ((np.repeat(CUBE.points, 2, axis=0)[::2], np.repeat(CUBE.tets, 3, axis=1)[:, ::3]),
+                         (CUBE.points.astype(">f8"), CUBE.tets.astype(">i8")),
+                         (np.ascontiguousarray(CUBE.points[::-1])[::-1], CUBE.tets)):
+        assert incise.Engine(points, tets).hash == whole
+
+
+@pytest.mark.parametrize("call", [
+    lambda: incise.box((2, 2, 2), work_units=-1), lambda: incise.box((2, 2, 2), work_units=2**64),
+    lambda: incise.box((2, 2, 2), threads=2**32 + 1), lambda: incise.box((2, 2, 2)).keep_undo(2**64 + 1),
+    lambda: incise.box((2, 2, 2)).maintain(-1), lambda: incise.box((2, 2, 2)).validate(most=-1),
+    lambda: incise.box((2, 2, 2)).validate(most=2**40), lambda: body(substeps=2**32 + 1), lambda: body(iterations=-1),
+    lambda: body().settle(2**32 + 1), lambda: body().frame(hooks=[incise.Hook(-1, (0.5, 0.5, 0), 0.3)]),
+    lambda: body().frame(hooks=[incise.Hook(2**32 + 1, (0.5, 0.5, 0), 0.3)]),
+    lambda: body(materials=incise.Material(region=2**31)), lambda: body().hold(2**32),
+    lambda: incise.Attributes(incise.box((2, 2, 2))).add("a", "tets", width=2**32 + 1)])
+def test_numbers_are_not_taken_modulo_two_to_the_32(call):
+    with pytest.raises(incise.BadArgument):
+        call()
+
+
+@pytest.mark.parametrize("call", [
+    lambda: incise.box((2, 2, 2)).keep_undo(1.5), lambda: body().hold([1.7]), lambda: body().settle(2.5),
+    lambda: incise.box((2, 2, 2)).cut_plane((1, 0, 0), None), lambda: incise.box((2, 2, 2), threads="2")])
+def test_what_is_no_number_of_the_kind_is_a_type_error(call):
+    with pytest.raises(TypeError):
+        call()
+
+
+def test_null_characters_do_not_end_a_name(tmp_path):
+    engine = incise.box((2, 2, 2))
+    for call in (lambda: engine.write(str(tmp_path / "a.mesh") + "\0.vtk"), lambda: engine.to_bytes(".mesh\0.vtk"),
+                 lambda: incise.read(str(tmp_path / "a.mesh") + "\0"),
+                 lambda: incise.Attributes(engine).add("a\0b", "tets"),
+                 lambda: engine.cut(incise.Stroke([[[0.5, -1, -1], [0.5, -1, 2]], [[0.5, 2, -1], [0.5, 2, 2]]], name="\0"))):
+        with pytest.raises(incise.BadArgument, match="null character"):
+            call()
+    assert not list(tmp_path.iterdir())
+
+
+def test_engines_are_not_copied_deeply_nor_pickled(capfd):
+    engine = incise.box((2, 2, 2))
+    for call in (copy.deepcopy, pickle.dumps):
+        with pytest.raises(TypeError, match="to_bytes"):
+            call(engine)
+    assert copy.copy(engine).hash == engine.hash
+    assert capfd.readouterr().err == ""
+
+
+def test_masks_hold_nothing_and_bad_slots_neither():
+    cube = body()
+    with pytest.raises(incise.BadArgument, match="flatnonzero"):
+        cube.hold(cube.mesh.rest[:, 2] > 0.9)
+    with pytest.raises(incise.BadArgument) as error:
+        cube.hold([1, 2, 9999])
+    assert error.value.ids == (9999,)
+    assert not any(cube.is_held(vertex) for vertex in range(3))
+    cube.hold(np.flatnonzero(cube.mesh.rest[:, 2] > 0.9))
+    assert cube.is_held(63)
+
+
+@pytest.mark.parametrize("speed", [math.nan, -1, -math.inf])
+def test_no_body_settles_for_ever(speed):
+    with pytest.raises(incise.BadArgument, match="at rest"):
+        body().settle(2**32 - 1, speed)
+
+
+@pytest.mark.parametrize("spoil", [
+    lambda cube: cube.frame(hooks=[incise.Hook(1, (1e300, 0.5, 0), 0.3)]),
+    lambda cube: cube.set_velocity(1, (1e300, 0, 0)), lambda cube: cube.set_velocity(1, (math.nan, 0, 0)),
+    lambda cube: cube.frame(tools=[incise.Plane((0, 0, 1), 1e300)]),
+    lambda cube: cube.frame(tools=[incise.Ball((0, 0, math.nan), 1)])])
+def test_what_no_body_can_bear_is_refused_and_changes_nothing(spoil):
+    cube = body()
+    cube.frame(hooks=[incise.Hook(1, (0.5, 0.5, 0), 0.3)])
+    before = cube.hash
+    with pytest.raises(incise.BadArgument):
+        spoil(cube)
+    assert cube.hash == before
+    assert math.isfinite(cube.frame().fastest)
+
+
+def test_followers_of_one_engine_refuse_another():
+    engine, other = incise.box((3, 3, 3)), incise.box((5, 5, 5))
+    cursor, values = engine.cursor(), incise.Attributes(engine)
+    values.add("mass", "tets", "conserve", initial=1.0)
+    for each in (engine, other, other):
+        each.cut_plane((1, 0.1, 0), 0.4 + 0.1 * each.stroke_count)
+    cursor._engine, values._mesh = other._engine, other
+    for call in (cursor.new_steps, values.follow):
+        with pytest.raises(incise.BadArgument, match="another engine"):
+            call()
+
+
+def test_what_recompute_raises_comes_out_and_what_follows_is_sound():
+    engine = incise.box((3, 3, 3))
+    values, spoiled = incise.Attributes(engine), [False]
+
+    def recompute(_slot):
+        if spoiled[0]:
+            raise KeyError("spoiled")
+        return 2.0
+
+    values.add("two", "tets", "recompute", recompute=recompute)
+    spoiled[0] = True
+    engine.cut_plane((1, 0, 0), 0.4)
+    with pytest.raises(KeyError, match="spoiled"):
+        values.follow()
+    spoiled[0] = False
+    engine.cut_plane((0, 1, 0.1), 0.4)
+    values.follow()
+    assert np.isfinite(values["two"][engine.live_tets]).all()
+
+
+def test_six_threads_on_one_engine_leave_it_sound():
+    engine, other = incise.box((6, 6, 6)), []
+
+    def work(number):
+        for k in range(20):
+            try:
+                if k % 3 == 0:
+                    engine.cut_plane((1, 0.1 * number, 0.05 * k), 0.1 + 0.04 * k)
+                elif k % 3 == 1:
+                    found = engine.compact()
+                    assert found.tets.max() < len(found.points) == len(found.vertex_slots)
+                    assert engine.surface().tags.max() < 2**20 and engine.pieces().volumes.sum() < 1.01
+                else:
+                    engine.undo()
+            except incise.Busy:
+                pass
+            except Exception as error:
+                other.append(error)
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not other and engine.validate()
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no processes are forked here")
+def test_a_forked_process_cuts_its_copy():
+    engine = incise.box((6, 6, 6), threads=2)
+    engine.cut_plane((1, 0.1, 0), 0.5)
+    child = os.fork()
+    if child == 0:
+        try:
+            engine.cut_plane((0, 1, 0.1), 0.5)
+            os._exit(0 if engine.validate() and engine.stroke_count == 2 else 1)
+        except BaseException:
+            os._exit(2)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    assert engine.stroke_count == 1
+
+
+EVERY_CALL = """
+import ctypes, sys
+import incise
+from incise._library import lib
+
+cube = incise.box((3, 3, 3))
+cube.cut_plane((1, 0, 0), 0.4)
+compact = cube.compact()
+body = incise.Simulation(compact.points, compact.tets)
+tool = ctypes.c_void_p()
+lib.incise_haptic_tool_create(None, ctypes.byref(tool))
+owners = {"incise_engine_": cube._handle.pointer, "incise_simulation_": body._handle.pointer,
+          "incise_haptic_tool_": tool}
+
+def value(kind, whole, real):
+    if kind in (ctypes.c_void_p, ctypes.c_char_p) or issubclass(kind, ctypes._Pointer):
+        return None
+    if issubclass(kind, ctypes._CFuncPtr):
+        return kind()
+    return real if kind is ctypes.c_double else whole
+
+for name in sys.argv[1:]:
+    call = getattr(lib, name)
+    firsts = [None] + [owner for prefix, owner in owners.items()
+                       if name.startswith(prefix) and not name.endswith(("free", "create", "read", "scene", "bytes", "box"))]
+    for first in firsts:
+        for whole, real in ((0, 0.0), (-1, float("nan"))):
+            arguments = [value(kind, whole, real) for kind in call.argtypes]
+            if first is not None and arguments:
+                arguments[0] = first
+            print(name, first is not None, whole, flush=True)
+            status = call(*arguments)
+            if call.restype is ctypes.c_int32 and status not in (0, 1, 3, 4):
+                sys.exit("%s: status %d, %s" % (name, status, lib.incise_last_error()))
+"""
+
+
+def test_every_call_survives_nulls():
+    calls = [line for line in SYMBOLS.read_text(encoding="ascii").split() if line.startswith("incise_")]
+    assert len(calls) > 80
+    run = subprocess.run([sys.executable, "-c", EVERY_CALL, *calls], capture_output=True, text=True, check=False, timeout=120)
+    assert run.returncode == 0, run.stdout[-200:] + run.stderr[-500:]
+    assert run.stdout.count("\n") >= 2 * len(calls)
