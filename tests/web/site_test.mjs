@@ -67,7 +67,7 @@ describe('the site', { skip: missing }, () => {
   test('finds words in the documents', async () => {
     await open('docs/');
     await page.keyboard.press('Control+k');
-    await page.keyboard.type('toughness');
+    await page.fill('.VPLocalSearchBox input', 'toughness'); // waits for the box, which is fetched when it is first asked for
     await page.waitForSelector('.VPLocalSearchBox .result');
     await page.keyboard.press('Enter');
     await page.waitForFunction(() => !location.pathname.endsWith('/docs/'));
