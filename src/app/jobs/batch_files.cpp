@@ -2,6 +2,7 @@
 #include "app/jobs/batch_files.h"
 
 #include <limits>
+#include <regex>
 #include <system_error>
 
 #include "app/scene/blade_file.h"
@@ -56,6 +57,19 @@ bool BatchFiles::are_strokes_sound(const std::string& file) const {
   const fs::path path = folder_ / file;
   if (size_of(path) == 0) return false;
   return care_ == Care::kSizes || read_blade_file(path).ok();
+}
+
+void remove_leftovers(const fs::path& folder) {
+  static const std::regex leftover(R"(.+\.(shard-\d{5}-of-\d{5})(\.incise-part)?)");
+  for (const char* part : {"before", "after", "strokes"}) {
+    std::error_code code;
+    for (fs::directory_iterator at(folder / part, code), end; !code && at != end; at.increment(code)) {
+      const std::string name = at->path().filename().string();
+      std::smatch found;
+      std::error_code ignored;
+      if (std::regex_match(name, found, leftover) && is_free(folder, found[1])) fs::remove(at->path(), ignored);
+    }
+  }
 }
 
 }  // namespace app

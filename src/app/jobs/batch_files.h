@@ -37,6 +37,10 @@ class BatchFiles {
   std::set<std::string> inputs_;  // that were judged
 };
 
+/// Takes away what killed workers left half-written in the folder of a batch; files of a worker that is at its shard
+/// stay. Cost: O(files).
+void remove_leftovers(const std::filesystem::path& folder);
+
 }  // namespace app
 }  // namespace v0
 }  // namespace incise

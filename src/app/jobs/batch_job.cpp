@@ -11,6 +11,7 @@
 #include "app/jobs/batch_lines.h"
 #include "app/text/json_write.h"
 #include "app/text/text_file.h"
+#include "app/text/write_all.h"
 #include "incise/core/hash.h"
 #include "incise/version.h"
 
@@ -35,7 +36,10 @@ class Worker {
 
   Result<BatchReport> run() {
     std::error_code code;
-    fs::create_directory(job_.folder, code);
+    if (!fs::create_directory(job_.folder, code) && code) {
+      std::error_code ignored;
+      if (!fs::exists(job_.folder, ignored)) return write_error(job_.folder, code.message());
+    }
     Result<ShardFile> file = ShardFile::open(job_.folder, job_.shard);
     if (!file.ok()) return file.error();
     const Result<std::vector<std::size_t>> left = items_left();
@@ -128,12 +132,14 @@ class Merger {
   }
 
  private:
-  /// A result takes the place of a failure; of two others, which must be equal, the first stays.
+  /// A result takes the place of a failure, and a failure that of an earlier one: their messages name paths as the
+  /// worker was given them. Of two results, which must be equal, the first stays.
   void choose(const BatchLine& line) {
     const BatchLine*& chosen = chosen_[static_cast<std::size_t>(line.item)];
-    if (chosen == nullptr || (chosen->has_failed && !line.has_failed)) {
+    if (chosen == nullptr || chosen->has_failed) {
+      if (chosen != nullptr && line.has_failed) ++report_.repeated;
       chosen = &line;
-    } else if (!line.has_failed || chosen->has_failed) {
+    } else if (!line.has_failed) {
       ++report_.repeated;
       const std::string& name = plan_.items[static_cast<std::size_t>(line.item)].name;
       const bool is_told = !report_.contradictory.empty() && report_.contradictory.back() == name;
@@ -151,6 +157,7 @@ class Merger {
     for (const BatchLine* line : chosen_) text += line->text;
     report_.file = folder_ / kResults;
     if (const Status status = write_text_file(report_.file, text); !status.ok()) return status.error();
+    remove_leftovers(folder_);
     return std::move(report_);
   }
 

@@ -68,8 +68,8 @@ struct MergeReport {
 ///
 /// It is written only where each item has one result and all files are there as they were written: meshes after cuts
 /// byte for byte, meshes before them and strokes as far as they can be read. Its bytes do not depend on the shards, nor
-/// on how often workers were killed. Errors: kBadFile for lines of another plan or none at all, kIo. Cost: O(bytes of
-/// all files).
+/// on how often workers were killed; files that these left half-written are taken away. Errors: kBadFile for lines of
+/// another plan or none at all, kIo. Cost: O(bytes of all files).
 [[nodiscard]] Result<MergeReport> merge_batch(const BatchPlan& plan, const std::filesystem::path& folder);
 
 /// What is computed again.

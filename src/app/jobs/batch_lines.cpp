@@ -133,6 +133,14 @@ std::string name_of(const Shard& shard) {
   return fmt::format("shard-{:05}-of-{:05}", shard.index, shard.count);
 }
 
+bool is_free(const fs::path& folder, const std::string& name) {
+  const int file = ::open((folder / (name + ".jsonl")).c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return errno == ENOENT;  // a worker makes it before anything else
+  const bool is_free = ::flock(file, LOCK_EX | LOCK_NB) == 0;
+  ::close(file);
+  return is_free;
+}
+
 Result<BatchLines> read_batch_lines(const BatchPlan& plan, const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code code;

@@ -40,6 +40,10 @@ struct BatchLines {
 /// "shard-00001-of-00004", of which the file is `.jsonl`.
 [[nodiscard]] std::string name_of(const Shard& shard);
 
+/// Whether no worker is at the shard whose file is `name` with `.jsonl`. False as well where the file system has no
+/// locks.
+[[nodiscard]] bool is_free(const std::filesystem::path& folder, const std::string& name);
+
 /// Reads the lines of all shards in a folder; none where the folder is not there.
 /// Errors: kBadFile "FILE:LINE: what" for a line that is no result, or one of another plan. Cost: O(lines).
 [[nodiscard]] Result<BatchLines> read_batch_lines(const BatchPlan& plan, const std::filesystem::path& folder);

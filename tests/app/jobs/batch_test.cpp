@@ -165,6 +165,16 @@ TEST_F(Batch, a_shard_has_one_worker_at_a_time) {
   EXPECT_TRUE(app::run_batch(plan_, job).ok());
 }
 
+TEST_F(Batch, a_folder_that_cannot_be_made_is_named) {
+  app::BatchJob job;
+  job.folder = folder_ / "no/no";
+  const auto refused = app::run_batch(plan_, job);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::kIo);
+  EXPECT_EQ(refused.error().message.rfind(job.folder.string() + ": cannot be written: ", 0), 0U)
+      << refused.error().message;
+}
+
 TEST_F(Batch, results_of_another_plan_are_refused) {
   run("out");
   json other = small_plan();
@@ -196,6 +206,24 @@ TEST_F(Batch, a_merge_takes_an_item_that_was_computed_twice_once) {
   EXPECT_EQ(report->repeated, kItems);
   EXPECT_TRUE(report->is_whole());
   EXPECT_EQ(read(report->file), whole);
+}
+
+TEST_F(Batch, a_merge_takes_away_what_killed_workers_left_half_written) {
+  run("out", {0, 3});
+  run("out", {1, 3});
+  run("out", {2, 3});
+  const std::string of_killed = folder_.write("out/after/half.vtu.shard-00001-of-00003.incise-part", "<VTK");
+  const std::string of_gone = folder_.write("out/before/0.vtu.shard-00007-of-00009", "<VTK");
+  const std::string of_live = folder_.write("out/strokes/half.json.shard-00002-of-00003.incise-part", "{");
+  const std::string of_other = folder_.write("out/after/notes.txt", "mine");
+  const auto live = app::ShardFile::open(folder_ / "out", {2, 3});
+  ASSERT_TRUE(live.ok());
+  EXPECT_NE(merged("out"), "");
+  EXPECT_FALSE(fs::exists(of_killed));
+  EXPECT_FALSE(fs::exists(of_gone));
+  EXPECT_TRUE(fs::exists(of_live));
+  EXPECT_TRUE(fs::exists(of_other));
+  EXPECT_TRUE(fs::exists(folder_ / "out/after/half.vtu"));
 }
 
 TEST_F(Batch, a_merge_refuses_results_that_differ) {
@@ -290,6 +318,27 @@ TEST_F(Batch, an_item_that_fails_does_not_stop_the_others) {
   folder_.write("bad.mesh", read(cube_));
   EXPECT_EQ(run("out", {}, true).done, 1U);
   EXPECT_FALSE(lines_of(merged("out"))[0].contains("error"));
+}
+
+/// Messages name paths as the worker was given them.
+TEST_F(Batch, an_item_may_fail_twice_in_other_words) {
+  folder_.write("cube.mesh", read(cube_).substr(0, 100));
+  run("out");
+  const std::string file = folder_ / "out/shard-00000-of-00001.jsonl";
+  std::string text = read(file);
+  for (std::size_t at = 0; (at = text.find(root_, at)) != std::string::npos;)
+    text.replace(at, root_.size(), "/elsewhere");
+  folder_.write("out/shard-00001-of-00002.jsonl", text);
+  const auto report = app::merge_batch(plan_, folder_ / "out");
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_TRUE(report->is_whole());
+  EXPECT_EQ(report->failed, kItems - 1);
+  EXPECT_EQ(report->repeated, kItems);
+  EXPECT_NE(lines_of(read(report->file))[0]["error"]["message"].get<std::string>().find("/elsewhere"),
+            std::string::npos);
+  folder_.write("cube.mesh", incise_test::cube_mesh(3, 0.1));
+  EXPECT_EQ(run("out", {}, true).done, kItems - 1);
+  EXPECT_EQ(app::merge_batch(plan_, folder_ / "out")->failed, 0U);
 }
 
 TEST_F(Batch, stops_where_asked_to_and_goes_on_later) {
