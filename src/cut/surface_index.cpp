@@ -94,7 +94,7 @@ void SurfaceIndex::build(const TetMesh& mesh) {
   size = std::max(size, 1e-6 * extent.maxCoeff());
   const auto cells_at = [&](double s) { return (extent.x() / s + 1) * (extent.y() / s + 1) * (extent.z() / s + 1); };
   while (cells_at(size) > kMaxCells || extent.maxCoeff() / size > kMostAlong) size *= 1.25;
-  inverse_size_ = 1.0 / size;
+  inverse_size_ = size > 0 ? 1.0 / size : 0.0;  // where all points coincide there is one cell
   for (int k = 0; k < 3; ++k) {
     counts_[static_cast<std::size_t>(k)] = static_cast<std::uint16_t>(extent[k] * inverse_size_ + 1);
   }

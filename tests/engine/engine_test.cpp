@@ -394,6 +394,26 @@ TEST(Engine, of_an_empty_mesh_cuts_nothing) {
   EXPECT_EQ(report->cut.created_tets, 0U);
 }
 
+TEST(Engine, of_a_body_whose_points_all_coincide_cuts_nothing) {
+  TetSoup soup = kuhn_cube(3);
+  for (Vec3& point : soup.points) point = Vec3(0.3, -2, 7);
+  auto built = TetMesh::build(std::move(soup));
+  ASSERT_TRUE(built.ok()) << built.error().message;
+  for (const Profile profile : {Profile::kIncise, Profile::kPaper}) {
+    EngineOptions options;
+    options.cut.profile = profile;
+    auto engine = Engine::create(*built, options);
+    ASSERT_TRUE(engine.ok()) << engine.error().message;
+    const std::uint64_t before = engine->mesh().hash();
+    Stroke stroke;
+    stroke.times = {0, 1};
+    stroke.edges = {{{0.3, -3, 6}, {0.3, -3, 8}}, {{0.3, -1, 6}, {0.3, -1, 8}}};
+    const auto report = engine->cut(stroke);
+    EXPECT_TRUE(!report.ok() || report->cut.cut_tets == 0);
+    EXPECT_EQ(engine->mesh().hash(), before);
+  }
+}
+
 TEST(PlaneStroke, refuses_planes_without_a_direction) {
   const Box box{Vec3(0, 0, 0), Vec3(1, 1, 1)};
   EXPECT_FALSE(plane_stroke(box, Vec3(0, 0, 0), 1).ok());

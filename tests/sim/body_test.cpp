@@ -374,6 +374,7 @@ TEST(BodyArguments, CallsThatMakeNoSenseAreRefusedAndChangeNothing) {
   expect_bad(body.hold(somebody, kNan), "stiffness");
   expect_bad(body.move_hold(somebody, Vec3::Zero()), "not held");
   expect_bad(body.move_hold(VertexId(0), Vec3(kNan, 0, 0)), "not finite");
+  expect_bad(body.move_hold(VertexId(0), Vec3(0, 1e300, 0)), "beyond 1e+30");
   expect_bad(body.place(somebody, Vec3(0, kInfinity, 0)), "not finite");
   expect_bad(body.set_velocity(somebody, Vec3(0, kNan, 0)), "not finite");
   for (const double bad : {0.0, -0.1, 1.5, kNan}) {

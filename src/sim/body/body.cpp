@@ -116,7 +116,9 @@ Status DeformableBody::move_hold(VertexId vertex, const Vec3& target) {
   State& s = *state_;
   const auto hold = s.holds.find(vertex.value);
   if (hold == s.holds.end()) return bad("vertex " + std::to_string(vertex.value) + " is not held");
-  if (!target.allFinite()) return bad("the target of a hold is not finite");
+  if (!(target.array().abs() <= kGreatestExtent).all()) {  // beyond it energies overflow
+    return bad("the target of a hold is not finite, or beyond 1e+30");
+  }
   hold->second.target = target;
   if (hold->second.is_rigid()) {
     s.contact.note_jump((target - s.places[vertex.value]).norm());
