@@ -10,8 +10,9 @@
 
 using namespace incise;
 
+/// A call keeps what it works on: the handle may be freed meanwhile.
 struct incise_plan {
-  app::BatchPlan plan;
+  std::shared_ptr<const app::BatchPlan> plan;
 };
 
 namespace incise::c {
@@ -28,13 +29,18 @@ incise_batch_options default_options() {
   return options;
 }
 
+/// Of an argument that has to be there.
+Result<app::BatchPlan> null(const char* what) {
+  return Error{ErrorCode::kBadArgument, what, {}};
+}
+
 incise_status create(incise_plan** out, const auto& read) {
   if (out == nullptr) return refuse("there is no place for the plan: the last argument is null");
   *out = nullptr;
   return guarded([&]() -> incise_status {
     Result<app::BatchPlan> plan = read();
     if (!plan.ok()) return fail(plan.error());
-    *out = new incise_plan{std::move(plan).value()};
+    *out = new incise_plan{std::make_shared<const app::BatchPlan>(std::move(plan).value())};
     return INCISE_OK;
   });
 }
@@ -98,7 +104,10 @@ incise_status with(const incise_plan* plan, const char* folder, const incise_bat
     if (const incise_status bad = take(given, options, "incise_batch_options")) return bad;
   }
   if (options.threads < 1 || options.threads > 256) return refuse("threads must lie in [1, 256]");
-  return guarded([&] { return call(options); });
+  return guarded([&] {
+    const std::shared_ptr<const app::BatchPlan> kept = plan->plan;
+    return call(*kept, options);
+  });
 }
 
 }  // namespace
@@ -107,14 +116,15 @@ incise_status with(const incise_plan* plan, const char* folder, const incise_bat
 extern "C" {
 
 incise_status incise_plan_read(const char* path, incise_plan** plan) {
-  if (path == nullptr) return c::refuse("the name of the plan is null");
-  return c::create(plan, [&] { return app::read_batch_plan(path); });
+  return c::create(
+      plan, [&] { return path == nullptr ? c::null("the name of the plan is null") : app::read_batch_plan(path); });
 }
 
 incise_status incise_plan_parse(const char* json, const char* folder, incise_plan** plan) {
-  if (json == nullptr) return c::refuse("the plan's text is null");
-  const std::filesystem::path seen_from = folder == nullptr ? "" : folder;
-  return c::create(plan, [&] { return app::parse_batch_plan(json, "plan", seen_from); });
+  return c::create(plan, [&] {
+    const std::filesystem::path seen_from = folder == nullptr ? "" : folder;
+    return json == nullptr ? c::null("the plan's text is null") : app::parse_batch_plan(json, "plan", seen_from);
+  });
 }
 
 incise_status incise_plan_free(incise_plan* plan) {
@@ -124,17 +134,18 @@ incise_status incise_plan_free(incise_plan* plan) {
 
 incise_status incise_plan_count(const incise_plan* plan, uint64_t* count) {
   if (plan == nullptr) return c::refuse(c::kNoPlan);
-  if (count != nullptr) *count = plan->plan.items.size();
+  if (count != nullptr) *count = plan->plan->items.size();
   return INCISE_OK;
 }
 
 incise_status incise_plan_name(const incise_plan* plan, uint64_t item, char* text, uint64_t room, uint64_t* count) {
   if (plan == nullptr) return c::refuse(c::kNoPlan);
-  if (item >= plan->plan.items.size()) {
-    return c::refuse("the plan has " + std::to_string(plan->plan.items.size()) + " items; there is no number " +
+  const std::vector<app::BatchItem>& items = plan->plan->items;
+  if (item >= items.size()) {
+    return c::refuse("the plan has " + std::to_string(items.size()) + " items; there is no number " +
                      std::to_string(item));
   }
-  return c::give_text(plan->plan.items[item].name, text, room, count);
+  return c::give_text(items[item].name, text, room, count);
 }
 
 incise_status incise_default_batch_options(incise_batch_options* options, uint32_t size) {
@@ -143,21 +154,23 @@ incise_status incise_default_batch_options(incise_batch_options* options, uint32
 
 incise_status incise_batch_run(const incise_plan* plan, const char* folder, const incise_batch_options* options,
                                incise_told tell, void* user) {
-  return c::with(plan, folder, options,
-                 [&](const incise_batch_options& taken) { return c::run(plan->plan, folder, taken, tell, user); });
+  return c::with(plan, folder, options, [&](const app::BatchPlan& kept, const incise_batch_options& taken) {
+    return c::run(kept, folder, taken, tell, user);
+  });
 }
 
 incise_status incise_batch_merge(const incise_plan* plan, const char* folder, incise_told tell, void* user) {
-  return c::with(plan, folder, nullptr, [&](const incise_batch_options&) -> incise_status {
-    const Result<app::MergeReport> report = app::merge_batch(plan->plan, folder);
+  return c::with(plan, folder, nullptr, [&](const app::BatchPlan& kept, const incise_batch_options&) -> incise_status {
+    const Result<app::MergeReport> report = app::merge_batch(kept, folder);
     return report.ok() ? c::told(app::to_json(*report), tell, user) : c::fail(report.error());
   });
 }
 
 incise_status incise_batch_verify(const incise_plan* plan, const char* folder, const incise_batch_options* options,
                                   incise_told tell, void* user) {
-  return c::with(plan, folder, options,
-                 [&](const incise_batch_options& taken) { return c::verify(plan->plan, folder, taken, tell, user); });
+  return c::with(plan, folder, options, [&](const app::BatchPlan& kept, const incise_batch_options& taken) {
+    return c::verify(kept, folder, taken, tell, user);
+  });
 }
 
 }  // extern "C"

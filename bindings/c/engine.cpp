@@ -96,15 +96,17 @@ incise_status incise_engine_create_box(const double* low, const double* high, co
 }
 
 incise_status incise_engine_read(const char* path, const incise_engine_options* options, incise_engine** engine) {
-  if (const incise_status bad = c::check_path(path)) return bad;
-  return c::create(engine, [&] { return c::make(io::load_mesh(path), options, engine); });
+  return c::create(engine, [&]() -> incise_status {
+    if (const incise_status bad = c::check_path(path)) return bad;
+    return c::make(io::load_mesh(path), options, engine);
+  });
 }
 
 incise_status incise_engine_read_bytes(const void* bytes, uint64_t n_bytes, const char* name,
                                        const incise_engine_options* options, incise_engine** engine) {
-  if (bytes == nullptr && n_bytes > 0) return c::refuse("the bytes of the file are null");
-  const std::string file = name == nullptr ? "mesh" : name;
   return c::create(engine, [&]() -> incise_status {
+    if (bytes == nullptr && n_bytes > 0) return c::refuse("the bytes of the file are null");
+    const std::string file = name == nullptr ? "mesh" : name;
     Result<io::MeshFile> read = io::read_mesh_bytes({static_cast<const char*>(bytes), n_bytes}, file);
     if (!read.ok()) return c::fail(read.error());
     return c::make(io::build_mesh(std::move(read).value(), file), options, engine);

@@ -82,11 +82,12 @@ void Turn::end() {
   thread_.store(nullptr, std::memory_order_release);
 }
 
-incise_status check_size(std::uint32_t size, std::size_t known, const char* name) {
+incise_status check_size(std::uint32_t size, std::size_t known, std::size_t alignment, const char* name) {
   constexpr std::uint32_t kLeast = 8;
-  if (size >= kLeast && size <= known) return INCISE_OK;
+  const bool is_one = size >= kLeast && size % alignment == 0;
+  if (is_one && size <= known) return INCISE_OK;
   const std::string begin = std::string(name) + ".size is " + std::to_string(size);
-  if (size < kLeast) return refuse(begin + "; set it to sizeof(" + name + ") before the call");
+  if (!is_one) return refuse(begin + "; set it to sizeof(" + name + ") before the call");
   return refuse(begin + ", this library knows " + std::to_string(known) +
                 " bytes: the program was built for a newer one; update the library");
 }

@@ -71,12 +71,17 @@ incise_status in_turn(Turn& turn, bool only_looks, const Call& call) {
 }
 
 /// Whether the `size` that a program set in a struct is one that this library can serve; `name` is the struct's.
-incise_status check_size(std::uint32_t size, std::size_t known, const char* name);
+/// No version of a struct ends within one of its members.
+incise_status check_size(std::uint32_t size, std::size_t known, std::size_t alignment, const char* name);
+template <class T>
+incise_status check_size(std::uint32_t size, const char* name) {
+  return check_size(size, sizeof(T), alignof(T), name);
+}
 
 /// For structs that the library fills; null ones are not wanted.
 template <class T>
 incise_status check_out(const T* out, const char* name) {
-  return out == nullptr ? INCISE_OK : check_size(out->size, sizeof(T), name);
+  return out == nullptr ? INCISE_OK : check_size<T>(out->size, name);
 }
 template <class T>
 incise_status give(T full, T* out) {
@@ -90,7 +95,7 @@ incise_status give(T full, T* out) {
 template <class T>
 incise_status take(const T* given, T& full, const char* name) {
   if (given == nullptr) return INCISE_OK;
-  if (const incise_status bad = check_size(given->size, sizeof(T), name)) return bad;
+  if (const incise_status bad = check_size<T>(given->size, name)) return bad;
   std::memcpy(&full, given, given->size);
   return INCISE_OK;
 }
@@ -99,7 +104,7 @@ incise_status take(const T* given, T& full, const char* name) {
 template <class T>
 incise_status give_default(T full, T* out, std::uint32_t size, const char* name) {
   if (out == nullptr) return refuse(std::string(name) + ": the struct is null");
-  if (const incise_status bad = check_size(size, sizeof(T), name)) return bad;
+  if (const incise_status bad = check_size<T>(size, name)) return bad;
   full.size = size;
   std::memcpy(out, &full, size);
   return INCISE_OK;

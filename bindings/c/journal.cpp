@@ -228,6 +228,7 @@ incise_status incise_engine_step_new_tets(const incise_engine* engine, uint64_t 
 
 incise_status incise_cursor_create(const incise_engine* engine, incise_cursor** cursor) {
   if (cursor == nullptr) return c::refuse("there is no place for the cursor: the last argument is null");
+  *cursor = nullptr;
   return c::look(engine, [&](const Engine& looked) {
     *cursor =
         std::make_unique<incise_cursor>(incise_cursor{JournalCursor(looked.journal()), engine->identity}).release();

@@ -144,6 +144,11 @@ Result<Made> make(Result<app::Scene> scene, std::uint32_t threads) {
               std::move(loaded->file_vertex)};
 }
 
+/// Of an argument that has to be there.
+Result<Made> null(const char* what) {
+  return Error{ErrorCode::kBadArgument, what, {}};
+}
+
 /// Creation: a simulation goes to `out`, which is null until then.
 template <class Call>
 incise_status create(incise_simulation** out, const Call& call) {
@@ -252,8 +257,9 @@ incise_status run_frame(incise_simulation& handle, const FrameInput& input, inci
   return give(to_c(handle.last), report);
 }
 
-incise_status settle(incise_simulation& handle, std::uint32_t most, double speed, std::uint32_t* frames) {
-  const Result<unsigned> done = handle.simulation.settle(most, speed);
+incise_status settle(incise_simulation& handle, std::uint32_t most, double speed, const ShouldStop& should_stop,
+                     std::uint32_t* frames) {
+  const Result<unsigned> done = handle.simulation.settle(most, speed, should_stop);
   if (!done.ok()) return fail(done.error());
   if (frames != nullptr) *frames = *done;
   return INCISE_OK;
@@ -261,6 +267,17 @@ incise_status settle(incise_simulation& handle, std::uint32_t most, double speed
 
 incise_status no_scene() {
   return refuse("this simulation was made without a scene; use incise_simulation_read_scene");
+}
+
+incise_status settle_scene(incise_simulation& handle, const ShouldStop& should_stop, std::uint32_t* frames) {
+  if (!handle.scene) return no_scene();
+  const app::SceneSettle& how = handle.scene->settle;
+  return settle(handle, how.frames, how.speed, should_stop, frames);
+}
+
+ShouldStop ask(incise_should_stop should_stop, void* user) {
+  if (should_stop == nullptr) return {};
+  return [should_stop, user] { return should_stop(user) != 0; };  // settling ends at the first yes
 }
 
 incise_simulation_state state_of(const incise_simulation& handle) {
@@ -314,20 +331,24 @@ incise_status incise_simulation_create(const incise_mesh_arrays* mesh, const inc
 
 incise_status incise_simulation_read(const char* path, const incise_simulation_options* options,
                                      incise_simulation** simulation) {
-  if (path == nullptr) return c::refuse("the name of the file is null");
-  return c::create(simulation, [&] { return c::make(io::load_mesh(path), options); });
+  return c::create(simulation, [&] {
+    return path == nullptr ? c::null("the name of the file is null") : c::make(io::load_mesh(path), options);
+  });
 }
 
 incise_status incise_simulation_read_scene(const char* path, uint32_t threads, incise_simulation** simulation) {
-  if (path == nullptr) return c::refuse("the name of the scene is null");
-  return c::create(simulation, [&] { return c::make(app::read_scene(path), threads); });
+  return c::create(simulation, [&] {
+    return path == nullptr ? c::null("the name of the scene is null") : c::make(app::read_scene(path), threads);
+  });
 }
 
 incise_status incise_simulation_parse_scene(const char* json, const char* folder, uint32_t threads,
                                             incise_simulation** simulation) {
-  if (json == nullptr) return c::refuse("the scene is null");
-  const std::filesystem::path seen_from = folder == nullptr ? "" : folder;
-  return c::create(simulation, [&] { return c::make(app::parse_scene(json, "scene", seen_from), threads); });
+  return c::create(simulation, [&] {
+    const std::filesystem::path seen_from = folder == nullptr ? "" : folder;
+    return json == nullptr ? c::null("the scene is null")
+                           : c::make(app::parse_scene(json, "scene", seen_from), threads);
+  });
 }
 
 incise_status incise_simulation_free(incise_simulation* simulation) {
@@ -383,16 +404,24 @@ incise_status incise_simulation_hook_forces(const incise_simulation* simulation,
 
 incise_status incise_simulation_settle(incise_simulation* simulation, uint32_t max_frames, double speed,
                                        uint32_t* frames) {
-  return c::change(simulation, [&](Simulation&) { return c::settle(*simulation, max_frames, speed, frames); });
+  return incise_simulation_settle_until(simulation, max_frames, speed, nullptr, nullptr, frames);
 }
 
 incise_status incise_simulation_settle_scene(incise_simulation* simulation, uint32_t* frames) {
-  return c::change(simulation, [&](Simulation&) -> incise_status {
-    if (!simulation->scene) return c::no_scene();
-    const app::SceneSettle& how = simulation->scene->settle;
-    if (frames != nullptr) *frames = 0;
-    return how.frames == 0 ? INCISE_OK : c::settle(*simulation, how.frames, how.speed, frames);
+  return incise_simulation_settle_scene_until(simulation, nullptr, nullptr, frames);
+}
+
+incise_status incise_simulation_settle_until(incise_simulation* simulation, uint32_t max_frames, double speed,
+                                             incise_should_stop should_stop, void* user, uint32_t* frames) {
+  return c::change(simulation, [&](Simulation&) {
+    return c::settle(*simulation, max_frames, speed, c::ask(should_stop, user), frames);
   });
+}
+
+incise_status incise_simulation_settle_scene_until(incise_simulation* simulation, incise_should_stop should_stop,
+                                                   void* user, uint32_t* frames) {
+  return c::change(simulation,
+                   [&](Simulation&) { return c::settle_scene(*simulation, c::ask(should_stop, user), frames); });
 }
 
 incise_status incise_simulation_look(const incise_simulation* simulation, incise_simulation_state* state) {

@@ -878,6 +878,14 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_settle_scene(IntPtr simulation, uint* frames);
 
+        /// <summary>The same two, until `should_stop` (may be null), which is asked before each frame, returns other than 0: the body is then as that many frames have left it. Several calls in place of one may make a frame more.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_simulation_settle_until(IntPtr simulation, uint max_frames, double speed, incise_should_stop should_stop, IntPtr user, uint* frames);
+
+        /// <summary>As the scene says.</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int incise_simulation_settle_scene_until(IntPtr simulation, incise_should_stop should_stop, IntPtr user, uint* frames);
+
         /// <summary>Cost: O(tets).</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_simulation_look(IntPtr simulation, incise_simulation_state* state);
@@ -946,7 +954,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_plan_parse([MarshalAs(UnmanagedType.LPUTF8Str)] string json, [MarshalAs(UnmanagedType.LPUTF8Str)] string folder, out IntPtr plan);
 
-        /// <summary>Null is fine.</summary>
+        /// <summary>Null is fine. A batch that runs keeps what it needs.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_plan_free(IntPtr plan);
 

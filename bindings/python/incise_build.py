@@ -104,6 +104,17 @@ def get_requires_for_build_sdist(config_settings: Settings = None) -> list[str]:
     return []
 
 
+def _wheel_note() -> str:
+    return "Wheel-Version: 1.0\nGenerator: incise_build\nRoot-Is-Purelib: false\nTag: %s\n" % _tag()
+
+
+def prepare_metadata_for_build_wheel(metadata_directory: str, config_settings: Settings = None) -> str:
+    """What pip asks for first: without this it would compile the library to know the version."""
+    info = write_metadata(Path(metadata_directory))
+    (info / "WHEEL").write_text(_wheel_note(), encoding="utf-8")
+    return info.name
+
+
 def build_wheel(wheel_directory: str, config_settings: Settings = None,
                 metadata_directory: Optional[str] = None) -> str:
     """Compiles the library and packs the wheel; returns its name."""
@@ -117,8 +128,7 @@ def build_wheel(wheel_directory: str, config_settings: Settings = None,
     for path in (ROOT / "LICENSE", ROOT / "THIRD_PARTY.md"):
         wheel.add(info + "/" + path.name, path.read_bytes())
     wheel.add(info + "/METADATA", _metadata().encode())
-    wheel.add(info + "/WHEEL", ("Wheel-Version: 1.0\nGenerator: incise_build\nRoot-Is-Purelib: false\nTag: %s\n" %
-                                _tag()).encode())
+    wheel.add(info + "/WHEEL", _wheel_note().encode())
     wheel.close(info)
     return name
 
@@ -138,11 +148,12 @@ def build_sdist(sdist_directory: str, config_settings: Settings = None) -> str:
     return archive.name
 
 
-def write_metadata(folder: Path) -> None:
-    """Writes what `importlib.metadata` and pip know the package by, for packages that are not wheels."""
+def write_metadata(folder: Path) -> Path:
+    """Writes what `importlib.metadata` and pip know the package by, where there is no wheel; returns its folder."""
     info = folder / ("incise_mesh-%s.dist-info" % _version())
     info.mkdir(parents=True, exist_ok=True)
     (info / "METADATA").write_text(_metadata(), encoding="utf-8")
+    return info
 
 
 if __name__ == "__main__":

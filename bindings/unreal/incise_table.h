@@ -95,6 +95,8 @@ typedef struct incise_table {
   incise_status (*simulation_hook_forces)(const incise_simulation* simulation, double* forces, uint64_t room, uint64_t* count);
   incise_status (*simulation_settle)(incise_simulation* simulation, uint32_t max_frames, double speed, uint32_t* frames);
   incise_status (*simulation_settle_scene)(incise_simulation* simulation, uint32_t* frames);
+  incise_status (*simulation_settle_until)(incise_simulation* simulation, uint32_t max_frames, double speed, incise_should_stop should_stop, void* user, uint32_t* frames);
+  incise_status (*simulation_settle_scene_until)(incise_simulation* simulation, incise_should_stop should_stop, void* user, uint32_t* frames);
   incise_status (*simulation_look)(const incise_simulation* simulation, incise_simulation_state* state);
   incise_status (*simulation_undo)(incise_simulation* simulation, int32_t* done);
   incise_status (*simulation_redo)(incise_simulation* simulation, int32_t* done);
@@ -204,6 +206,8 @@ static inline const char* incise_table_load(incise_table* table, incise_find fin
     "incise_simulation_hook_forces",
     "incise_simulation_settle",
     "incise_simulation_settle_scene",
+    "incise_simulation_settle_until",
+    "incise_simulation_settle_scene_until",
     "incise_simulation_look",
     "incise_simulation_undo",
     "incise_simulation_redo",

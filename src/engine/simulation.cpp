@@ -416,10 +416,11 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Result<unsigned> Simulation::settle(unsigned max_frames, double speed) {
+Result<unsigned> Simulation::settle(unsigned max_frames, double speed, const ShouldStop& should_stop) {
   State& s = *state_;
   if (!(speed >= 0)) return bad("the speed at which a body counts as at rest must be at least 0 m/s");
   for (unsigned i = 0; i < max_frames; ++i) {
+    if (should_stop && should_stop()) return i;
     Result<AdvanceReport> advanced = s.solver->advance(s.options.frame_seconds);
     if (!advanced) return advanced.error();
     if (Status status = s.hand_over(); !status) return status.error();

@@ -99,6 +99,22 @@ TEST(CBatch, CallbacksSeeHowFarItIsAndEndIt) {
   EXPECT_EQ(seen.asked_after_the_end, 0);
 }
 
+TEST(CBatch, APlanMayBeFreedWhileABatchRuns) {
+  incise_plan* plan = nullptr;
+  ASSERT_EQ(incise_plan_parse(kPlan, nullptr, &plan), INCISE_OK) << incise_last_error();
+  const incise_test::Folder folder;
+  incise_batch_options all = options(0, 1);
+  all.user = &plan;
+  all.progress = [](void* user, std::uint64_t, std::uint64_t) {
+    auto* handle = static_cast<incise_plan**>(user);
+    EXPECT_EQ(incise_plan_free(std::exchange(*handle, nullptr)), INCISE_OK);
+  };
+  Report report;
+  ASSERT_EQ(incise_batch_run(plan, (folder / "out").c_str(), &all, Report::keep, &report), INCISE_OK);
+  EXPECT_EQ(plan, nullptr);
+  EXPECT_EQ(report.json["done"], 3);
+}
+
 TEST(CBatch, WhatIsNoPlanOrNoShardIsSaid) {
   incise_plan* none = nullptr;
   EXPECT_EQ(incise_plan_parse("{", nullptr, &none), INCISE_BAD_FILE);

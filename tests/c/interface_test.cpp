@@ -109,6 +109,45 @@ TEST(CInterface, refuses_structs_that_it_does_not_know) {
   EXPECT_NE(std::string(incise_last_error()).find("newer"), std::string::npos);
 }
 
+TEST(CInterface, refuses_structs_that_end_within_a_member) {
+  const EngineHandle engine = cube(2);
+  auto stroke = sized<incise_stroke>();
+  for (const std::uint32_t size : {9U, 12U, 23U}) {  // 12: half of the pointer to the times
+    stroke.size = size;
+    EXPECT_EQ(incise_engine_cut(engine.get(), &stroke, nullptr), INCISE_BAD_ARGUMENT);
+    EXPECT_NE(std::string(incise_last_error()).find("sizeof(incise_stroke)"), std::string::npos) << size;
+  }
+}
+
+TEST(CInterface, handles_are_null_where_nothing_was_made) {
+  const EngineHandle engine = cube(2);
+  auto* const garbage = reinterpret_cast<void*>(0x10);
+  auto* made = static_cast<incise_engine*>(garbage);
+  EXPECT_EQ(incise_engine_read(nullptr, nullptr, &made), INCISE_BAD_ARGUMENT);
+  EXPECT_EQ(made, nullptr);
+  made = static_cast<incise_engine*>(garbage);
+  EXPECT_EQ(incise_engine_read_bytes(nullptr, 3, nullptr, nullptr, &made), INCISE_BAD_ARGUMENT);
+  EXPECT_EQ(made, nullptr);
+  auto* cursor = static_cast<incise_cursor*>(garbage);
+  EXPECT_EQ(incise_cursor_create(nullptr, &cursor), INCISE_BAD_ARGUMENT);
+  EXPECT_EQ(cursor, nullptr);
+  auto* plan = static_cast<incise_plan*>(garbage);
+  EXPECT_EQ(incise_plan_read(nullptr, &plan), INCISE_BAD_ARGUMENT);
+  EXPECT_EQ(plan, nullptr);
+  plan = static_cast<incise_plan*>(garbage);
+  EXPECT_EQ(incise_plan_parse(nullptr, nullptr, &plan), INCISE_BAD_ARGUMENT);
+  EXPECT_EQ(plan, nullptr);
+  auto* simulation = static_cast<incise_simulation*>(garbage);
+  for (const auto& call :
+       {+[](incise_simulation** out) { return incise_simulation_read(nullptr, nullptr, out); },
+        +[](incise_simulation** out) { return incise_simulation_read_scene(nullptr, 1, out); },
+        +[](incise_simulation** out) { return incise_simulation_parse_scene(nullptr, nullptr, 1, out); }}) {
+    simulation = static_cast<incise_simulation*>(garbage);
+    EXPECT_EQ(call(&simulation), INCISE_BAD_ARGUMENT);
+    EXPECT_EQ(simulation, nullptr);
+  }
+}
+
 TEST(CInterface, does_nothing_where_the_report_is_refused) {
   const EngineHandle engine = cube(2);
   const std::uint64_t before = hash(engine.get());

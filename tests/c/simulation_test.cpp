@@ -176,6 +176,36 @@ TEST(CSimulation, of_arrays_is_held_by_hand) {
   EXPECT_NEAR(velocities[2], 1, 1e-6);
 }
 
+TEST(CSimulation, settles_until_it_is_told_to_stop) {
+  const char* scene = R"({"format": "incise-scene", "version": 1, "model": {"box": {"cells": [2, 2, 2]}},
+    "length_unit": 0.1, "attachments": [{"below": [0, 0, 1, 0.01]}], "settle": {"frames": 20, "speed": 1e-12}})";
+  const auto made = [&] {
+    incise_simulation* simulation = nullptr;
+    EXPECT_EQ(incise_simulation_parse_scene(scene, nullptr, 1, &simulation), INCISE_OK) << incise_last_error();
+    return SimulationHandle(simulation);
+  };
+  const SimulationHandle by_scene = made(), by_call = made(), whole = made(), stopped = made();
+  std::uint32_t frames = 0;
+  ASSERT_EQ(incise_simulation_settle_scene(by_scene.get(), &frames), INCISE_OK);
+  EXPECT_EQ(frames, 20U);
+  ASSERT_EQ(incise_simulation_settle_scene_until(by_call.get(), nullptr, nullptr, &frames), INCISE_OK);
+  EXPECT_EQ(frames, 20U);
+  EXPECT_EQ(state_of(by_scene.get()).hash, state_of(by_call.get()).hash);
+  ASSERT_EQ(incise_simulation_settle(whole.get(), 5, 0, &frames), INCISE_OK);
+  int asked = 0;
+  const auto stop = [](void* user) -> std::int32_t { return ++*static_cast<int*>(user) > 5 ? 1 : 0; };
+  ASSERT_EQ(incise_simulation_settle_until(stopped.get(), 40, 0, stop, &asked, &frames), INCISE_OK);
+  EXPECT_EQ(frames, 5U);
+  EXPECT_EQ(asked, 6) << "who said stop is not asked again";
+  EXPECT_EQ(state_of(whole.get()).hash, state_of(stopped.get()).hash);
+  const auto call_back = [](void* user) -> std::int32_t {
+    EXPECT_EQ(incise_simulation_frame(static_cast<incise_simulation*>(user), nullptr, nullptr), INCISE_BUSY);
+    return 1;
+  };
+  ASSERT_EQ(incise_simulation_settle_scene_until(stopped.get(), call_back, stopped.get(), &frames), INCISE_OK);
+  EXPECT_EQ(frames, 0U);
+}
+
 /// The law of a material as C++ has it: the same hash; numbers out of range are refused with the same words.
 TEST(CSimulation, materials_have_all_that_those_of_the_library_have) {
   const TetSoup soup = kuhn_cube(3);

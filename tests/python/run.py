@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PACKAGE = os.path.join(ROOT, "bindings", "python")
@@ -44,12 +45,25 @@ def run_mypy():
     return subprocess.run(command, cwd=ROOT, check=False).returncode
 
 
+def check_metadata(wheel, folder):
+    """What pip is told before anything is compiled is what the wheel says."""
+    told = subprocess.run([sys.executable, "-c", "import incise_build, sys; "
+                           "print(incise_build.prepare_metadata_for_build_wheel(sys.argv[1]))", folder],
+                          env=dict(os.environ, PYTHONPATH=PACKAGE), check=True, capture_output=True, text=True).stdout.strip()
+    with zipfile.ZipFile(wheel) as content:
+        for name in ("METADATA", "WHEEL"):
+            with open(os.path.join(folder, told, name), "rb") as file:
+                if file.read() != content.read(told + "/" + name):
+                    raise SystemExit("%s of the wheel is not what was told before" % name)
+
+
 def run_wheel():
     """Builds the wheel around the library of this build, installs it into a folder of its own, and uses it there."""
     skip_without("numpy", "pip")
     with tempfile.TemporaryDirectory(prefix="incise wheel ") as folder:
         built = subprocess.run([sys.executable, "-c", "import incise_build, sys; print(incise_build.build_wheel(sys.argv[1]))",
                                 folder], env=dict(os.environ, PYTHONPATH=PACKAGE), check=True, capture_output=True, text=True)
+        check_metadata(os.path.join(folder, built.stdout.strip()), folder)
         wheel, site = os.path.join(folder, built.stdout.strip()), os.path.join(folder, "site")
         subprocess.run([sys.executable, "-m", "pip", "install", "-q", "--no-index", "--no-deps", "--target", site, wheel],
                        check=True)

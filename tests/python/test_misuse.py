@@ -49,6 +49,60 @@ def test_arrays_may_lie_in_memory_as_they_like():
         assert incise.Engine(points, tets).hash == whole
 
 
+def shifted(array):
+    """The same array, beginning at an odd address, as in bytes that were read from a file."""
+    raw = np.zeros(array.nbytes + 1, np.uint8)
+    raw[1:] = np.frombuffer(array.tobytes(), np.uint8)
+    moved = raw[1:].view(array.dtype).reshape(array.shape)
+    assert not moved.flags.aligned and moved.flags.c_contiguous
+    return moved
+
+
+def test_arrays_that_begin_at_odd_addresses_are_copied():
+    regions = np.arange(len(CUBE.tets), dtype=np.int32)
+    engines = [incise.Engine(change(CUBE.points), change(CUBE.tets), change(regions)) for change in (np.copy, shifted)]
+    stroke = np.array([[[0.4, -1, -1], [0.4, -1, 2]], [[0.4, 2, -1], [0.5, 2, 2]]])
+    engines[0].cut(stroke)
+    engines[1].cut(incise.Stroke(shifted(stroke), times=shifted(np.array([0.0, 1.0]))))
+    assert engines[0].hash == engines[1].hash
+    for array, kind in ((CUBE.points, "points"), (CUBE.tets, "tets"), (regions, "regions")):
+        taken = {"points": incise._arrays.points, "tets": lambda tets: incise._arrays.indices(tets, 4, "tets"),
+                 "regions": lambda labels: incise._arrays.labels(labels, len(labels), "regions")}[kind](shifted(array))
+        assert taken.flags.aligned and np.array_equal(taken, array)
+
+
+def test_what_holds_bytes_is_a_file():
+    content = incise.box((2, 2, 2)).to_bytes(".mesh")
+    for given in (bytearray(content), memoryview(content), np.frombuffer(content, np.uint8)):
+        assert incise.Engine.from_bytes(given).hash == incise.Engine.from_bytes(content).hash
+    with pytest.raises(TypeError):  # ctypes would take its memory
+        incise.Engine.from_bytes(content.decode())
+
+
+@pytest.mark.parametrize("kind", ["M8[s]", "m8[s]", "U8", "S8"])
+def test_dates_and_texts_are_no_places(kind):
+    with pytest.raises(incise.BadArgument, match="real numbers"):
+        incise.Engine(np.zeros((4, 3)).astype(kind), [[0, 1, 2, 3]])
+
+
+def test_complex_strokes_are_refused():
+    stroke = np.array([[[0.4, -1, -1], [0.4, -1, 2]], [[0.4, 2, -1], [0.5, 2, 2]]])
+    for given in (stroke + 1j, incise.Stroke(stroke, times=[0j, 1j])):
+        with pytest.raises(incise.BadArgument, match="complex"):
+            incise.box((2, 2, 2)).cut(given)
+
+
+def test_numbers_of_numpy_are_numbers():
+    engine = incise.box(np.array((3, 3, 3)), threads=np.int64(1), work_units=np.uint64(10**6))
+    engine.cut_plane((1, 0.2, 0), np.float32(0.5))
+    assert engine.validate(most=np.int64(3)) and len(engine.journal(np.int64(0))) == engine.journal_position
+    engine.keep_undo(np.uint8(2))
+    cube = incise.Simulation(CUBE.points, CUBE.tets, length_unit=np.float32(0.1), substeps=np.int64(2))
+    cube.hold(np.uint32(3), np.float64(30))
+    assert cube.is_held(np.int64(3)) and cube.settle(np.int16(2), np.float32(0)) == 2
+    cube.frame(hooks=[incise.Hook(np.int64(1), (0.5, 0.5, 0), np.float32(0.3))])
+
+
 @pytest.mark.parametrize("call", [
     lambda: incise.box((2, 2, 2), work_units=-1), lambda: incise.box((2, 2, 2), work_units=2**64),
     lambda: incise.box((2, 2, 2), threads=2**32 + 1), lambda: incise.box((2, 2, 2)).keep_undo(2**64 + 1),
@@ -111,11 +165,13 @@ def test_no_body_settles_for_ever(speed):
 
 @pytest.mark.parametrize("spoil", [
     lambda cube: cube.frame(hooks=[incise.Hook(1, (1e300, 0.5, 0), 0.3)]),
+    lambda cube: cube.move_hold(0, (1e300, 0, 0)),
     lambda cube: cube.set_velocity(1, (1e300, 0, 0)), lambda cube: cube.set_velocity(1, (math.nan, 0, 0)),
     lambda cube: cube.frame(tools=[incise.Plane((0, 0, 1), 1e300)]),
     lambda cube: cube.frame(tools=[incise.Ball((0, 0, math.nan), 1)])])
 def test_what_no_body_can_bear_is_refused_and_changes_nothing(spoil):
     cube = body()
+    cube.hold(0)
     cube.frame(hooks=[incise.Hook(1, (0.5, 0.5, 0), 0.3)])
     before = cube.hash
     with pytest.raises(incise.BadArgument):

@@ -89,6 +89,99 @@ def test_ctrl_c_ends_maintenance_and_is_not_lost():
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler, "Ctrl-C is as it was"
 
 
+def hanging_box(n):
+    box = incise.box((n, n, n)).compact()
+    body = incise.Simulation(box.points, box.tets, length_unit=0.1, materials=incise.Material(young=5e3))
+    body.hold(body.find(lambda rest: rest[:, 2] == 1))
+    return body
+
+
+def test_ctrl_c_ends_settling_between_two_frames():
+    body = hanging_box(12)
+    timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        body.settle(2**31, 0.0)
+    timer.join()
+    assert np.isfinite(body.frame().fastest)
+
+
+def test_settling_stops_where_told_to():
+    asked = []
+
+    def stop_at_fourth():
+        asked.append(1)
+        return len(asked) == 4
+
+    body, other = hanging_box(3), hanging_box(3)
+    assert body.settle(100, 0.0, stop_at_fourth) == 3 and other.settle(3, 0.0) == 3
+    assert body.hash == other.hash and len(asked) == 4
+    with pytest.raises(ZeroDivisionError):
+        body.settle(100, 0.0, lambda: 1 // 0)
+
+
+CROSSING = [(-0.2, 0.5), (1.2, 0.5), (1.3, 1.3), (0.5, 1.2), (0.5, -0.2)]  # a way that meets itself: it is told of
+
+
+def test_what_comes_while_c_computes_comes_out_of_the_call(capfd):
+    """Python runs the handlers of signals at the beginning of the next callback, where nothing can catch what they raise;
+    C cannot hand it on, and ctypes prints and forgets it."""
+    def late(*_):
+        raise TimeoutError
+
+    heard, stroke = [], [[(x, y, -0.5), (x, y, 1.5)] for x, y in CROSSING]
+    engine, rough = incise.box((12, 12, 12), log=lambda level, text: heard.append(text)), rough_box(24)
+    values, scene = incise.Attributes(incise.box((20, 20, 20))), {
+        "format": "incise-scene", "version": 1, "model": {"box": {"cells": [9, 9, 9]}}, "length_unit": 0.1,
+        "settle": {"frames": 10_000, "speed": 1e-12}}
+    previous = signal.signal(signal.SIGALRM, late)
+    try:
+        for call in (lambda: engine.cut(stroke), lambda: rough.improve(), lambda: rough.improve(lambda: False),
+                     lambda: values.add("one", "tets", "recompute", recompute=lambda slot: 1.0),
+                     lambda: incise.Simulation.from_scene(scene)):
+            with pytest.raises(TimeoutError):
+                signal.setitimer(signal.ITIMER_REAL, 0.002)
+                end = time.monotonic() + 60
+                while time.monotonic() < end:
+                    call()
+                    rough.undo()
+            assert signal.getsignal(signal.SIGALRM) is late
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, previous)
+    assert capfd.readouterr().err == "" and engine.validate() and rough.validate()
+
+
+def test_handlers_that_raise_nothing_end_nothing():
+    came, engine = [], rough_box(8)
+    previous = signal.signal(signal.SIGINT, lambda number, _frame: came.append(number))
+    try:
+        def interrupt_once():
+            if not came:
+                signal.raise_signal(signal.SIGINT)
+            return False
+
+        done, other = engine.improve(interrupt_once), rough_box(8)
+        other.improve()
+    finally:
+        signal.signal(signal.SIGINT, previous)
+    assert came == [signal.SIGINT] and done.waiting_tets == 0 and engine.hash == other.hash
+
+
+def test_what_a_listener_raises_comes_out_of_the_call():
+    def interrupted(_level, _text):
+        raise KeyboardInterrupt
+
+    stroke, heard = [[(x, y, -0.5), (x, y, 1.5)] for x, y in CROSSING], []
+    engine = incise.box((4, 4, 4), log=interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        engine.cut(stroke)
+    assert engine.stroke_count == 1 and engine.validate(), "it was cut all the same, and nothing is raised twice"
+    other = incise.box((4, 4, 4), log=lambda level, text: heard.append((level, text)))
+    other.cut(stroke)
+    assert len(heard) == 1 and "meets itself" in heard[0][1] and other.hash == engine.hash
+
+
 def test_who_said_stop_is_not_asked_again():
     asked = []
 

@@ -7,7 +7,8 @@ import operator
 import os
 import signal
 import threading
-from typing import Any, Callable, Iterator, Optional, Union
+from contextlib import nullcontext
+from typing import Any, Callable, ContextManager, Iterator, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -20,16 +21,23 @@ Ints = npt.NDArray[np.int32]
 Slots = npt.NDArray[np.uint32]
 Bytes = npt.NDArray[np.uint8]
 Path = Union[str, "os.PathLike[str]"]
+_SIGNALS = sorted(signal.valid_signals())
+_AT_ONCE: "ContextManager[Any]" = nullcontext()
+
+
+def _for_c(array: npt.NDArray[Any], kind: npt.DTypeLike) -> npt.NDArray[Any]:
+    """Row by row, and where such numbers may begin: an array over bytes of a file may begin anywhere."""
+    return np.require(array, kind, ("C", "A"))
 
 
 def _real(value: npt.ArrayLike, name: str) -> Floats:
     array = np.ascontiguousarray(value)
     kind = array.dtype
-    if kind.char == "d" and kind.isnative:  # the usual one: each step of a blade comes by here
+    if kind.char == "d" and kind.isnative and array.flags.aligned:  # the usual one: each step of a blade comes by here
         return array
-    if kind.kind == "c":  # numpy would drop half of it, and warn
+    if kind.kind not in "biufO":  # of complex ones numpy would drop half, and warn; dates and texts it would turn
         raise BadArgument(f"{name} is of {kind}; real numbers are wanted")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return _for_c(array, np.float64)
 
 
 def whole(value: Any, name: str, least: int, most: int) -> int:
@@ -38,6 +46,22 @@ def whole(value: Any, name: str, least: int, most: int) -> int:
     if not least <= number <= most:
         raise BadArgument(f"{name} is {number}; {least} to {most} are wanted")
     return number
+
+
+def poses(value: npt.ArrayLike, name: str) -> Floats:
+    """n x m x 3 numbers: an edge of m points at n times."""
+    array = _real(value, name)
+    if array.ndim != 3 or array.shape[2] != 3:
+        raise BadArgument(f"{name} have the shape {array.shape}; n_times x n_points x 3 is wanted")
+    return array
+
+
+def numbers(value: npt.ArrayLike, n: int, name: str) -> Floats:
+    """n numbers."""
+    array = _real(value, name)
+    if array.shape != (n,):
+        raise BadArgument(f"{name} has the shape {array.shape}; {n} numbers are wanted")
+    return array
 
 
 def points(value: npt.ArrayLike, name: str = "points") -> Floats:
@@ -50,10 +74,7 @@ def points(value: npt.ArrayLike, name: str = "points") -> Floats:
 
 def vector(value: npt.ArrayLike, name: str) -> Floats:
     """Three numbers."""
-    array = _real(value, name)
-    if array.shape != (3,):
-        raise BadArgument(f"{name} has the shape {array.shape}; 3 numbers are wanted")
-    return array
+    return numbers(value, 3, name)
 
 
 def indices(value: npt.ArrayLike, width: int, name: str) -> Slots:
@@ -64,7 +85,7 @@ def indices(value: npt.ArrayLike, width: int, name: str) -> Slots:
     if array.ndim != 2 or array.shape[1] != width:
         raise BadArgument(f"{name} has the shape {array.shape}; n x {width} is wanted")
     if array.dtype == np.uint32:
-        return np.ascontiguousarray(array)
+        return _for_c(array, np.uint32)
     if array.size and array.dtype.kind not in "iu":
         raise BadArgument(f"{name} is of {array.dtype}; whole numbers are wanted")
     if array.size and (int(array.min()) < 0 or int(array.max()) >= _c.NONE):
@@ -83,7 +104,7 @@ def labels(value: Optional[npt.ArrayLike], n: int, name: str) -> Optional[Ints]:
     if given.dtype.kind not in "iubf":
         raise BadArgument(f"{name} is of {given.dtype}; whole numbers are wanted")
     with np.errstate(invalid="ignore"):
-        array = np.ascontiguousarray(given, dtype=np.int32)
+        array = _for_c(given, np.int32)
     if not np.array_equal(array, given):
         bad = int(np.argmax(array != given))
         raise BadArgument(f"{name}[{bad}] is {given[bad]}; whole numbers from -2^31 to 2^31 - 1 are wanted", (bad,))
@@ -104,46 +125,91 @@ class Rows:
             "data": (data, True), "shape": shape, "typestr": np.dtype(dtype).str, "version": 3}
 
 
-class Asking:
-    """A callback that ends maintenance: where the caller's `should_stop` says so or raises, and at Ctrl-C.
+class Waiting:
+    """While it lasts, signals wait. `with Waiting():` around calls that call back.
 
-    `with Asking(should_stop) as callback:` around the call; what came is raised at the end of the block. While it lasts,
-    Ctrl-C is only noted: raised anywhere in a callback it would be lost, since C cannot hand it on.
+    Their handlers run at its end. Python would run them, most of all at the very beginning of a callback, where nothing
+    can catch what they raise: C cannot hand it on, and Ctrl-C would be printed and forgotten.
     """
 
-    def __init__(self, should_stop: Optional[Callable[[], bool]]) -> None:
-        self._should_stop = should_stop
-        self._error: Optional[BaseException] = None
-        self._interrupted = False
-        self._handler: Any = None  # of Ctrl-C before
+    def __init__(self) -> None:
+        self._handlers: dict[int, Callable[[int, Any], Any]] = {}
+        self._noted: list[tuple[int, Any]] = []
 
     def __enter__(self) -> Any:
         # Python hears of signals in the main thread alone, and only while it runs Python.
         if threading.current_thread() is threading.main_thread():
-            handler = signal.getsignal(signal.SIGINT)
-            if callable(handler):
-                signal.signal(signal.SIGINT, self._note)
-                self._handler = handler
-        if self._should_stop is None and self._handler is None:
+            try:
+                for number in _SIGNALS:
+                    handler = signal.getsignal(number)
+                    if callable(handler):
+                        self._handlers[number] = handler
+                        signal.signal(number, self._note)
+            except BaseException:  # of a handler whose turn had not come
+                self._restore()
+                raise
+        return self
+
+    def _note(self, number: int, frame: Any) -> None:
+        self._noted.append((number, frame))
+
+    def _handle(self) -> None:
+        """Runs the handlers of what came; raises what they raise."""
+        while self._noted:
+            number, frame = self._noted.pop(0)
+            self._handlers[number](number, frame)
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        self._restore()
+        self._handle()
+
+    def _restore(self) -> None:
+        """Puts the handlers back, but where a callback has chosen another one, even if one that is back raises."""
+        raised: Optional[BaseException] = None
+        while any(signal.getsignal(number) == self._note for number in self._handlers):
+            try:
+                for number, handler in self._handlers.items():
+                    if signal.getsignal(number) == self._note:
+                        signal.signal(number, handler)
+            except BaseException as error:
+                raised = raised or error
+        if raised is not None:
+            raise raised
+
+
+def waiting(wants: bool) -> "ContextManager[Any]":
+    """`Waiting` where something may call back."""
+    return Waiting() if wants else _AT_ONCE
+
+
+class Asking(Waiting):
+    """A callback that ends what takes long: where the caller's `should_stop` says so or raises, and where a signal's
+    handler raises, as that of Ctrl-C does.
+
+    `with Asking(should_stop) as callback:` around the call; what was raised is raised again at the end of the block.
+    """
+
+    def __init__(self, should_stop: Optional[Callable[[], bool]]) -> None:
+        super().__init__()
+        self._should_stop = should_stop
+        self._error: Optional[BaseException] = None
+
+    def __enter__(self) -> Any:
+        super().__enter__()
+        if self._should_stop is None and not self._handlers:
             return _c.incise_should_stop()
         return _c.incise_should_stop(self._ask)
 
-    def _note(self, _number: int, _frame: Any) -> None:
-        self._interrupted = True
-
     def _ask(self, _user: Any) -> int:
         try:
-            stops = self._should_stop is not None and self._should_stop()
+            self._handle()
+            return 1 if self._should_stop is not None and self._should_stop() else 0
         except BaseException as error:
             self._error = error
             return 1
-        return 1 if stops or self._interrupted else 0
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
-        if self._handler is not None:
-            signal.signal(signal.SIGINT, self._handler)
-            if self._interrupted:
-                self._handler(signal.SIGINT, None)  # as if it came now: raises KeyboardInterrupt, unless told otherwise
+        super().__exit__(kind, error, trace)
         if self._error is not None and error is None:
             raise self._error
 

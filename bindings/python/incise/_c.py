@@ -685,6 +685,10 @@ def declare(library: CDLL) -> None:
     library.incise_simulation_settle.argtypes = [c_void_p, c_uint32, c_double, c_void_p]
     library.incise_simulation_settle_scene.restype = c_int32
     library.incise_simulation_settle_scene.argtypes = [c_void_p, c_void_p]
+    library.incise_simulation_settle_until.restype = c_int32
+    library.incise_simulation_settle_until.argtypes = [c_void_p, c_uint32, c_double, incise_should_stop, c_void_p, c_void_p]
+    library.incise_simulation_settle_scene_until.restype = c_int32
+    library.incise_simulation_settle_scene_until.argtypes = [c_void_p, incise_should_stop, c_void_p, c_void_p]
     library.incise_simulation_look.restype = c_int32
     library.incise_simulation_look.argtypes = [c_void_p, POINTER(incise_simulation_state)]
     library.incise_simulation_undo.restype = c_int32

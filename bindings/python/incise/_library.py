@@ -5,8 +5,9 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import os
+import threading
 from pathlib import Path
-from typing import Any, Type, TypeVar
+from typing import Any, Callable, Type, TypeVar
 
 from . import _c, errors
 
@@ -39,8 +40,30 @@ def _load() -> ctypes.CDLL:
 lib = _load()
 
 
+class _Raised(threading.local):
+    """What callbacks raised on this thread, which C cannot hand on; Ctrl-C may come in any of them."""
+
+    def __init__(self) -> None:
+        self.errors: list[BaseException] = []
+
+
+raised = _Raised()
+
+
+def hear(listener: Callable[..., Any], *words: Any) -> None:
+    """Calls a listener from within a call; what it raises waits for `check`."""
+    try:
+        listener(*words)
+    except BaseException as error:
+        raised.errors.append(error)
+
+
 def check(status: int) -> None:
-    """Raises what a call failed with."""
+    """Raises what a call failed with, or what a listener of it raised."""
+    if raised.errors:
+        error = raised.errors[0]
+        raised.errors.clear()
+        raise error
     if status == _c.OK:
         return
     count = lib.incise_last_error_ids(None, 0)

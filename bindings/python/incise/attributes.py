@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from ._arrays import Floats, address, text_bytes, whole
+from ._arrays import Floats, address, text_bytes, waiting, whole
 from ._library import Handle, check, lib, sized
 from .mesh import Mesh, choice
 
@@ -55,15 +55,15 @@ class Attributes:
         width = whole(width, "width", 1, 64)
         spec = sized(_c.incise_attribute_spec)
         encoded = text_bytes(name, "the name")
-        start = None if initial is None else np.ascontiguousarray(
-            np.broadcast_to(np.asarray(initial, np.float64), (width,)))
+        start = None if initial is None else np.array(np.broadcast_to(np.asarray(initial, np.float64), (width,)))
         spec.name, spec.width, spec.initial = encoded, width, address(start)
         spec.domain, spec.transfer = choice(domain, _DOMAINS, "domain"), choice(transfer, _TRANSFERS, "transfer")
         if recompute is not None:
             spec.recompute = self._callback(recompute, width)
             self._keep.append(spec)
-        check(lib.incise_attributes_add(self._handle.pointer, self._mesh._engine(), byref(spec),
-                                        byref(ctypes.c_uint32())))
+        with waiting(recompute is not None):
+            check(lib.incise_attributes_add(self._handle.pointer, self._mesh._engine(), byref(spec),
+                                            byref(ctypes.c_uint32())))
         self._widths[name] = width
         self._raise_what_came()
 
@@ -86,7 +86,8 @@ class Attributes:
     def follow(self) -> None:
         """Catches up with the mesh, forwards or backwards. Raises `BadArgument` where steps were forgotten that it has
         not seen: make it anew."""
-        check(lib.incise_attributes_follow(self._handle.pointer, self._mesh._engine()))
+        with waiting(bool(self._keep)):  # something is recomputed
+            check(lib.incise_attributes_follow(self._handle.pointer, self._mesh._engine()))
         self._raise_what_came()
 
     def __contains__(self, name: object) -> bool:

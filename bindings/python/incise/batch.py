@@ -30,7 +30,7 @@ from pathlib import Path as _Path
 from typing import Any, Callable, Iterator, Mapping, Optional, Tuple, Union
 
 from . import _c
-from ._arrays import Asking, Path, null, path_bytes, whole
+from ._arrays import Asking, Path, Waiting, null, path_bytes, whole
 from ._library import Handle, check, default, lib
 from .errors import BadArgument
 
@@ -190,7 +190,8 @@ def run(plan: Plan, out: Path, shard: Optional[Shard] = None, *, threads: int = 
 def merge(plan: Plan, out: Path, folder: Optional[Path] = None) -> Merge:
     """Writes out/results.jsonl, in the order of the plan, where each item has one result and all files are there."""
     handle = _read(plan, folder)
-    report = _reported(lambda told: lib.incise_batch_merge(handle.pointer, path_bytes(out), told, None))
+    with Waiting():
+        report = _reported(lambda told: lib.incise_batch_merge(handle.pointer, path_bytes(out), told, None))
     return Merge(report["ok"], report["items"], report["shards"], report["failed"], report["repeated"],
                  _told(report, "missing"), _told(report, "contradictory"), _told(report, "broken_files"))
 

@@ -12,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c, exchange
-from ._arrays import Asking, Path, address, indices, labels, path_bytes, points, text_bytes, vector, whole
-from ._library import Handle, check, default, lib, sized
+from ._arrays import Asking, Path, address, indices, labels, numbers, path_bytes, points, poses, text_bytes, vector, waiting, whole
+from ._library import Handle, check, default, hear, lib, sized
 from .errors import BadArgument
 from .mesh import Mesh, choice
 
@@ -82,13 +82,8 @@ class Stroke:
 
 def stroke_struct(stroke: Stroke, keep: list[Any]) -> Any:
     """The stroke for C; `keep` holds on to what it points to."""
-    edges = np.ascontiguousarray(stroke.points, dtype=np.float64)
-    if edges.ndim != 3 or edges.shape[2] != 3:
-        raise BadArgument(f"the points of a stroke have the shape {edges.shape}; n_times x n_points x 3 is wanted")
-    given = np.arange(len(edges)) if stroke.times is None else stroke.times
-    times = np.ascontiguousarray(given, dtype=np.float64)
-    if times.shape != (len(edges),):
-        raise BadArgument(f"a stroke has {len(edges)} edges and times of the shape {times.shape}")
+    edges = poses(stroke.points, "the points of a stroke")
+    times = numbers(np.arange(len(edges)) if stroke.times is None else stroke.times, len(edges), "times of a stroke")
     name = text_bytes(stroke.name, "the name of the stroke")
     keep += [edges, times, name]
     struct = sized(_c.incise_stroke)
@@ -115,7 +110,7 @@ def engine_options(profile: str = "incise", snap: float = 0.2, merge: bool = Tru
     if check_steps is not None:
         options.check_steps = int(check_steps)
     if log is not None:
-        options.log = _c.incise_log(lambda _user, level, text: log(level, text.decode(errors="replace")))
+        options.log = _c.incise_log(lambda _user, level, text: hear(log, level, text.decode(errors="replace")))
     return options
 
 
@@ -139,7 +134,8 @@ class Engine(Mesh):
 
     profile: "incise", or "paper" for the baseline. snap: snapping distance as a share of the mean edge, [0, 0.4].
     merge, improve: what maintenance does after a cut. work_units: its budget per stroke or step, about 0.1 us each.
-    threads: that search the mesh. mend: turns tets of negative volume and drops duplicates. log: hears (level, text).
+    threads: that search the mesh. mend: turns tets of negative volume and drops duplicates. log: hears (level, text);
+    what it raises comes out of the call that had something to say, which was done all the same.
 
     An engine is for one thread at a time: another one gets `Busy`. Calls release the interpreter's lock, so that
     engines of several threads run side by side. Each reserves about 25 GiB of address space, which is no memory.
@@ -163,7 +159,9 @@ class Engine(Mesh):
 
     def _make(self, options: Any, call: Callable[[Any, Any], Any]) -> None:
         pointer = ctypes.c_void_p()
-        check(call(byref(options), byref(pointer)))
+        self._listens = bool(options.log)
+        with waiting(self._listens):
+            check(call(byref(options), byref(pointer)))
         self._handle = Handle(pointer, lib.incise_engine_free)
         self._options = options  # keeps its log alive
         weakref.finalize(self._handle, _forget, options)
@@ -177,11 +175,12 @@ class Engine(Mesh):
         return engine
 
     @classmethod
-    def from_bytes(cls, content: bytes, name: str = "mesh", **options: Any) -> "Engine":
+    def from_bytes(cls, content: "bytes | bytearray | memoryview", name: str = "mesh", **options: Any) -> "Engine":
         """The content of a mesh file; `name` stands for it in messages."""
+        data = content if isinstance(content, bytes) else bytes(memoryview(content))
         engine = cls.__new__(cls)
         engine._make(engine_options(**options), lambda c, out: lib.incise_engine_read_bytes(
-            content, len(content), text_bytes(name, "the name"), c, out))
+            data, len(data), text_bytes(name, "the name"), c, out))
         return engine
 
     @classmethod
@@ -223,20 +222,24 @@ class Engine(Mesh):
         check(call(byref(report)))
         return report
 
+    def _told(self, call: Callable[[Any], Any]) -> Report:
+        with waiting(self._listens):
+            return self._reported(call)
+
     def cut(self, stroke: "Stroke | npt.ArrayLike") -> Report:
         """Cuts along a whole stroke (or its points), and maintains what it left. One that misses is no error."""
         keep: list[Any] = []
         struct = stroke_struct(stroke if isinstance(stroke, Stroke) else Stroke(stroke), keep)
-        return self._reported(lambda report: lib.incise_engine_cut(self._engine(), byref(struct), report))
+        return self._told(lambda report: lib.incise_engine_cut(self._engine(), byref(struct), report))
 
     def cut_plane(self, normal: npt.ArrayLike, offset: float) -> Report:
         """Cuts all that is there along normal . x = offset; the normal of any length but 0."""
         n = vector(normal, "normal")
-        return self._reported(lambda report: lib.incise_engine_cut_plane(self._engine(), address(n), float(offset), report))
+        return self._told(lambda report: lib.incise_engine_cut_plane(self._engine(), address(n), float(offset), report))
 
     def cut_blade(self, path: Path) -> Report:
         """Cuts the strokes of a blade file, one after the other; the report has their sums."""
-        return self._reported(lambda report: lib.incise_engine_cut_blade(self._engine(), path_bytes(path), report))
+        return self._told(lambda report: lib.incise_engine_cut_blade(self._engine(), path_bytes(path), report))
 
     def begin_stroke(self, edge: npt.ArrayLike, direction: Optional[npt.ArrayLike] = None) -> int:
         """Puts the blade in place: its edge as the body stands, n x 3, n >= 2. direction: where it cuts; where it
@@ -257,7 +260,7 @@ class Engine(Mesh):
 
     def end_stroke(self) -> Report:
         """Lifts the blade off: what it cut stays, is finished and maintained. The report is of the whole stroke."""
-        return self._reported(lambda report: lib.incise_engine_end_stroke(self._engine(), report))
+        return self._told(lambda report: lib.incise_engine_end_stroke(self._engine(), report))
 
     def cut_along(self, edges: Iterable[npt.ArrayLike], direction: Optional[npt.ArrayLike] = None,
                   progress: Optional[Callable[[int], None]] = None) -> Report:

@@ -323,7 +323,8 @@ class Mesh:
 
         Cost: about 1 us per tet.
         """
-        listed = (_c.incise_violation * whole(most, "most", 0, _MOST_LISTED))()
+        most = whole(most, "most", 0, _MOST_LISTED)
+        listed = (_c.incise_violation * most)()
         validity, count = sized(_c.incise_validity), ctypes.c_uint64()
         check(lib.incise_engine_validate(self._engine(), choice(level, _LEVELS, "level"), byref(validity), listed, most,
                                          byref(count)))

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from ._arrays import Floats, Path, Slots, address, path_bytes, points, vector, whole
+from ._arrays import Asking, Floats, Path, Slots, address, path_bytes, points, vector, waiting, whole
 from ._library import Handle, check, default, lib, sized
 from .engine import Report, engine_options, mesh_struct
 from .errors import BadArgument
@@ -181,11 +181,15 @@ class Simulation:
         keep: list[Any] = []
         mesh = mesh_struct(points, tets, regions, mend, keep)
         struct = _options(keep, **options)
+        self._listens = options.get("log") is not None
         self._make(lambda out: lib.incise_simulation_create(byref(mesh), byref(struct), out), keep)
+
+    _listens = False  # to a log
 
     def _make(self, call: Callable[[Any], Any], keep: list[Any]) -> None:
         pointer = ctypes.c_void_p()
-        check(call(byref(pointer)))
+        with waiting(self._listens):
+            check(call(byref(pointer)))
         self._handle = Handle(pointer, lib.incise_simulation_free)
         self._keep = keep
         self._mesh = _SimulatedMesh(self._handle)
@@ -196,6 +200,7 @@ class Simulation:
         keep: list[Any] = []
         struct, name = _options(keep, **options), path_bytes(path)
         simulation = cls.__new__(cls)
+        simulation._listens = options.get("log") is not None
         simulation._make(lambda out: lib.incise_simulation_read(name, byref(struct), out), keep)
         return simulation
 
@@ -216,7 +221,8 @@ class Simulation:
             seen_from = None if folder is None else path_bytes(folder)
             simulation._make(lambda out: lib.incise_simulation_parse_scene(text, seen_from, threads, out), [])
         if settle:
-            check(lib.incise_simulation_settle_scene(simulation._handle.pointer, None))
+            with Asking(None) as callback:
+                check(lib.incise_simulation_settle_scene_until(simulation._handle.pointer, callback, None, None))
         return simulation
 
     @property
@@ -242,13 +248,15 @@ class Simulation:
         keep: list[Any] = []
         struct = _input(blade, direction, hooks, tools, keep)
         report = sized(_c.incise_frame_report)
-        check(lib.incise_simulation_frame(self._handle.pointer, byref(struct), byref(report)))
+        with waiting(self._listens):
+            check(lib.incise_simulation_frame(self._handle.pointer, byref(struct), byref(report)))
         return self._frame(report)
 
     def play(self) -> Frame:
         """One frame of the scene's own script."""
         report = sized(_c.incise_frame_report)
-        check(lib.incise_simulation_play(self._handle.pointer, byref(report)))
+        with waiting(self._listens):
+            check(lib.incise_simulation_play(self._handle.pointer, byref(report)))
         return self._frame(report)
 
     def run(self, frames: Optional[int] = None,
@@ -266,10 +274,16 @@ class Simulation:
                 progress(index + 1, total)
         return done
 
-    def settle(self, max_frames: int = 300, speed: float = 1e-4) -> int:
-        """Lets the body come to rest until nothing moves faster than `speed` m/s; returns the frames that it took."""
+    def settle(self, max_frames: int = 300, speed: float = 1e-4,
+               should_stop: Optional[Callable[[], bool]] = None) -> int:
+        """Lets the body come to rest until nothing moves faster than `speed` m/s; returns the frames that it took.
+
+        Ctrl-C, and whatever `should_stop` says or raises, ends it between two frames.
+        """
         frames, most = ctypes.c_uint32(), whole(max_frames, "max_frames", 0, 2**32 - 1)
-        check(lib.incise_simulation_settle(self._handle.pointer, most, float(speed), byref(frames)))
+        with Asking(should_stop) as callback:
+            check(lib.incise_simulation_settle_until(self._handle.pointer, most, float(speed), callback, None,
+                                                     byref(frames)))
         return frames.value
 
     def _frame(self, report: Any) -> Frame:

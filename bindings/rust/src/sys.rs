@@ -590,6 +590,8 @@ extern "C" {
     pub fn incise_simulation_hook_forces(simulation: *const incise_simulation, forces: *mut f64, room: u64, count: *mut u64) -> i32;
     pub fn incise_simulation_settle(simulation: *mut incise_simulation, max_frames: u32, speed: f64, frames: *mut u32) -> i32;
     pub fn incise_simulation_settle_scene(simulation: *mut incise_simulation, frames: *mut u32) -> i32;
+    pub fn incise_simulation_settle_until(simulation: *mut incise_simulation, max_frames: u32, speed: f64, should_stop: Option<incise_should_stop>, user: *mut c_void, frames: *mut u32) -> i32;
+    pub fn incise_simulation_settle_scene_until(simulation: *mut incise_simulation, should_stop: Option<incise_should_stop>, user: *mut c_void, frames: *mut u32) -> i32;
     pub fn incise_simulation_look(simulation: *const incise_simulation, state: *mut incise_simulation_state) -> i32;
     pub fn incise_simulation_undo(simulation: *mut incise_simulation, done: *mut i32) -> i32;
     pub fn incise_simulation_redo(simulation: *mut incise_simulation, done: *mut i32) -> i32;

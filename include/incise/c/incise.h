@@ -84,7 +84,7 @@ typedef void (*incise_log)(void* user, int32_t level, const char* message);
 #define INCISE_LOG_INFO 1    /* worth knowing */
 #define INCISE_LOG_WARNING 2 /* something was not done as asked */
 
-/* Asked between operations of maintenance; other than 0 ends it for now, and it is not asked again. */
+/* Asked between operations of what takes long; other than 0 ends it for now, and it is not asked again. */
 typedef int32_t (*incise_should_stop)(void* user);
 
 #define INCISE_PROFILE_PAPER 0  /* the published method */
@@ -727,6 +727,15 @@ INCISE_API incise_status incise_simulation_settle(incise_simulation* simulation,
                                                   uint32_t* frames);
 /* As the scene says. Errors: bad argument without a scene. */
 INCISE_API incise_status incise_simulation_settle_scene(incise_simulation* simulation, uint32_t* frames);
+/* The same two, until `should_stop` (may be null), which is asked before each frame, returns other than 0: the body is
+ * then as that many frames have left it. Several calls in place of one may make a frame more. */
+INCISE_API incise_status incise_simulation_settle_until(incise_simulation* simulation, uint32_t max_frames,
+                                                        double speed, incise_should_stop should_stop, void* user,
+                                                        uint32_t* frames);
+/* As the scene says. */
+INCISE_API incise_status incise_simulation_settle_scene_until(incise_simulation* simulation,
+                                                              incise_should_stop should_stop, void* user,
+                                                              uint32_t* frames);
 
 /* A body as it stands. */
 typedef struct incise_simulation_state {
@@ -834,7 +843,7 @@ typedef struct incise_plan incise_plan;
 INCISE_API incise_status incise_plan_read(const char* path, incise_plan** plan);
 /* The same from memory. Files that it names are seen from `folder`; null: from the folder that the program runs in. */
 INCISE_API incise_status incise_plan_parse(const char* json, const char* folder, incise_plan** plan);
-/* Null is fine. */
+/* Null is fine. A batch that runs keeps what it needs. */
 INCISE_API incise_status incise_plan_free(incise_plan* plan);
 /* How many items it has. */
 INCISE_API incise_status incise_plan_count(const incise_plan* plan, uint64_t* count);

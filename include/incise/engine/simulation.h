@@ -118,7 +118,9 @@ class Simulation {
   /// Lets the body come to rest under gravity and its holds, before anything is done to it: makes frames without input,
   /// with velocities halved, until nothing moves faster than `speed` m/s, at least 0, at most `max_frames` of them.
   /// Returns how many frames it made.
-  Result<unsigned> settle(unsigned max_frames, double speed = 1e-4);
+  /// @param should_stop  asked before each frame; true ends it there. May be empty. To settle in several calls is not
+  /// the same: a call makes a frame before it can tell that the body is at rest.
+  Result<unsigned> settle(unsigned max_frames, double speed = 1e-4, const ShouldStop& should_stop = {});
 
   /// Takes the last stroke back, with its maintenance; a stroke under way as well. The tissue stays where it stands.
   /// Returns false where there is none.

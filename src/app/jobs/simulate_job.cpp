@@ -20,8 +20,6 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-constexpr std::uint32_t kSettleChunk = 30;  // frames between two questions whether to stop
-
 class SceneRunner {
  public:
   SceneRunner(const Scene& scene, const SimulateJob& job, RecordedSimulation simulation, SimulationReport& report)
@@ -61,13 +59,10 @@ class SceneRunner {
 };
 
 Status SceneRunner::settle() {
-  std::uint32_t left = scene_.settle.frames;
-  while (left > 0 && !stops()) {
-    const std::uint32_t chunk = std::min(left, kSettleChunk);
-    const Result<unsigned> done = simulation_.settle({chunk, scene_.settle.speed});
+  if (scene_.settle.frames > 0) {
+    const Result<unsigned> done = simulation_.settle(scene_.settle, [this] { return stops(); });
     if (!done.ok()) return done.error();
-    report_.settle_frames += *done;
-    left = *done < chunk ? 0 : left - chunk;
+    report_.settle_frames = *done;
   }
   report_.energy_before = simulation().body().energy();
   return {};

@@ -99,11 +99,15 @@ Result<FrameReport> RecordedSimulation::frame(const FrameInput& given, const std
   return recorded(std::move(call), std::move(report));
 }
 
-Result<unsigned> RecordedSimulation::settle(const SceneSettle& settle) {
+Result<unsigned> RecordedSimulation::settle(const SceneSettle& settle, const ShouldStop& should_stop) {
   SimulationCall call;
   call.kind = SimulationCallKind::kSettle;
   call.settle = settle;
-  return recorded(std::move(call), timed([&] { return simulation_.settle(settle.frames, settle.speed); }));
+  bool was_stopped = false;
+  const ShouldStop asked = [&] { return was_stopped = should_stop && should_stop(); };
+  Result<unsigned> done = timed([&] { return simulation_.settle(settle.frames, settle.speed, asked); });
+  if (was_stopped && done.ok()) call.settle.frames = *done;
+  return recorded(std::move(call), std::move(done));
 }
 
 Result<bool> RecordedSimulation::undo() {

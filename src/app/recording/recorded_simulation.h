@@ -40,7 +40,8 @@ class RecordedSimulation {
   /// As `Simulation::frame`. @param stop_at  regions that the blade is held outside of while this stroke lasts, see
   /// `RegionGuard`; a recording has the blade as it was held. Errors: also kBadArgument where it begins in them.
   Result<FrameReport> frame(const FrameInput& input, const std::vector<std::int32_t>& stop_at = {});
-  Result<unsigned> settle(const SceneSettle& settle);
+  /// As `Simulation::settle`; the recording has the frames that were made where it was stopped.
+  Result<unsigned> settle(const SceneSettle& settle, const ShouldStop& should_stop = {});
   Result<bool> undo();
   Result<bool> redo();
   /// Of places of the rest shape.

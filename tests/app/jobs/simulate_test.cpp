@@ -83,6 +83,34 @@ TEST_F(Simulate, reports_what_a_scene_came_to) {
   EXPECT_EQ(report.forces.torn_sutures, 0U);
 }
 
+/// The same as one call, also where the body comes to rest at the end of what was a chunk of frames once.
+TEST_F(Simulate, settles_as_one_call_does) {
+  app::Scene scene = parsed(Json::parse(R"({"format": "incise-scene", "version": 1, "length_unit": 0.1,
+    "model": {"box": {"cells": [2, 2, 2]}}, "attachments": [{"below": [0, 0, 1, 0.01]}], "frames": 1})"));
+  const auto simulation = [&] { return make_simulation(scene, std::move(load_model(scene)->mesh)).value(); };
+  scene.settle = {1000, 1};
+  while (simulation().settle(1000, scene.settle.speed).value() < 30) scene.settle.speed *= 0.8;
+  Simulation at_once = simulation();
+  ASSERT_EQ(at_once.settle(1000, scene.settle.speed).value(), 30U) << "another speed is needed";
+  ASSERT_TRUE(at_once.frame(scene_input(scene, 0)).ok());
+  const app::SimulationReport report = run(scene).report;
+  EXPECT_EQ(report.settle_frames, 30U);
+  EXPECT_EQ(report.state_hash, at_once.hash());
+}
+
+TEST_F(Simulate, is_stopped_while_it_settles_and_replays_what_was_done) {
+  app::Scene scene = parsed(full_scene());
+  scene.settle = {1000, 1e-12};
+  app::SimulateJob job = recording_job();
+  int asked = 0;
+  job.should_stop = [&] { return ++asked > 7; };
+  const app::SimulateResult result = run(scene, job);
+  EXPECT_TRUE(result.was_stopped);
+  EXPECT_EQ(result.report.settle_frames, 7U);
+  EXPECT_NE(read(log_).find("\"frames\":7"), std::string::npos) << read(log_).substr(0, 4000);
+  EXPECT_FALSE(replay().difference);
+}
+
 /// The wound of the shipped scene gapes until the sutures close it, which hold what pulls at it.
 TEST_F(Simulate, a_wound_is_closed_by_sutures) {
   const app::Scene scene = app::read_scene(INCISE_SCENES "/sutured_wound.json").value();
