@@ -60,7 +60,7 @@ bool BatchFiles::are_strokes_sound(const std::string& file) const {
 }
 
 void remove_leftovers(const fs::path& folder) {
-  static const std::regex leftover(R"(.+\.(shard-\d{5}-of-\d{5})(\.incise-part)?)");
+  const std::regex leftover(R"(.+\.(shard-\d{5}-of-\d{5})(\.incise-part)?)");
   for (const char* part : {"before", "after", "strokes"}) {
     std::error_code code;
     for (fs::directory_iterator at(folder / part, code), end; !code && at != end; at.increment(code)) {
