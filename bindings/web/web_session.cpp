@@ -129,7 +129,7 @@ void WebSession::pointer(int kind, double x, double y, int button, int keys, dou
   event.wheel = wheel;
   event.pressure = pressure;
   tools_.handle(event, {viewport_, &frame_, body_}, camera_);
-  if (const auto stroke = tools_.take_stroke()) session_.follow(*stroke);
+  if (const auto stroke = tools_.take_stroke()) session_.follow(*stroke, tools_.tool());
   if (const auto stitch = tools_.take_stitch()) (void)session_.add_suture(stitch->rest_places, stitch->suture);
   set_hands();
 }

@@ -172,15 +172,15 @@ class SurfaceDrawing::State {
   std::uint64_t seen_ = 0, version_ = 0;  // state and version of the surface
 
   std::vector<DrawnPoint> points_;
-  std::vector<PointKey> keys_;        // of points
-  std::vector<std::uint32_t> uses_;   // of points: triangles at each
+  std::vector<PointKey> keys_;       // of points
+  std::vector<std::uint32_t> uses_;  // of points: triangles at each
   std::vector<DrawnTriangle> triangles_;
   std::vector<std::uint32_t> free_points_, free_triangles_;
-  std::array<SlotMap, 9> point_slots_;  // by role and axis: of a fine point or a vertex
-  SlotMap skin_slots_, wall_slots_;     // by triangle of the surface; by side
-  std::unordered_map<std::uint32_t, Rims> rims_;                      // by triangle of the surface
+  std::array<SlotMap, 9> point_slots_;                                  // by role and axis: of a fine point or a vertex
+  SlotMap skin_slots_, wall_slots_;                                     // by triangle of the surface; by side
+  std::unordered_map<std::uint32_t, Rims> rims_;                        // by triangle of the surface
   std::unordered_multimap<std::uint64_t, std::uint32_t> rims_by_need_;  // triangles of the surface
-  std::unordered_map<std::uint32_t, Place> places_;                   // of vertices
+  std::unordered_map<std::uint32_t, Place> places_;                     // of vertices
 
   // Scratch of one `follow`, each sorted and without repeats.
   NamedParts named_;
@@ -240,8 +240,8 @@ void SurfaceDrawing::State::find_changes(const TetMesh& mesh, const Journal& jou
   find_rims_in_need();
 }
 
-/// What is drawn of a tet depends on where its vertices are drawn, and that on the tets around them: on which there are,
-/// and on their shapes.
+/// What is drawn of a tet depends on where its vertices are drawn, and that on the tets around them: on which there
+/// are, and on their shapes.
 void SurfaceDrawing::State::add_stars(const TetMesh& mesh) {
   add_stars_of(mesh, named_.moved_vertices);
   for (const TetId tet : named_.tets) {

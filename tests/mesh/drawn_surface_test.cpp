@@ -211,7 +211,7 @@ using Drawn = std::multiset<std::tuple<DrawnTriangle::Kind, std::uint32_t, std::
 
 Corner corner_of(const DrawnPoint& point) {
   const Vec3 &p = point.rest, &way = point.binding.offset;
-  return {p.x(), p.y(), p.z(), point.texture[0], point.texture[1], static_cast<double>(point.binding.tet.value),
+  return {p.x(),   p.y(),   p.z(),   point.texture[0], point.texture[1], static_cast<double>(point.binding.tet.value),
           way.x(), way.y(), way.z(), point.normal.x()};
 }
 
@@ -220,8 +220,9 @@ Drawn drawn_by(const SurfaceDrawing& drawing) {
   for (const DrawnTriangle& t : drawing.triangles()) {
     if (t.kind == DrawnTriangle::Kind::kFree) continue;
     const auto& points = drawing.points();
-    drawn.insert({t.kind, t.stroke, {corner_of(points[t.points[0]]), corner_of(points[t.points[1]]),
-                                     corner_of(points[t.points[2]])}});
+    drawn.insert({t.kind,
+                  t.stroke,
+                  {corner_of(points[t.points[0]]), corner_of(points[t.points[1]]), corner_of(points[t.points[2]])}});
   }
   return drawn;
 }
@@ -350,7 +351,8 @@ TEST(SurfaceDrawing, what_did_not_change_keeps_its_slots) {
   ASSERT_TRUE(body.engine.cut(incision(0.53, 0.9, 1)).ok());
   follow(drawing, body);
   std::size_t changed = 0;
-  for (std::size_t i = 0; i < before.size(); ++i) changed += before[i].points != drawing.triangles()[i].points ? 1U : 0U;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    changed += before[i].points != drawing.triangles()[i].points ? 1U : 0U;
   EXPECT_GT(changed, 0U);
   EXPECT_LT(changed, before.size() / 10);
 }

@@ -188,13 +188,13 @@ test('no triangle of a fine surface spans a body that a plane has parted', () =>
   session.pointer('press', 400, 60);
   session.pointer('move', 402, 500);
   session.pointer('release', 402, 500);
-  for (let i = 0; i < 5; ++i) session.frame();
+  do session.frame(); while (session.isBusy);
   assert.equal(session.pieces, 2);
   session.tool = 'Forceps';
   session.refresh();
   session.pointer('press', 330, 250);
-  for (let i = 0; i < 30; ++i) {
-    session.pointer('move', 330 - 5 * i, 250);
+  for (let i = 0; i < 100; ++i) {
+    session.pointer('move', 330 - 3 * i, 250);
     session.frame();
     session.refresh();
   }

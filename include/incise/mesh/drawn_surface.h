@@ -51,8 +51,8 @@ struct DrawnTriangle {
 /// Keeps what is to be drawn of a body that carries a fine surface, and draws anew only what changed.
 ///
 /// Slots are stable: what did not change keeps its own. What it draws depends on the surface and the mesh as they
-/// stand, as `draw` has it; only the slots depend on the way. Not thread-safe. Memory: about 200 bytes per triangle that
-/// is drawn, and 16 per tet.
+/// stand, as `draw` has it; only the slots depend on the way. Not thread-safe. Memory: about 200 bytes per triangle
+/// that is drawn, and 16 per tet.
 class SurfaceDrawing {
  public:
   /// Draws all of it. The surface must have caught up with the journal, which is the mesh's. Cost: O(tets + triangles).
@@ -63,8 +63,8 @@ class SurfaceDrawing {
 
   /// Catches up with the surface, which must have caught up with the journal; all three are those that it was made of.
   /// Returns whether there was anything to catch up with. Cost: O(tets and triangles that changed, and the tets around
-  /// their vertices); all is drawn anew where the journal has trimmed steps that it has not seen, where steps were undone
-  /// and others made since, and where the surface was followed more than once.
+  /// their vertices); all is drawn anew where the journal has trimmed steps that it has not seen, where steps were
+  /// undone and others made since, and where the surface was followed more than once.
   bool follow(const EmbeddedSurface& surface, const TetMesh& mesh, const Journal& journal);
 
   /// All slots of points; the tet that carries a free one is invalid.

@@ -24,9 +24,9 @@ class FineView {
   static Result<FineView> bind(FineSurface surface, const TetMesh& mesh, const Journal& journal);
 
   /// Catches up with the journal and fills a frame, with points that stand for vertices of their tets and without lines
-  /// at rims, which would be dots where triangles are fine. Where the surface cannot follow it is bound anew. Errors: as
-  /// `EmbeddedSurface::bind`. Cost: that of `EmbeddedSurface::follow` and `SurfaceDrawing::follow`, and O(points), where
-  /// the journal moved some 30 bytes per triangle more.
+  /// at rims, which would be dots where triangles are fine. Where the surface cannot follow it is bound anew. Errors:
+  /// as `EmbeddedSurface::bind`. Cost: that of `EmbeddedSurface::follow` and `SurfaceDrawing::follow`, and O(points),
+  /// where the journal moved some 30 bytes per triangle more.
   Status show(const TetMesh& mesh, const Journal& journal, SurfaceFrame& frame);
 
   /// What it shows, as `show` left it, which must have been called. Cost: O(triangles).

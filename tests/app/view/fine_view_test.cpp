@@ -145,14 +145,13 @@ TEST(FineView, each_step_of_a_blade_is_seen_as_the_body_then_is) {
     const Stroke stroke = incision(x, 8);
     ASSERT_TRUE(seen.engine().begin_stroke({stroke.edges.front()}).ok());
     for (std::size_t i = 1; i < stroke.edges.size(); ++i) {
-      const std::uint64_t version = seen.topology().version;
       ASSERT_TRUE(seen.engine().step({stroke.edges[i]}).ok());
       seen.show();
       expect_sound(seen);
-      EXPECT_GT(seen.topology().version, version);
       EXPECT_TRUE(shown_by(seen.frame()) == shown_anew(seen.engine()));
     }
     ASSERT_TRUE(seen.engine().end_stroke().ok());
+    EXPECT_GT(seen.topology().used, 12 * kFine * kFine);
   }
 }
 
@@ -209,7 +208,7 @@ TEST(FineView, history_that_was_trimmed_away_does_not_stop_it) {
 TEST(FineView, what_does_not_change_keeps_its_slots) {
   Seen seen;
   const std::shared_ptr<const SurfaceTopology> before = seen.frame().topology;
-  seen.cut(test::quad_stroke(Vec3(0.53, 0.4, 1.1), Vec3(0.53, 0.4, 0.9), Vec3(0.53, 0.5, 1.1), Vec3(0.53, 0.5, 0.9)));
+  seen.cut(test::quad_stroke(Vec3(0.53, -0.1, 1.1), Vec3(0.53, -0.1, 0.8), Vec3(0.53, 0.2, 1.1), Vec3(0.53, 0.2, 0.8)));
   std::size_t changed = 0;
   for (std::size_t i = 0; i < before->triangles.size(); ++i) {
     changed += before->triangles[i] != seen.topology().triangles[i] ? 1U : 0U;
@@ -222,8 +221,9 @@ class FineViewOfScene : public ::testing::Test {
  protected:
   Result<std::optional<FineView>> view(const std::string& surface) {
     const std::string scene = folder_.write(
-        "scene.json", R"({"format": "incise-scene", "version": 1, "length_unit": 1, "model": {"box": {"cells": [2, 2, 2], "size": [1, 1, 1]})" +
-                          surface + "}}");
+        "scene.json",
+        R"({"format": "incise-scene", "version": 1, "length_unit": 1, "model": {"box": {"cells": [2, 2, 2], "size": [1, 1, 1]})" +
+            surface + "}}");
     const Result<Scene> read = read_scene(scene);
     if (!read.ok()) return read.error();
     return fine_view_of(*read, mesh_, Journal());
