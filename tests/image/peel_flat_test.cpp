@@ -70,9 +70,9 @@ TEST(PeelFlat, flat_tets_go_and_the_skin_stays_a_manifold) {
 /// A flat tet over the edge from point 0 to point 1, on two others of its label; under the edge lies one of `below`.
 LabelledTets bridge(std::int32_t below) {
   LabelledTets mesh;
-  mesh.points = {Vec3(0, -1, 0),  Vec3(0, 1, 0),   Vec3(1, 0, 0.1),    Vec3(-1, 0, 0.1),  Vec3(0.6, 0, -1), Vec3(-0.6, 0, -1),
-                 Vec3(3, -2, -1), Vec3(3, 2, -1), Vec3(-3, -2, -1), Vec3(-3, 2, -1)};
-  mesh.tets = {{0, 1, 2, 3}, {0, 1, 4, 2}, {0, 1, 3, 5}, {0, 1, 5, 4},                // around the edge
+  mesh.points = {Vec3(0, -1, 0),    Vec3(0, 1, 0),   Vec3(1, 0, 0.1), Vec3(-1, 0, 0.1), Vec3(0.6, 0, -1),
+                 Vec3(-0.6, 0, -1), Vec3(3, -2, -1), Vec3(3, 2, -1),  Vec3(-3, -2, -1), Vec3(-3, 2, -1)};
+  mesh.tets = {{0, 1, 2, 3}, {0, 1, 4, 2}, {0, 1, 3, 5}, {0, 1, 5, 4},   // around the edge
                {0, 2, 4, 6}, {1, 4, 2, 7}, {0, 5, 3, 8}, {1, 3, 5, 9}};  // so that those below have no skin
   mesh.labels = {1, 1, 1, static_cast<decltype(mesh.labels)::value_type>(below), 1, 1, 1, 1};
   return mesh;
