@@ -177,7 +177,7 @@ picked headless.png
 grep -q 'wrote scan.png (picture, 1280 x 720 pixels)' out.txt || fail "a picture of a scan: $(cat out.txt)"
 "$bin/incise-view" --headless -q scan.mha --size 4 --size 320x200 --screenshot small.png 2>out.txt || fail "two sizes"
 open_window scan.mha --size 4
-geometry=$(xdotool search --onlyvisible --pid "$window" getwindowgeometry)
+geometry=$(xdotool getwindowgeometry "$(xdotool search --onlyvisible --pid "$window" | tail -n 1)")
 [[ $geometry == *'Geometry: 1280x'* ]] || fail "the window of a scan: $geometry"
 kill "$window"
 wait "$window" 2>/dev/null || true
