@@ -123,8 +123,10 @@ Vec3 vector_of(const std::vector<double>& n) {
 /// Pixels of the picture, or millimetres of tets.
 void take_size(const std::string& text, Arguments& a) {
   char end = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &a.size.width, &a.size.height, &end) == 2 && a.size.width > 0 &&
-      a.size.height > 0 && a.size.width <= 16384 && a.size.height <= 16384) {
+  incise::app::Viewport pixels;  // a single number is written here too, and is none of the window's
+  if (std::sscanf(text.c_str(), "%dx%d%c", &pixels.width, &pixels.height, &end) == 2 && pixels.width > 0 &&
+      pixels.height > 0 && pixels.width <= 16384 && pixels.height <= 16384) {
+    a.size = pixels;
     return;
   }
   if (io::parse_double(text, a.tet_size) && a.tet_size > 0 && std::isfinite(a.tet_size)) return;

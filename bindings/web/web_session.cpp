@@ -54,10 +54,7 @@ WebSession::WebSession(std::unique_ptr<Folder> folder, app::Session session)
       session_(std::move(session)),
       surface_(session_.mesh(), session_.engine().journal()),
       tools_(app::ToolSettings{}),
-      monitor_(session_.mesh(), session_.engine().journal()) {
-  begin_anew();
-  frame_camera();
-}
+      monitor_(session_.mesh(), session_.engine().journal()) {}
 
 val WebSession::open(const val& bytes, const std::string& name, const val& files, const val& up) {
   auto folder = std::make_unique<Folder>();
@@ -79,7 +76,21 @@ val WebSession::open(const val& bytes, const std::string& name, const val& files
   }
   Result<app::Session> session = app::Session::open(folder->place_of(name), options);
   if (!session.ok()) return to_error(folder->named(session.error()));
-  return val(std::make_shared<WebSession>(std::move(folder), std::move(session).value()));
+  auto made = std::make_shared<WebSession>(std::move(folder), std::move(session).value());
+  if (const Status bound = made->bind_surface(); !bound.ok()) return to_error(made->folder_->named(bound.error()));
+  made->begin_anew();
+  made->frame_camera();
+  return val(made);
+}
+
+/// Binds the fine surface that the scene names, if any.
+Status WebSession::bind_surface() {
+  fine_.reset();
+  Result<std::optional<app::FineView>> made =
+      app::fine_view_of(session_.scene(), session_.mesh(), session_.engine().journal());
+  if (!made.ok()) return made.error();
+  fine_ = std::move(made).value();
+  return {};
 }
 
 /// The body is where it starts: nothing is held.
@@ -118,7 +129,7 @@ void WebSession::pointer(int kind, double x, double y, int button, int keys, dou
   event.wheel = wheel;
   event.pressure = pressure;
   tools_.handle(event, {viewport_, &frame_, body_}, camera_);
-  if (const auto stroke = tools_.take_stroke()) session_.follow(*stroke);
+  if (const auto stroke = tools_.take_stroke()) session_.follow(*stroke, tools_.tool());
   if (const auto stitch = tools_.take_stitch()) (void)session_.add_suture(stitch->rest_places, stitch->suture);
   set_hands();
 }
@@ -173,7 +184,8 @@ val WebSession::redo() {
 }
 
 val WebSession::reset() {
-  const Status status = session_.reset();
+  Status status = session_.reset();
+  if (status.ok()) status = bind_surface();
   if (status.ok()) begin_anew();
   return to_value(status);
 }
@@ -195,11 +207,21 @@ bool WebSession::take_over() {
 }
 
 bool WebSession::refresh() {
-  const bool is_other = surface_.follow(session_.mesh(), session_.engine().journal()) || !frame_.topology;
-  surface_.fill(session_.mesh(), frame_);
+  const auto before = frame_.topology;
+  follow();
+  const bool is_other = frame_.topology != before;
   if (is_other) averages_.find_creases(frame_.topology->triangles, frame_.positions);
   fill_corners();
   return is_other;
+}
+
+void WebSession::follow() {
+  const incise::TetMesh& mesh = session_.mesh();
+  const incise::Journal& journal = session_.engine().journal();
+  if (fine_ && fine_->show(mesh, journal, frame_).ok()) return;
+  fine_.reset();
+  surface_.follow(mesh, journal);
+  surface_.fill(mesh, frame_);
 }
 
 void WebSession::fill_corners() {

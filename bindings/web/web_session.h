@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "app/hands/tools.h"
 #include "app/session/quality_monitor.h"
 #include "app/session/session.h"
+#include "app/view/fine_view.h"
 #include "app/view/surface_view.h"
 #include "folder.h"
 #include "render/surface_normals.h"
@@ -71,7 +73,9 @@ class WebSession {
 
  private:
   void set_hands();
+  incise::Status bind_surface();
   void begin_anew();
+  void follow();
   void add_edges(const std::vector<std::array<std::uint32_t, 2>>& edges, std::size_t style, float width);
   void fill_corners();
   void frame_camera();
@@ -79,6 +83,7 @@ class WebSession {
   std::unique_ptr<Folder> folder_;
   incise::app::Session session_;
   incise::app::SurfaceView surface_;
+  std::optional<incise::app::FineView> fine_;  // shown in its place where the scene has a fine surface
   incise::app::SurfaceFrame frame_;
   incise::app::ToolMachine tools_;
   incise::app::HandQueue queue_;

@@ -2,7 +2,7 @@
 """Makes the closed surfaces and grids behind script/models, with nothing but Python's standard library.
 
 usage: surfaces.py cube OUT.mesh               the 5 x 5 x 5 Kuhn grid of 750 tets in the unit cube
-       surfaces.py meat|vertebra|vessel OUT.off a closed triangulated surface, lengths in millimetres
+       surfaces.py meat|vertebra|vessel|kidney OUT.off a closed triangulated surface, lengths in millimetres
        surfaces.py bunny INDEX.js OUT.off       the surface in npm's package `bunny`
        surfaces.py medit STEM OUT.mesh          TetGen's STEM.node and STEM.ele as one MEDIT file
 
@@ -130,6 +130,22 @@ def vessel():
     def distance(x, y, z):
         return max(outer(x, y, z), -inner(x, y, z), z - 30.0, -26.0 - z)
     return distance, (-28.0, -16.0, -33.0), (30.0, 19.0, 37.0), 1.8
+
+
+def kidney():
+    """A bean of 11 x 5 x 4 cm with a hilum and shallow furrows between its lobes, in millimetres; fine, to be drawn."""
+    def hump(t):
+        share = t - math.floor(t)
+        return 16.0 * share * share * (1.0 - share) * (1.0 - share)
+
+    def shape(x, y, z):
+        bent = x + 12.0 * (z / 55.0) * (z / 55.0) - 5.0
+        bean = 20.0 * (length(bent / 26.0, y / 20.0, z / 55.0) - 1.0)
+        near = ((x - 30.0) * (x - 30.0) + y * y + 0.5 * z * z) / 400.0
+        lobes = hump(z / 19.0 + 0.2) * hump(y / 17.0 + x / 60.0 + 0.4)
+        return bean + 10.0 / ((1.0 + near) * (1.0 + near)) - 1.2 * lobes
+
+    return shape, (-46.0, -26.0, -62.0), (38.0, 26.0, 62.0), 1.9
 
 
 def gradient(f, p, h):
@@ -312,6 +328,9 @@ def main(arguments):
         write_off(out, *meat())
     elif kind in ("vertebra", "vessel"):
         write_off(out, *implicit_surface({"vertebra": vertebra, "vessel": vessel}[kind]()))
+    elif kind == "kidney":
+        points, triangles = implicit_surface(kidney())
+        write_off(out, [[round(c, 3) for c in p] for p in points], triangles)
     elif kind == "bunny":
         write_off(out, *bunny(arguments[1]))
     elif kind == "medit":

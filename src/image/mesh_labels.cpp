@@ -23,6 +23,7 @@ namespace image {
 namespace {
 
 constexpr double kMostTets = 1e8, kTetsPerCube = 12, kMostCubes = 1 << 15;
+constexpr double kMostIsland = 1e15;  // voxels; more than there are
 /// Rounds of moving points: those that spread them, in each pass between which flat tets are peeled off the skin, and
 /// at the end those that only bring them nearer.
 constexpr int kPasses = 6, kSpreadRounds = 4, kFinalRounds = 6;
@@ -52,7 +53,8 @@ Status check_amount(const LabelVolume& volume, const MeshLabelsOptions& options)
   double voxels = 0;
   for (std::size_t l = 1; l < counts.size(); ++l) voxels += static_cast<double>(counts[l]);
   if (voxels == 0) {
-    return bad_option("the image has no voxel of a label other than 0 that could be meshed; choose other labels");
+    return bad_option(
+        "the image has no voxel of a label other than 0 that could be meshed; choose other labels, or a smaller size");
   }
   const Vec3& s = volume.spacing();
   const double cubes = voxels * s.x() * s.y() * s.z() / (options.size * options.size * options.size);
@@ -78,6 +80,10 @@ class LabelMesher {
     if (const Status status = check_amount(volume_, options_); !status.ok()) return status.error();
     progress();
     make_tets();
+    if (tets_.tets.empty()) {
+      return bad_option("no label is thick enough: of tets of " + std::to_string(options_.size) +
+                        " mm none lies mostly in one; give a smaller size, or a finer image");
+    }
     fit_interfaces();
     Result<TetMesh> mesh = TetMesh::build(placed());
     if (!mesh) return mesh.error();
@@ -101,7 +107,8 @@ class LabelMesher {
     const Vec3& s = volume_.spacing();
     const double least =
         options_.least_island > 0 ? options_.least_island : options_.size * options_.size * options_.size / 8;
-    out_.island_voxels = volume_.join_islands(static_cast<std::uint64_t>(least / (s.x() * s.y() * s.z())));
+    const double voxels = std::min(least / (s.x() * s.y() * s.z()), kMostIsland);
+    out_.island_voxels = volume_.join_islands(static_cast<std::uint64_t>(voxels));
   }
 
   void make_tets() {

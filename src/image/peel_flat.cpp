@@ -83,6 +83,22 @@ class Peeling {
     return peel_flat(tet);
   }
 
+  /// Whether all tets around an edge of a tet have its label. Else the label would touch itself there alone without it.
+  [[nodiscard]] bool is_one_label_around(std::size_t tet, std::uint32_t a, std::uint32_t b) const {
+    std::size_t from = tet, here = tet;
+    do {
+      std::uint32_t next = kNoTet;
+      for (std::size_t s = 0; s < 4; ++s) {
+        const std::uint32_t corner = mesh_.tets[here][s];
+        const bool is_way_on = corner != a && corner != b && (here == tet || neighbours_[here][s] != from);
+        if (is_way_on) next = neighbours_[here][s];
+      }
+      if (next == kNoTet || mesh_.labels[next] != mesh_.labels[tet]) return false;
+      from = std::exchange(here, next);
+    } while (here != tet);
+    return true;
+  }
+
   /// A tet of which two sides are skin; where one more has two sides of skin below, that goes with it as a cap.
   bool peel_flat(std::size_t tet) {
     const auto sides = skin_sides(tet);
@@ -103,6 +119,7 @@ class Peeling {
       on[n++] = c[i];
     }
     if (!is_flat(on[0], on[1], a, b) || skin_edges_.count(edge_of(a, b)) > 0) return false;
+    if (!is_one_label_around(tet, a, b)) return false;
     skin_edges_.erase(edge_of(on[0], on[1]));
     skin_edges_.insert(edge_of(a, b));
     remove(tet);

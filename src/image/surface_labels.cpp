@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "image/mend_surface.h"
 #include "image/winding_number.h"
 #include "incise/core/parallel.h"
 #include "incise/geom/box.h"
@@ -73,7 +74,6 @@ std::vector<Part> find_parts(const io::SurfaceSoup& surface) {
   std::vector<std::uint32_t> number(parent.size(), std::numeric_limits<std::uint32_t>::max());
   std::vector<Part> parts;
   for (const Triangle& t : surface.triangles) {
-    if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2]) continue;
     std::uint32_t& n = number[root(t[0])];
     if (n == std::numeric_limits<std::uint32_t>::max()) {
       n = static_cast<std::uint32_t>(parts.size());
@@ -89,6 +89,7 @@ class SurfaceSampler {
   SurfaceSampler(io::SurfaceSoup surface, double voxel, unsigned threads)
       : surface_(std::move(surface)), voxel_(voxel), threads_(threads) {
     io::weld(surface_);
+    mend();
     for (const Vec3& p : surface_.points) box_.extend(p);
   }
 
@@ -106,6 +107,17 @@ class SurfaceSampler {
   }
 
  private:
+  /// A triangle that is there twice would count twice, or not at all where the second one faces the other way.
+  void mend() {
+    if (const std::size_t repeated = drop_repeated(surface_.triangles); repeated > 0) {
+      out_.notes.push_back(std::to_string(repeated) + " triangles are there more than once: the first of each counts");
+    }
+    if (const std::size_t turned = turn_alike(surface_.triangles); turned > 0) {
+      out_.notes.push_back(std::to_string(turned) +
+                           " triangles faced other ways than those beside them, and are turned");
+    }
+  }
+
   static Error bad(const std::string& what) { return {ErrorCode::kBadArgument, what}; }
   [[nodiscard]] Error empty() const {
     const double extent = surface_.points.empty() ? 0 : (box_.hi - box_.lo).maxCoeff();

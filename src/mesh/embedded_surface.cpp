@@ -84,6 +84,12 @@ const FineSurface& EmbeddedSurface::source() const {
 double EmbeddedSurface::greatest_distance() const {
   return keeper_->greatest_distance();
 }
+const FineChanges& EmbeddedSurface::changes() const {
+  return keeper_->changes();
+}
+double EmbeddedSurface::reach() const {
+  return keeper_->reach();
+}
 std::size_t EmbeddedSurface::looked_at() const {
   return keeper_->looked_at();
 }

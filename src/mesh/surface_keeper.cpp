@@ -44,6 +44,15 @@ struct TouchedTets final : JournalVisitor {
   void closed(const OpenedFace& face) override { opened(face); }
 };
 
+/// The slots that a batch wrote or appended, to `slots`.
+template <class Log>
+void append_slots(const Log& log, std::vector<std::uint32_t>& slots) {
+  for (const auto& [slot, value] : log.written) slots.push_back(slot);
+  for (std::size_t slot = log.size_before; slot < log.size_after; ++slot) {
+    slots.push_back(static_cast<std::uint32_t>(slot));
+  }
+}
+
 /// Walls that lie on each other, or run along an edge, cross it many times in one place: only what is before and behind
 /// that place counts.
 void merge_close(const TetMesh& mesh, const Vec3& from, const Vec3& to, std::vector<WallCrossing>& crossings) {
@@ -231,13 +240,29 @@ Status EmbeddedSurface::Keeper::follow(const Journal& journal, const TetMesh& me
   }
   for (const TetId tet : moved_back) grid_.update(mesh, tet);
   if (position() < journal.position()) go_on(journal, mesh);
+  close_changes();
   forget_trimmed(journal);
   return {};
+}
+
+void EmbeddedSurface::Keeper::note(const Record& record) {
+  append_slots(record.points, next_changes_.points);
+  append_slots(record.triangles, next_changes_.triangles);
+}
+
+void EmbeddedSurface::Keeper::close_changes() {
+  if (next_changes_.points.empty() && next_changes_.triangles.empty()) return;
+  next_changes_.from = changes_.to;
+  next_changes_.to = changes_.to + 1;
+  std::swap(changes_, next_changes_);
+  next_changes_.points.clear();
+  next_changes_.triangles.clear();
 }
 
 /// Takes all slots one step back or forth: `go(slots, changes)`.
 template <class Go>
 void EmbeddedSurface::Keeper::restore(Record& record, Go&& go) {
+  note(record);
   go(points_, record.points);
   go(triangles_, record.triangles);
   go(edges_, record.edges);
@@ -275,6 +300,7 @@ void EmbeddedSurface::Keeper::go_on(const Journal& journal, const TetMesh& mesh)
   }
   work_queue(mesh);
   Record record = end();
+  note(record);
   record.free_point = free_point;
   record.free_triangle = free_triangle;
   record.position = journal.position();

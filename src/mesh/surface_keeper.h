@@ -32,6 +32,7 @@ class EmbeddedSurface::Keeper final : private PointMaker {
   [[nodiscard]] const std::vector<FinePoint>& points() const { return points_.items(); }
   [[nodiscard]] const std::vector<FineTriangle>& triangles() const { return triangles_.items(); }
   [[nodiscard]] const FineSurface& source() const { return surface_; }
+  [[nodiscard]] const FineChanges& changes() const { return changes_; }
   [[nodiscard]] double greatest_distance() const { return greatest_distance_; }
   [[nodiscard]] double reach() const { return reach_; }
   [[nodiscard]] std::size_t looked_at() const { return looked_at_; }
@@ -77,6 +78,8 @@ class EmbeddedSurface::Keeper final : private PointMaker {
   void forget_trimmed(const Journal& journal);
   void begin();
   Record end();
+  void note(const Record& record);
+  void close_changes();
 
   [[nodiscard]] Box box_of(std::uint32_t root) const;
   void queue_near(const Box& box);
@@ -123,6 +126,7 @@ class EmbeddedSurface::Keeper final : private PointMaker {
   std::uint64_t version_ = 1;
   bool has_changed_ = false;
   std::size_t looked_at_ = 0;
+  FineChanges changes_, next_changes_;  // of the last `follow` that changed anything; of the one that runs
 
   // Scratch of one `follow`.
   std::vector<std::uint32_t> queue_;

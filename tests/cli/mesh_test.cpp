@@ -138,6 +138,18 @@ TEST(CliMesh, a_cut_stops_at_a_region_by_its_name) {
   EXPECT_NE(unknown.err.find("bad.json: stroke 0 (deep): stop_at: no region"), std::string::npos) << unknown.err;
 }
 
+TEST(CliMesh, tells_of_labels_that_did_not_come_out_as_they_are) {
+  const Folder folder;
+  std::string bytes = balls();
+  const std::size_t voxels = bytes.size() - 24 * 24 * 24;
+  for (std::size_t i = 0; i < 24; ++i) bytes[voxels + (2 * 24 + 2) * 24 + i] = '\3';  // a line of voxels
+  const std::string image = folder.write("line.mha", bytes), out = folder / "line.mesh";
+  const Outcome made = run({"mesh", image, "-o", out, "--size", "1"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.err.find("label 3 is too small or too thin to be there"), std::string::npos) << made.err;
+  EXPECT_EQ(made.err.find("label 1"), std::string::npos) << made.err;
+}
+
 TEST(CliMesh, makes_a_mesh_of_a_surface) {
   const Folder folder;
   const std::string cube = folder.write("cube.obj",

@@ -49,6 +49,15 @@ std::int32_t sectors_at(const Vec3& p) {
   return q.x() - 0.15 * q.z() > 0 ? 2 : 3;
 }
 
+std::int32_t spine_at(const Vec3& p) {
+  const Vec3 q = p - kMiddle;
+  if (Vec3(q.x(), q.y() + 4, 0).norm() > 42 || std::abs(q.z()) > 44) return 0;
+  const double body = Vec3(q.x() / 22, q.y() / 16, 0).norm();
+  const double ring = Vec3(q.x(), q.y() + 24, 0).norm();  // around the canal, behind the bodies
+  if (body < 1) return std::abs(q.z() - 0.1 * q.y()) < 6 ? 2 : 1;
+  return ring > 9 && ring < 14.5 && std::abs(q.z()) > 10 ? 1 : 3;
+}
+
 std::int32_t balls_at(const Vec3& p) {
   const double r = (p - kMiddle).norm();
   return r < 20 ? 2 : (r < 45 ? 1 : 0);
@@ -99,6 +108,10 @@ MadeImage thin_shell(double radius) {
     return r < radius - 2 ? 1 : (r < radius ? 2 : 0);
   };
   return {"thin shell", truth, 128, Vec3::Ones(), 0, {1, 2}, {true, false}};
+}
+
+MadeImage spine_segment() {
+  return {"spine segment", spine_at, 128, Vec3(1, 1, 1.5), 0, {1, 2, 3}, {true, true, true}};
 }
 
 MadeImage vessel_tree() {

@@ -31,6 +31,8 @@ MadeImage triple_junctions();
 MadeImage thin_shell(double radius = 40);
 MadeImage vessel_tree();
 MadeImage noisy_balls();
+/// Two vertebrae (1) with a canal, the disc between them (2), and muscle around (3): a segment of a spine.
+MadeImage spine_segment();
 /// Five labels in a box of 256 mm: an organ with two tumours, a vessel and a bone beside it.
 MadeImage large_organ();
 /// The first five.

@@ -142,8 +142,18 @@ TEST(MeshLabels, says_what_is_wrong) {
   MeshLabelsOptions options = of_size(4);
   options.smooth = 0;
   EXPECT_NE(message(image, options).find("smoothing"), std::string::npos);
+  EXPECT_NE(message(image, of_size(1e6)).find("a smaller size"), std::string::npos);
   image::keep_labels(image, {});
   EXPECT_NE(message(image, of_size(4)).find("choose other labels"), std::string::npos);
+}
+
+TEST(MeshLabels, a_line_of_voxels_is_said_to_be_too_thin) {
+  image::LabelImage image = small_ball();
+  std::fill(image.voxels.begin(), image.voxels.end(), std::uint16_t{0});
+  for (std::size_t i = 0; i < image.size[0]; ++i) image.voxels[image.index(i, 12, 12)] = 1;
+  const Result<LabelMesh> mesh = mesh_labels(image, of_size(1));
+  ASSERT_FALSE(mesh.ok());
+  EXPECT_NE(mesh.error().message.find("no label is thick enough"), std::string::npos) << mesh.error().message;
 }
 
 }  // namespace

@@ -22,7 +22,23 @@ struct OrganFigures {
   bool is_valid = false;       ///< by the full level of `validate`
 };
 
-/// `mesh`: in the coordinates of the truth, regions are its labels.
-OrganFigures judge(const MadeImage& made, const incise::TetMesh& mesh);
+/// What a mesh is held against.
+struct OrganTruth {
+  Truth label_at;                    ///< in the coordinates of the mesh
+  std::vector<std::int32_t> labels;  ///< the mesh's regions
+  std::vector<double> volumes;       ///< of each label, mm³
+  double voxel = 1;                  ///< the unit of distances, mm
+};
+
+OrganTruth truth_of(const MadeImage& made);
+/// A scan has no other truth than its voxels: the label at a point is the one with the greatest share by linear
+/// interpolation, which is less smooth than what the mesher asks; volumes are those of the voxels. The
+/// unit of distances is the edge of a cube of a voxel's volume. `image` must live on.
+OrganTruth truth_of(const incise::image::LabelImage& image);
+
+OrganFigures judge(const OrganTruth& truth, const incise::TetMesh& mesh);
+inline OrganFigures judge(const MadeImage& made, const incise::TetMesh& mesh) {
+  return judge(truth_of(made), mesh);
+}
 
 }  // namespace incise_test

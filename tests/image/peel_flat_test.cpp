@@ -67,6 +67,23 @@ TEST(PeelFlat, flat_tets_go_and_the_skin_stays_a_manifold) {
   EXPECT_EQ(after.components, 1U);
 }
 
+/// A flat tet over the edge from point 0 to point 1, on two others of its label; under the edge lies one of `below`.
+LabelledTets bridge(std::int32_t below) {
+  LabelledTets mesh;
+  mesh.points = {Vec3(0, -1, 0),    Vec3(0, 1, 0),   Vec3(1, 0, 0.1), Vec3(-1, 0, 0.1), Vec3(0.6, 0, -1),
+                 Vec3(-0.6, 0, -1), Vec3(3, -2, -1), Vec3(3, 2, -1),  Vec3(-3, -2, -1), Vec3(-3, 2, -1)};
+  mesh.tets = {{0, 1, 2, 3}, {0, 1, 4, 2}, {0, 1, 3, 5}, {0, 1, 5, 4},   // around the edge
+               {0, 2, 4, 6}, {1, 4, 2, 7}, {0, 5, 3, 8}, {1, 3, 5, 9}};  // so that those below have no skin
+  mesh.labels = {1, 1, 1, static_cast<decltype(mesh.labels)::value_type>(below), 1, 1, 1, 1};
+  return mesh;
+}
+
+TEST(PeelFlat, a_flat_tet_that_joins_its_label_over_another_one_stays) {
+  LabelledTets whole = bridge(1), parted = bridge(2);
+  EXPECT_EQ(image::peel_flat_tets(whole), 1U);
+  EXPECT_EQ(image::peel_flat_tets(parted), 0U);
+}
+
 TEST(PeelFlat, tets_of_good_shape_stay) {
   const image::Octree tree(Vec3(0, 0, 0), 1, {6, 6, 6}, 0);
   image::LatticeTets lattice = tree.fill([](std::size_t) { return false; });

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "image/winding_number.h"
 #include "incise/image/mesh_labels.h"
@@ -109,6 +113,40 @@ TEST(SurfaceLabels, triangles_of_any_turn) {
   add_sphere(soup, Vec3(0, 0, 0), 8, 30);
   for (auto& t : soup.triangles) std::swap(t[0], t[1]);
   EXPECT_NEAR(share_of(label_surface(soup, 0.5)->image, 1) / ball(8), 1, 0.03);
+}
+
+TEST(SurfaceLabels, triangles_that_are_there_twice_count_once) {
+  for (const bool is_double_sided : {false, true}) {
+    io::SurfaceSoup soup;
+    add_sphere(soup, Vec3(0, 0, 0), 10, 40);
+    const std::vector<std::array<std::uint32_t, 3>> once = soup.triangles;
+    for (const auto& [a, b, c] : once) {
+      soup.triangles.push_back(is_double_sided ? std::array{b, a, c} : std::array{b, c, a});
+    }
+    const auto labels = label_surface(soup, 0.5);
+    ASSERT_TRUE(labels.ok()) << labels.error().message;
+    EXPECT_NEAR(share_of(labels->image, 1) / ball(10), 1, 0.02);
+    EXPECT_NEAR(labels->volumes[1] / ball(10), 1, 0.02);
+    ASSERT_EQ(labels->notes.size(), 1U);
+    EXPECT_EQ(labels->notes[0].find(std::to_string(once.size()) + " triangles"), 0U) << labels->notes[0];
+  }
+}
+
+TEST(SurfaceLabels, triangles_that_face_this_way_and_that_are_turned_alike) {
+  io::SurfaceSoup soup;
+  add_sphere(soup, Vec3(0, 0, 0), 10, 40);
+  std::uint32_t state = 1;
+  for (auto& triangle : soup.triangles) {
+    state = state * 1664525U + 1013904223U;
+    if (state >> 31U != 0) std::swap(triangle[0], triangle[1]);
+  }
+  const auto labels = label_surface(soup, 0.5);
+  ASSERT_TRUE(labels.ok()) << labels.error().message;
+  EXPECT_EQ(labels->open_edges, 0U);
+  EXPECT_NEAR(share_of(labels->image, 1) / ball(10), 1, 0.02);
+  EXPECT_NEAR(labels->volumes[1] / ball(10), 1, 0.02);
+  ASSERT_EQ(labels->notes.size(), 1U);
+  EXPECT_NE(labels->notes[0].find("are turned"), std::string::npos) << labels->notes[0];
 }
 
 TEST(SurfaceLabels, what_is_meshed_has_the_surfaces_volume) {

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "incise/mesh/drawn_surface.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "incise/engine/engine.h"
 #include "incise/geom/triangle_tree.h"
+#include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/edge_length.h"
 #include "support/bodies.h"
 #include "support/engines.h"
 #include "support/fine_surfaces.h"
+#include "support/random.h"
+#include "support/random_strokes.h"
 #include "support/strokes.h"
 
 namespace incise::test {
@@ -194,6 +201,182 @@ TEST(DrawnSurface, points_are_found_in_the_body_before_it_was_cut) {
   for (std::size_t i = 0; i < earlier.size(); ++i) {
     EXPECT_LT((earlier[i] - (drawn.points[i].rest + shift)).norm(), 1e-12);
   }
+}
+
+// ---- What follows the body step by step --------------------------------------------------------------------------
+
+/// The triangles of a drawing, whatever their slots.
+using Corner = std::array<double, 10>;
+using Drawn = std::multiset<std::tuple<DrawnTriangle::Kind, std::uint32_t, std::array<Corner, 3>>>;
+
+Corner corner_of(const DrawnPoint& point) {
+  const Vec3 &p = point.rest, &way = point.binding.offset;
+  return {p.x(),   p.y(),   p.z(),   point.texture[0], point.texture[1], static_cast<double>(point.binding.tet.value),
+          way.x(), way.y(), way.z(), point.normal.x()};
+}
+
+Drawn drawn_by(const SurfaceDrawing& drawing) {
+  Drawn drawn;
+  for (const DrawnTriangle& t : drawing.triangles()) {
+    if (t.kind == DrawnTriangle::Kind::kFree) continue;
+    const auto& points = drawing.points();
+    drawn.insert({t.kind,
+                  t.stroke,
+                  {corner_of(points[t.points[0]]), corner_of(points[t.points[1]]), corner_of(points[t.points[2]])}});
+  }
+  return drawn;
+}
+
+/// What the one has and the other has not.
+std::vector<Drawn::value_type> without(const Drawn& all, const Drawn& others) {
+  std::vector<Drawn::value_type> left;
+  std::set_difference(all.begin(), all.end(), others.begin(), others.end(), std::back_inserter(left));
+  return left;
+}
+
+void expect_as_drawn_anew(const SurfaceDrawing& drawing, const Body& body) {
+  const SurfaceDrawing anew(body.surface, body.engine.mesh());
+  EXPECT_THAT(without(drawn_by(drawing), drawn_by(anew)), testing::IsEmpty());
+  EXPECT_THAT(without(drawn_by(anew), drawn_by(drawing)), testing::IsEmpty());
+  std::vector<bool> is_used(drawing.points().size(), false);
+  for (const DrawnTriangle& t : drawing.triangles()) {
+    if (t.kind == DrawnTriangle::Kind::kFree) continue;
+    for (const std::uint32_t p : t.points) is_used[p] = true;
+  }
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    const TetId tet = drawing.points()[i].binding.tet;
+    EXPECT_EQ(tet.is_valid(), is_used[i]);
+    EXPECT_TRUE(!tet.is_valid() || body.engine.mesh().is_live(tet));
+  }
+}
+
+bool follow(SurfaceDrawing& drawing, Body& body) {
+  EXPECT_TRUE(body.surface.follow(body.engine.journal(), body.engine.mesh()).ok());
+  return drawing.follow(body.surface, body.engine.mesh(), body.engine.journal());
+}
+
+SurfaceDrawing drawing_of(const Body& body) {
+  return {body.surface, body.engine.mesh(), body.engine.journal()};
+}
+
+/// A blade that goes down through the top of the unit cube at `x`, to a depth, along y.
+Stroke incision(double x, double bottom, unsigned steps) {
+  return quad_stroke(Vec3(x, -0.1, 1.1), Vec3(x, -0.1, bottom), Vec3(x, 0.8, 1.1), Vec3(x, 0.8, bottom), steps);
+}
+
+TEST(SurfaceDrawing, each_step_of_a_blade_leaves_what_would_be_drawn_anew) {
+  for (const bool is_maintained : {false, true}) {
+    SCOPED_TRACE(is_maintained);
+    Body body = make_body(jittered_cube(4, 6), fine_box(Vec3(0, 0, 0), Vec3(1, 1, 1), 16), is_maintained);
+    SurfaceDrawing drawing = drawing_of(body);
+    for (const double x : {0.53, 0.31}) {
+      const Stroke stroke = incision(x, 0.3, 10);
+      ASSERT_TRUE(body.engine.begin_stroke({stroke.edges.front()}).ok());
+      for (std::size_t i = 1; i < stroke.edges.size(); ++i) {
+        ASSERT_TRUE(body.engine.step({stroke.edges[i]}).ok());
+        follow(drawing, body);
+        expect_as_drawn_anew(drawing, body);
+      }
+      ASSERT_TRUE(body.engine.end_stroke().ok());
+      follow(drawing, body);
+      expect_as_drawn_anew(drawing, body);
+    }
+    EXPECT_GT(drawing.packed().rim_triangles, 0U);
+  }
+}
+
+TEST(SurfaceDrawing, walls_that_cross_older_ones_are_drawn_as_anew) {
+  Body body = make_body(ball(6), fine_sphere(1.01, 20), true);
+  SurfaceDrawing drawing = drawing_of(body);
+  for (const Vec3& normal : {Vec3(1, 0.1, 0), Vec3(0, 1, 0.2), Vec3(0.3, 0, 1)}) {
+    ASSERT_TRUE(body.engine.cut(plane(body.engine, normal, 0.03)).ok());
+    EXPECT_TRUE(follow(drawing, body));
+    expect_as_drawn_anew(drawing, body);
+  }
+}
+
+TEST(SurfaceDrawing, random_strokes_are_drawn_as_anew) {
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const bool is_ball = seed % 2 == 0;
+    Body body = make_body(is_ball ? ball(5) : jittered_cube(4, seed),
+                          is_ball ? fine_sphere(1.01, 14) : fine_box(Vec3(0, 0, 0), Vec3(1, 1, 1), 14), seed % 4 < 2);
+    SurfaceDrawing drawing = drawing_of(body);
+    for (int i = 0; i < 4; ++i) {
+      ASSERT_TRUE(body.engine.cut(random_incision(random, rest_bounds(body.engine.mesh()))).ok());
+      if (i != 1) follow(drawing, body);  // now and then it comes two steps late
+      if (i == 2 && body.engine.undo()) follow(drawing, body);
+    }
+    expect_as_drawn_anew(drawing, body);
+  }
+}
+
+TEST(SurfaceDrawing, undo_and_redo_are_drawn_as_anew) {
+  Body body = make_body(jittered_cube(4, 5), fine_box(Vec3(0, 0, 0), Vec3(1, 1, 1), 16), true);
+  SurfaceDrawing drawing = drawing_of(body);
+  const Drawn whole = drawn_by(drawing);
+  for (const double x : {0.53, 0.31}) {
+    ASSERT_TRUE(body.engine.cut(incision(x, 0.4, 4)).ok());
+    follow(drawing, body);
+  }
+  const Drawn cut_twice = drawn_by(drawing);
+  while (body.engine.undo()) {
+    EXPECT_TRUE(follow(drawing, body));
+    expect_as_drawn_anew(drawing, body);
+  }
+  EXPECT_TRUE(drawn_by(drawing) == whole);
+  while (body.engine.redo()) follow(drawing, body);
+  EXPECT_TRUE(drawn_by(drawing) == cut_twice);
+  ASSERT_TRUE(body.engine.undo());
+  ASSERT_TRUE(body.engine.cut(incision(0.7, 0.2, 4)).ok());  // another one in its place, before it is drawn
+  EXPECT_TRUE(follow(drawing, body));
+  expect_as_drawn_anew(drawing, body);
+}
+
+TEST(SurfaceDrawing, what_it_could_not_follow_is_drawn_anew) {
+  Body body = make_body(jittered_cube(4, 5), fine_box(Vec3(0, 0, 0), Vec3(1, 1, 1), 16), true);
+  SurfaceDrawing drawing = drawing_of(body);
+  EXPECT_FALSE(follow(drawing, body));
+  cut_and_follow(body, incision(0.53, 0.4, 4));
+  cut_and_follow(body, incision(0.31, 0.4, 4));  // the surface has forgotten what the first one changed
+  EXPECT_TRUE(drawing.follow(body.surface, body.engine.mesh(), body.engine.journal()));
+  expect_as_drawn_anew(drawing, body);
+}
+
+TEST(SurfaceDrawing, what_did_not_change_keeps_its_slots) {
+  Body body = make_body(jittered_cube(6, 5), fine_box(Vec3(0, 0, 0), Vec3(1, 1, 1), 24), true);
+  SurfaceDrawing drawing = drawing_of(body);
+  const std::vector<DrawnTriangle> before = drawing.triangles();
+  ASSERT_TRUE(body.engine.cut(incision(0.53, 0.9, 1)).ok());
+  follow(drawing, body);
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    changed += before[i].points != drawing.triangles()[i].points ? 1U : 0U;
+  EXPECT_GT(changed, 0U);
+  EXPECT_LT(changed, before.size() / 10);
+}
+
+TEST(SurfaceDrawing, a_step_costs_what_it_touched) {
+  std::array<std::size_t, 2> most{};
+  for (const std::uint32_t size : {1U, 2U}) {
+    // The same blade, tets and triangles, on a body eight times as large.
+    Body body = make_body(kuhn_box(Vec3(0, 0, 0), Vec3::Constant(size), {8 * size, 8 * size, 8 * size}),
+                          fine_box(Vec3(0, 0, 0), Vec3::Constant(size), 24 * size), true);
+    SurfaceDrawing drawing = drawing_of(body);
+    const double top = size;
+    ASSERT_TRUE(body.engine.begin_stroke({{Vec3(0.53, 0.2, top + 0.1), Vec3(0.53, 0.2, top - 0.15)}}).ok());
+    for (int i = 1; i <= 20; ++i) {
+      const double y = 0.2 + 0.02 * i;
+      ASSERT_TRUE(body.engine.step({{Vec3(0.53, y, top + 0.1), Vec3(0.53, y, top - 0.15)}}).ok());
+      follow(drawing, body);
+      most[size - 1] = std::max(most[size - 1], drawing.looked_at());
+    }
+    ASSERT_TRUE(body.engine.end_stroke().ok());
+  }
+  EXPECT_GT(most[0], 0U);
+  EXPECT_LE(most[1], most[0] * 3 / 2);
+  EXPECT_LT(most[0], 8U * 8U * 8U * 6U / 4U);  // of the tets of the smaller body
 }
 
 }  // namespace

@@ -438,14 +438,6 @@ TEST(EmbeddedSurface, seams_of_the_texture_stay_shut) {
   EXPECT_EQ(count_between_pieces(surface, engine.mesh()), 0U);
 }
 
-/// A straight blade through a body, or into it, as random strokes go.
-Stroke random_incision(Random& random, const TetMesh& mesh) {
-  const Placement placement(random, rest_bounds(mesh));
-  const double depth = random.real(-0.3, 0.3);
-  return placement.place(quad_stroke(Vec3(-1, 0, 1), Vec3(1, 0, 1), Vec3(-1, random.real(-0.2, 0.2), depth),
-                                     Vec3(random.real(0, 1), random.real(-0.2, 0.2), depth), 4));
-}
-
 TEST(EmbeddedSurface, random_strokes_leave_no_bridge_and_lose_no_area) {
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);
@@ -457,7 +449,7 @@ TEST(EmbeddedSurface, random_strokes_leave_no_bridge_and_lose_no_area) {
                                      : fine_box(Vec3(0, 0, 0), Vec3(1, 1, 1), 20);
     EmbeddedSurface surface = bind(fine, engine);
     for (int i = 0; i < 3; ++i) {
-      ASSERT_TRUE(engine.cut(random_incision(random, engine.mesh())).ok());
+      ASSERT_TRUE(engine.cut(random_incision(random, rest_bounds(engine.mesh()))).ok());
       follow(surface, engine);
       if (i == 1 && seed % 5 == 0 && engine.undo()) follow(surface, engine);
     }

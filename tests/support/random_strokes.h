@@ -82,4 +82,12 @@ inline Stroke random_stroke(Random& random, const Box& box) {
   return stroke;
 }
 
+/// A straight blade through a body, or into it, as random strokes go.
+inline Stroke random_incision(Random& random, const Box& box) {
+  const Placement placement(random, box);
+  const double depth = random.real(-0.3, 0.3);
+  return placement.place(quad_stroke(Vec3(-1, 0, 1), Vec3(1, 0, 1), Vec3(-1, random.real(-0.2, 0.2), depth),
+                                     Vec3(random.real(0, 1), random.real(-0.2, 0.2), depth), 4));
+}
+
 }  // namespace incise::test

@@ -167,6 +167,22 @@ picked headless.png
 "$bin/incise-view" --headless -q --screenshot quiet.png --size 64x48 2>out.txt || fail "quiet"
 [ ! -s out.txt ] || fail "-q said $(cat out.txt)"
 
+# A scan: its --size is that of tets, and neither the window nor a picture is that small.
+{
+  printf 'ObjectType = Image\nNDims = 3\nBinaryData = True\nElementSpacing = 1 1 1\nDimSize = 12 12 12\n'
+  printf 'ElementType = MET_UCHAR\nElementDataFile = LOCAL\n'
+  head -c 1728 /dev/zero | tr '\0' '\1'
+} >scan.mha
+"$bin/incise-view" --headless scan.mha --size 4 --screenshot scan.png 2>out.txt || fail "a scan: $(cat out.txt)"
+grep -q 'wrote scan.png (picture, 1280 x 720 pixels)' out.txt || fail "a picture of a scan: $(cat out.txt)"
+"$bin/incise-view" --headless -q scan.mha --size 4 --size 320x200 --screenshot small.png 2>out.txt || fail "two sizes"
+open_window scan.mha --size 4
+geometry=$(xdotool getwindowgeometry "$(xdotool search --onlyvisible --pid "$window" | tail -n 1)")
+[[ $geometry == *'Geometry: 1280x'* ]] || fail "the window of a scan: $geometry"
+kill "$window"
+wait "$window" 2>/dev/null || true
+window=
+
 # A film: what ffmpeg is asked for, and what is said where there is none.
 mkdir stand-in
 printf '#!/bin/sh\nprintf "%%s\\n" "$@" >film.txt\nfor last; do :; done\nls "$(dirname "$7")" >pictures.txt\n: >"$last"\n' \

@@ -108,6 +108,126 @@ test('a plane across a moving body leaves two pieces, which undo joins', () => {
   assert.equal(session.figures().strokes, 0);
 });
 
+// --- fine surfaces
+
+/** The surface of the unit cube as an .obj, each face of 2 n² triangles. */
+function fineCube(n) {
+  const lines = [];
+  let count = 0;
+  for (let axis = 0; axis < 3; ++axis) {
+    for (const side of [0, 1]) {
+      for (let i = 0; i <= n; ++i) {
+        for (let j = 0; j <= n; ++j) {
+          const p = [];
+          p[axis] = side;
+          p[(axis + 1) % 3] = i / n;
+          p[(axis + 2) % 3] = j / n;
+          lines.push(`v ${p.join(' ')}`);
+        }
+      }
+      const at = (i, j) => count + 1 + i * (n + 1) + j;
+      for (let i = 0; i < n; ++i) {
+        for (let j = 0; j < n; ++j) {
+          const square = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+          const [a, b, c, d] = side ? square : square.reverse();
+          lines.push(`f ${a} ${b} ${c}`, `f ${a} ${c} ${d}`);
+        }
+      }
+      count += (n + 1) ** 2;
+    }
+  }
+  return new TextEncoder().encode(lines.join('\n'));
+}
+
+const FINE = 20; // squares along an edge of the surface, of a body of 4³ cells
+const fineScene = JSON.stringify({
+  format: 'incise-scene', version: 1, length_unit: 0.05, gravity: [0, 0, 0],
+  model: { box: { cells: [4, 4, 4], size: [1, 1, 1] }, surface: 'skin.obj' },
+  attachments: [{ below: [0, 0, 1, 0.01] }], view: { from: [0, -1, 1] },
+});
+const openFine = (Session) => Session.open(fineScene, 'fine.json', { files: { 'skin.obj': fineCube(FINE) } });
+
+/** How many triangles the page gets of skin and of walls, and whether all places are finite. */
+function count(session) {
+  const { positions, looks } = session.surface();
+  const walls = looks.filter((_, i) => i % 12 === 0 && looks[i] & 1).length;
+  return { skin: positions.length / 9 - walls, walls, isFinite: positions.every(Number.isFinite) };
+}
+
+test('a fine surface is drawn in the place of the skin, cut with the body, and whole again after undo', () => {
+  const seen = [];
+  for (const { Session } of builds) {
+    const session = openFine(Session);
+    session.refresh();
+    const whole = { skin: 12 * FINE * FINE, walls: 0, isFinite: true };
+    assert.deepEqual(count(session), whole);
+    draw(session);
+    const cut = count(session);
+    assert.ok(cut.skin > whole.skin && cut.walls > 0 && cut.isFinite, JSON.stringify(cut));
+    assert.ok(session.figures().tets < whole.skin / 2, 'the body is not coarse');
+    assert.equal(session.undo(), true);
+    session.refresh();
+    assert.deepEqual(count(session), whole);
+    assert.equal(session.redo(), true);
+    session.refresh();
+    assert.deepEqual(count(session), cut);
+    session.reset();
+    session.refresh();
+    assert.deepEqual(count(session), whole);
+    seen.push(cut);
+    session.dispose();
+  }
+  assert.deepEqual(seen.at(-1), seen[0]);
+});
+
+test('no triangle of a fine surface spans a body that a plane has parted', () => {
+  const session = openFine(module.Session);
+  session.resize(800, 600);
+  session.refresh();
+  session.tool = 'Plane cut';
+  session.pointer('press', 400, 60);
+  session.pointer('move', 402, 500);
+  session.pointer('release', 402, 500);
+  do session.frame(); while (session.isBusy);
+  assert.equal(session.pieces, 2);
+  session.tool = 'Forceps';
+  session.refresh();
+  session.pointer('press', 330, 250);
+  for (let i = 0; i < 100; ++i) {
+    session.pointer('move', 330 - 3 * i, 250);
+    session.frame();
+    session.refresh();
+  }
+  const { positions } = session.surface();
+  let longest = 0;
+  for (let i = 0; i < positions.length; i += 9) {
+    for (const [p, q] of [[0, 3], [3, 6], [6, 0]]) {
+      longest = Math.max(longest, Math.hypot(...[0, 1, 2].map((k) => positions[i + p + k] - positions[i + q + k])));
+    }
+  }
+  const wide = Math.max(...positions.filter((_, i) => i % 3 === 0)) - Math.min(...positions.filter((_, i) => i % 3 === 0));
+  assert.ok(wide > 1.2, `the pieces were not drawn apart: ${wide}`);
+  assert.ok(longest < 0.6, `a triangle is ${longest} long`);
+  session.dispose();
+});
+
+test('a recording of a body with a fine surface plays, and what is wrong with a surface is said', () => {
+  const session = openFine(module.Session);
+  draw(session);
+  const recording = session.recording(), { hash } = session;
+  session.dispose();
+  const again = module.Session.open(recording, 'fine.jsonl', { files: { 'skin.obj': fineCube(FINE) } });
+  while (again.place().call < again.place().calls) again.frame();
+  again.refresh();
+  assert.equal(again.hash, hash);
+  assert.ok(count(again).walls > 0);
+  again.dispose();
+  assert.throws(() => module.Session.open(fineScene, 'fine.json'), (error) => /skin\.obj/.test(error.message));
+  const far = new TextEncoder().encode('v 90 0 0\nv 91 0 0\nv 90 1 0\nf 1 2 3\n');
+  assert.throws(() => module.Session.open(fineScene, 'fine.json', { files: { 'skin.obj': far } }),
+    (error) => error.name === 'InciseError' && /^skin\.obj: point 0 .* outside the mesh/.test(error.message));
+});
+
 test('views of the heap are taken anew after memory has grown', () => {
   const session = module.Session.open(patch, 'patch.json');
   session.refresh();

@@ -334,9 +334,27 @@ describe('the page', { skip: executablePath ? false : 'Chromium is not installed
     assert.ok(late < early + 8e6, `${early} bytes became ${late}`);
   });
 
+  test('a fine skin is drawn over a coarse body and cut with it', async () => {
+    await openPage({ path: '?body=kidney' });
+    const drawn = () => page.evaluate(() => window.incise.triangles);
+    const whole = await figures(), skin = await drawn();
+    assert.ok(skin > 10_000 && whole.tets < 3000, `${skin} triangles over ${whole.tets} tets`);
+    await drag([0.47, 0.3], [0.5, 0.55], { steps: 30, pause: 16 });
+    await until(() => window.incise.figures.strokes === 1 && window.incise.figures.cutTets > 0);
+    await until((before) => window.incise.triangles > before + 20, skin);
+    await isAtRest();
+    await page.screenshot({ path: `${pictures}/fine_cut.png` });
+    await press('3');
+    await drag([0.5, 0.1], [0.52, 0.9]);
+    await until(async () => (await window.incise.engine.ask('quality')).pieces > 1);
+    await page.screenshot({ path: `${pictures}/fine_halves.png` });
+    for (let i = 0; i < 2; ++i) await press('Control+z');
+    await until((before) => window.incise.figures.strokes === 0 && window.incise.triangles === before, skin);
+  });
+
   test('figures of the page', async (context) => {
     const measured = [];
-    for (const body of ['patch', 'bunny']) {
+    for (const body of ['patch', 'bunny', 'kidney']) {
       fetched.clear();
       await openPage({ path: `?body=${body}` });
       await page.waitForTimeout(500);

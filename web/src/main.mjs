@@ -76,6 +76,13 @@ async function fetchBytes(file) {
   return new Uint8Array(await response.arrayBuffer());
 }
 
+/** What a body's scene or recording names: its mesh, and its fine surface where it has one. */
+async function fetchParts(body) {
+  const names = [body.model ?? (body.file.endsWith('.json') ? null : body.file), body.surface].filter(Boolean);
+  const files = await Promise.all(names.map(async (name) => [name, await fetchBytes(name)]));
+  return Object.fromEntries(files);
+}
+
 async function open(what, id) {
   say('Opening…');
   measured.state = 'opening';
@@ -95,7 +102,7 @@ async function open(what, id) {
 
 async function openBody(id) {
   const body = bodies.find((each) => each.id === id) ?? bodies[0];
-  const files = body.model ? { [body.model]: await fetchBytes(body.model) } : undefined;
+  const files = body.model ? await fetchParts(body) : undefined;
   await open({ bytes: await fetchBytes(body.file), name: body.file, files, up: body.up }, body.id);
   $('body').value = body.id;
 }
@@ -103,11 +110,9 @@ async function openBody(id) {
 async function openFile(file) {
   if (file.size > LARGEST_FILE) throw new Error(`${file.name} is larger than ${LARGEST_FILE / 1e6} MB; use the window or the command`);
   const bytes = new Uint8Array(await file.arrayBuffer());
-  const files = {};
-  for (const body of bodies.filter((each) => each.id === opened.id)) {
-    const model = body.model ?? (body.file.endsWith('.json') ? null : body.file);
-    if (model && model !== file.name) files[model] = await fetchBytes(model);
-  }
+  const body = bodies.find((each) => each.id === opened.id);
+  const files = body ? await fetchParts(body) : {};
+  delete files[file.name];
   await open({ bytes, name: file.name, files }, '');
   own(file.name);
 }
@@ -121,11 +126,10 @@ function own(name) {
 }
 
 async function openLink(found) {
-  const body = bodies.find((each) => each.id === found.body) ?? {};
-  const model = body.model ?? (body.file?.endsWith('.json') ? null : body.file);
-  const files = model ? { [model]: await fetchBytes(model) } : undefined;
-  await open({ bytes: found.recording, name: 'link.jsonl', files }, body.id ?? '');
-  if (body.id) $('body').value = body.id;
+  const body = bodies.find((each) => each.id === found.body);
+  const files = body ? await fetchParts(body) : undefined;
+  await open({ bytes: found.recording, name: 'link.jsonl', files }, body?.id ?? '');
+  if (body) $('body').value = body.id;
 }
 
 async function share() {
@@ -314,6 +318,7 @@ function endReplay() {
 
 function onFrame({ detail }) {
   picture.take(detail);
+  if (detail.surface) measured.triangles = detail.surface.positions.length / 9;
   Object.assign(measured, { state: 'ready', figures: detail.figures, isAwake: detail.isAwake, isReplay: detail.isReplay });
   if (detail.place) $('progress').value = detail.place.call / Math.max(1, detail.place.calls);
   if (!hasFrame) {

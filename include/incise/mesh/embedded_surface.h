@@ -62,6 +62,13 @@ struct FineTriangle {
   }
 };
 
+/// What a call of `EmbeddedSurface::follow` changed, for those who keep something for each slot.
+struct FineChanges {
+  std::uint64_t from = 0, to = 1;        ///< numbers of the surface's states before and after that call
+  std::vector<std::uint32_t> points;     ///< slots, with repeats; one beyond `EmbeddedSurface::points` is there no more
+  std::vector<std::uint32_t> triangles;  ///< likewise
+};
+
 /// How a fine surface may be bound.
 struct EmbedOptions {
   /// The farthest that a point may lie outside the mesh, in mean edges of the mesh at rest; > 0.
@@ -101,6 +108,9 @@ class EmbeddedSurface {
   [[nodiscard]] std::size_t position() const;
   /// Grows whenever a triangle changes.
   [[nodiscard]] std::uint64_t version() const;
+  /// The last change of anything, bindings among it. Whoever knows the surface as it was in state `from` needs to look
+  /// at these slots alone; others at all of it.
+  [[nodiscard]] const FineChanges& changes() const;
 
   /// All slots of points; the first ones are those that were given.
   [[nodiscard]] std::span<const FinePoint> points() const;
@@ -110,6 +120,8 @@ class EmbeddedSurface {
   [[nodiscard]] const FineSurface& source() const;
   /// How far its points lay outside the mesh when it was bound, at most; length unit.
   [[nodiscard]] double greatest_distance() const;
+  /// How far from a triangle tets of the mesh may matter to it, at most; length unit.
+  [[nodiscard]] double reach() const;
   /// Triangles that the last `follow` looked at, a measure of its work.
   [[nodiscard]] std::size_t looked_at() const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 #include "app/model/label_names.h"
@@ -132,6 +133,25 @@ Status add_layers(const OrganJob& job, OrganInput& input, Organ& organ, double& 
   return {};
 }
 
+/// Labels that did not come out as the image has them.
+void note_labels(const OrganJob& job, const image::LabelImage& image, Organ& organ) {
+  constexpr double kMostLost = 0.05;  // of a label's volume
+  const std::vector<std::uint64_t> counts = image.count_voxels();
+  for (const image::LabelOutcome& label : organ.made.labels) {
+    const std::size_t index = image.find_label(label.label);
+    if (index == counts.size() || counts[index] == 0) continue;  // layers took all of it
+    const double error = label.image_volume > 0 ? label.volume / label.image_volume - 1 : 0;
+    const std::string which = job.input + ": label " + std::to_string(label.label);
+    if (label.tets == 0) {
+      organ.notes.push_back(which + " is too small or too thin to be there; use a smaller --size, or a finer image");
+    } else if (std::abs(error) > kMostLost) {
+      organ.notes.push_back(which + " is " + std::to_string(std::lround(100 * std::abs(error))) + " % " +
+                            (error > 0 ? "larger" : "smaller") +
+                            " than in the image; use a smaller --size, or more --halvings");
+    }
+  }
+}
+
 void note_mesh(const OrganJob& job, Organ& organ) {
   if (organ.made.island_voxels > 0) {
     organ.notes.push_back(job.input + ": " + std::to_string(organ.made.island_voxels) +
@@ -212,6 +232,7 @@ Result<Organ> mesh_organ(const OrganJob& job, OrganInput& input) {
   Result<image::LabelMesh> made = image::mesh_labels(input.file.image, options);
   if (!made.ok()) return made.error();
   organ.made = std::move(made).value();
+  note_labels(job, input.file.image, organ);
   note_mesh(job, organ);
   return organ;
 }

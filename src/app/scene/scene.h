@@ -104,6 +104,14 @@ struct SceneSettle {
   double speed = 1e-4;       ///< m/s
 };
 
+/// Regions that a tool under a person's hand does not cut.
+struct SpareRule {
+  std::string tool;                     ///< one of `kCuttingTools`; empty: each of them
+  std::vector<std::int32_t> stop_at;    ///< regions that its edge is held outside of, see `RegionGuard`
+  std::vector<std::string> stop_names;  ///< more of them, until `take_model` knows their numbers
+};
+inline constexpr std::array<std::string_view, 4> kCuttingTools = {"scalpel", "plane cut", "scissors", "punch"};
+
 struct Scene {
   std::string name;
   std::filesystem::path folder;  ///< that `model.file` is seen from
@@ -117,6 +125,7 @@ struct Scene {
   std::vector<SceneHook> hooks;
   std::vector<SceneSuture> sutures;
   std::vector<SceneStroke> strokes;  ///< in order of time, at least two frames between them
+  std::vector<SpareRule> spare;      ///< of tools under a hand; the strokes have their own
   std::uint64_t frames = 0;
   SceneSettle settle;
   std::uint64_t seed = 0;

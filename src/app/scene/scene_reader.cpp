@@ -384,7 +384,8 @@ class SceneHandsReader : public SceneOptionsReader {
     return read_list(*this, root, "tools", &SceneHandsReader::read_tool) &&
            read_list(*this, root, "hooks", &SceneHandsReader::read_hook) &&
            read_list(*this, root, "sutures", &SceneHandsReader::read_suture) &&
-           read_list(*this, root, "strokes", &SceneHandsReader::read_blade_entry);
+           read_list(*this, root, "strokes", &SceneHandsReader::read_blade_entry) &&
+           read_list(*this, root, "spare", &SceneHandsReader::read_spare);
   }
 
  protected:
@@ -500,6 +501,21 @@ class SceneHandsReader : public SceneOptionsReader {
            read_.optional_boolean(value, path, "pushes", suture.pushes) &&
            read_.optional_ranged(value, path, "strength", kAbove0, suture.strength) &&
            read_.optional_ranged(value, path, "start", {0, kLatestStart}, suture.start);
+  }
+  bool read_spare(const JsonValue& value, const std::string& path) {
+    SpareRule& rule = scene_.spare.emplace_back();
+    if (!read_.is_object(value, path, {"tool", "stop_at"}) || !read_.optional_text(value, path, "tool", rule.tool) ||
+        !read_stops(read_, value, path, rule.stop_at, rule.stop_names)) {
+      return false;
+    }
+    if (rule.stop_at.empty() && rule.stop_names.empty()) {
+      return read_.fail(value, path, "names no regions; give them as \"stop_at\"");
+    }
+    const bool is_known =
+        rule.tool.empty() || std::find(kCuttingTools.begin(), kCuttingTools.end(), rule.tool) != kCuttingTools.end();
+    return is_known || read_.fail(value, path,
+                                  "has no tool that cuts; \"tool\" may be \"scalpel\", \"plane cut\", "
+                                  "\"scissors\" or \"punch\", or be left out for all of them");
   }
   /// How the strokes of one blade lie in time.
   struct Timing {
@@ -708,11 +724,11 @@ class SceneReader : public SceneViewReader {
  private:
   bool read_header(const JsonValue& root) {
     return read_.is_format(root, "incise-scene", kVersion) &&
-           read_.is_object(root, "",
-                           {"format",        "version",     "name",    "model",  "length_unit", "materials", "gravity",
-                            "damping",       "attachments", "tools",   "hooks",  "strokes",     "frames",    "duration",
-                            "frame_seconds", "settle",      "seed",    "solver", "cut",         "maintain",  "contact",
-                            "view",          "exercise",    "sutures", "stretch"}) &&
+           read_.is_object(
+               root, "", {"format",        "version",     "name",    "model",   "length_unit", "materials", "gravity",
+                          "damping",       "attachments", "tools",   "hooks",   "strokes",     "frames",    "duration",
+                          "frame_seconds", "settle",      "seed",    "solver",  "cut",         "maintain",  "contact",
+                          "view",          "exercise",    "sutures", "stretch", "spare"}) &&
            read_.optional_text(root, "", "name", scene_.name) &&
            read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
   }

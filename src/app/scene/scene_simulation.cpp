@@ -91,14 +91,16 @@ Status resolve_materials(const io::RegionNames& names, Scene& scene) {
   return {};
 }
 
-Status resolve_stops(const io::RegionNames& names, Scene& scene) {
-  for (SceneStroke& stroke : scene.strokes) {
-    for (const std::string& name : stroke.stop_names) {
+/// Of what has `stop_at` and `stop_names`.
+template <class Item>
+Status resolve_stops(const io::RegionNames& names, std::vector<Item>& items) {
+  for (Item& item : items) {
+    for (const std::string& name : item.stop_names) {
       const Result<std::vector<std::int32_t>> regions = find_regions(name, names);
       if (!regions.ok()) return Error{ErrorCode::kBadFile, "stop_at: " + regions.error().message};
-      stroke.stop_at.insert(stroke.stop_at.end(), regions->begin(), regions->end());
+      item.stop_at.insert(item.stop_at.end(), regions->begin(), regions->end());
     }
-    stroke.stop_names.clear();
+    item.stop_names.clear();
   }
   return {};
 }
@@ -259,7 +261,8 @@ Result<io::LoadedMesh> take_model(Scene& scene) {
   Result<io::LoadedMesh> loaded = load_model(scene);
   if (!loaded.ok()) return loaded;
   if (const Status status = resolve_materials(loaded->region_names, scene); !status.ok()) return status.error();
-  if (const Status status = resolve_stops(loaded->region_names, scene); !status.ok()) return status.error();
+  if (const Status status = resolve_stops(loaded->region_names, scene.strokes); !status.ok()) return status.error();
+  if (const Status status = resolve_stops(loaded->region_names, scene.spare); !status.ok()) return status.error();
   return loaded;
 }
 

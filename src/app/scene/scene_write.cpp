@@ -160,6 +160,14 @@ Json json_of(const SceneStroke& s) {
   return root;
 }
 
+Json json_of(const SpareRule& rule) {
+  Json root = Json::object();
+  if (!rule.tool.empty()) root["tool"] = rule.tool;
+  for (const std::int32_t region : rule.stop_at) root["stop_at"].push_back(region);
+  for (const std::string& name : rule.stop_names) root["stop_at"].push_back(name);
+  return root;
+}
+
 template <class Item>
 Json json_of_all(const std::vector<Item>& items) {
   Json list = Json::array();
@@ -248,6 +256,7 @@ Json scene_tree(const Scene& scene) {
   root["hooks"] = json_of_all(scene.hooks);
   root["sutures"] = json_of_all(scene.sutures);
   root["strokes"] = json_of_all(scene.strokes);
+  if (!scene.spare.empty()) root["spare"] = json_of_all(scene.spare);
   root["frames"] = scene.frames;
   root["settle"] = {{"frames", scene.settle.frames}, {"speed", scene.settle.speed}};
   root["seed"] = scene.seed;

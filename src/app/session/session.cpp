@@ -78,6 +78,24 @@ void draw_tool(const Tool& tool, Marks& marks) {
 
 // --- one frame
 
+namespace {
+
+/// Regions that a tool under a hand is held outside of.
+std::vector<std::int32_t> spared_by(const Scene& scene, ToolKind tool) {
+  std::string name = name_of(tool);
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const bool cuts = std::find(kCuttingTools.begin(), kCuttingTools.end(), name) != kCuttingTools.end();
+  std::vector<std::int32_t> regions;
+  for (const SpareRule& rule : scene.spare) {
+    if (cuts && (rule.tool.empty() || rule.tool == name)) {
+      regions.insert(regions.end(), rule.stop_at.begin(), rule.stop_at.end());
+    }
+  }
+  return regions;
+}
+
+}  // namespace
+
 Status Session::frame(const HandState& hands) {
   State& s = *state_;
   if (s.is_replay) return s.next_call < s.call_count() ? s.play_call() : Status();
@@ -104,8 +122,10 @@ FrameInput Session::State::input_of(const HandState& hands) {
 /// One blade at a time; between two of them a frame without, so that no stroke leads from one to the other.
 void Session::State::choose_blade(const HandState& hands, FrameInput& input) {
   BladeSource source = input.blade ? BladeSource::kScript : BladeSource::kNone;
+  stop_at = scene_stops(scene, figures.frames);
   if (followed) {
     const FrameInput at_frame = scene_input(*followed, followed_frame);
+    if (at_frame.blade) stop_at = scene_stops(*followed, followed_frame);
     if (++followed_frame > followed->frames) followed.reset();
     if (at_frame.blade) {
       source = BladeSource::kFollowed;
@@ -115,6 +135,7 @@ void Session::State::choose_blade(const HandState& hands, FrameInput& input) {
   if (hands.blade) {
     source = BladeSource::kHand;
     input.blade = hands.blade;
+    stop_at = spared_by(scene, ToolKind::kScalpel);
   }
   const bool changes_hands =
       source != blade_source && source != BladeSource::kNone && blade_source != BladeSource::kNone;
@@ -126,11 +147,23 @@ void Session::State::choose_blade(const HandState& hands, FrameInput& input) {
   blade_source = source;
 }
 
-Status Session::State::run(const FrameInput& input) {
-  const bool is_script = blade_source == BladeSource::kScript && !is_replay;
-  const std::vector<std::int32_t> stop_at =
-      is_script ? scene_stops(scene, figures.frames) : std::vector<std::int32_t>();
+/// A hand's blade that would begin in what it spares is held in the air until it is out of there.
+Result<FrameReport> Session::State::frame(const FrameInput& input) {
+  if (is_replay) return simulation->frame(input);
   Result<FrameReport> report = simulation->frame(input, stop_at);
+  const bool is_by_hand = blade_source == BladeSource::kHand || blade_source == BladeSource::kFollowed;
+  const bool is_refused =
+      is_by_hand && !stop_at.empty() && input.blade && !report.ok() && report.error().code == ErrorCode::kBadArgument;
+  if (is_refused && !std::exchange(is_blade_refused, true)) note(Operation::Kind::kNotice, report.error().message);
+  if (!is_refused) is_blade_refused = false;
+  if (!is_refused) return report;
+  FrameInput without = input;
+  without.blade.reset();
+  return simulation->frame(without);
+}
+
+Status Session::State::run(const FrameInput& input) {
+  Result<FrameReport> report = frame(input);
   if (input.blade && last_input.blade && input.blade->edge.size() == last_input.blade->edge.size()) {
     const Vec3 way = input.blade->edge.front() - last_input.blade->edge.front();
     if (!way.isZero(0)) blade_way = way;
@@ -207,7 +240,7 @@ void Session::State::note(Operation::Kind kind, std::string text) {
 
 // --- what a person asks for
 
-void Session::follow(const Stroke& stroke) {
+void Session::follow(const Stroke& stroke, std::optional<ToolKind> tool) {
   State& s = *state_;
   if (s.is_replay || !check(stroke).ok()) return;
   s.plays_script = false;
@@ -220,6 +253,7 @@ void Session::follow(const Stroke& stroke) {
   const double begin =
       s.followed->strokes.empty() ? 0 : s.followed->strokes.back().stroke.times.back() + kPauses * frame;
   SceneStroke& added = s.followed->strokes.emplace_back(SceneStroke{stroke, Vec3::Zero()});
+  if (tool) added.stop_at = spared_by(s.scene, *tool);
   for (double& time : added.stroke.times) time += begin - stroke.times.front();
   s.followed->frames = static_cast<std::uint64_t>(added.stroke.times.back() / frame) + 2;
 }

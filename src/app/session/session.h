@@ -92,7 +92,8 @@ class Session {
   Status frame(const HandState& hands = {});
   /// Has the blade follow a stroke over the next frames, at its own times, after those that it follows already. Does
   /// nothing while a recording is played, or for a stroke that breaks its promises.
-  void follow(const Stroke& stroke);
+  /// @param tool  whose stroke it is: it spares the regions that the scene's `spare` names for it.
+  void follow(const Stroke& stroke, std::optional<ToolKind> tool = {});
   /// Whether such a stroke is under way.
   [[nodiscard]] bool is_following() const;
   /// Ends the strokes and hooks of the scene where they are, until the body starts anew: a person goes on.

@@ -47,6 +47,8 @@ struct Session::State {
   std::optional<Scene> followed;                 // a stroke that the blade follows, from its frame `followed_frame` on
   std::uint64_t followed_frame = 0;
   BladeSource blade_source = BladeSource::kNone;
+  std::vector<std::int32_t> stop_at;  // regions that it is held outside of
+  bool is_blade_refused = false;      // it would begin in them
   FrameInput last_input;
   Vec3 blade_way = Vec3::Zero();  // of the blade's edge, last time it moved
   SessionFigures figures;
@@ -66,6 +68,7 @@ struct Session::State {
   Status start();
   FrameInput input_of(const HandState& hands);
   Status run(const FrameInput& input);
+  Result<FrameReport> frame(const FrameInput& input);
   Status play_call();
   void note(Operation::Kind kind, std::string text);
   void count();

@@ -441,8 +441,8 @@ void SessionThread::redo() {
     s->tell(done.ok() ? (*done ? s->session.log().operations().back().text : "Nothing to redo") : done.error().message);
   });
 }
-void SessionThread::follow(const Stroke& stroke) {
-  state_->post_after_gestures([s = state_.get(), stroke] { s->session.follow(stroke); });
+void SessionThread::follow(const Stroke& stroke, std::optional<ToolKind> tool) {
+  state_->post_after_gestures([s = state_.get(), stroke, tool] { s->session.follow(stroke, tool); });
 }
 void SessionThread::end_script() {
   state_->post([s = state_.get()] { s->session.end_script(); });

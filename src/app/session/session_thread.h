@@ -78,7 +78,7 @@ class SessionThread {
   void reset();
   void undo();
   void redo();
-  void follow(const Stroke& stroke);
+  void follow(const Stroke& stroke, std::optional<ToolKind> tool = {});
   void end_script();
   void add_suture(const std::array<Vec3, 2>& rest_places, const Suture& suture);
   void probe(Side side);

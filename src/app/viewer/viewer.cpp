@@ -153,7 +153,7 @@ void Viewer::State::choose_cursor(const PointerEvent& event) {
 
 void Viewer::State::hand_over() {
   session.set_hands(tools.hands());
-  if (const std::optional<Stroke> stroke = tools.take_stroke()) session.follow(*stroke);
+  if (const std::optional<Stroke> stroke = tools.take_stroke()) session.follow(*stroke, tools.tool());
   if (const std::optional<Stitch> stitch = tools.take_stitch()) session.add_suture(stitch->rest_places, stitch->suture);
   if (const std::optional<SurfaceHit> hit = tools.take_probe()) session.probe(hit->side);
   if (const std::string why = tools.take_refusal(); !why.empty()) say(why);

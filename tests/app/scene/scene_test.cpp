@@ -544,6 +544,7 @@ TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
       {"/hooks/0", "/properties/hooks/items"},
       {"/hooks/0/path/0", "/properties/hooks/items/properties/path/items"},
       {"/sutures/0", "/properties/sutures/items"},
+      {"/spare/0", "/properties/spare/items"},
       {"/strokes/0", "/$defs/scene_stroke"},
       {"/view", "/properties/view"},
       {"/exercise", "/properties/exercise"},
