@@ -27,6 +27,7 @@ Result<app::DeviceHandOptions> hand_of(const DeviceArguments& arguments) {
   app::DeviceHandOptions options;
   options.scale = arguments.scale;
   options.loop.tool.max_force = arguments.force;
+  options.loop.tool.passivity.link_delay = 1e-3 * arguments.delay_ms;
   if (arguments.blade_mm > 0) options.blade_length = 1e-3 * arguments.blade_mm;
   if (!arguments.axes.empty()) {
     const Result<Eigen::Matrix3d> axes = app::parse_axes(arguments.axes);
@@ -50,6 +51,9 @@ void add_device(CLI::App& app, DeviceArguments& arguments) {
          "--device-blade", arguments.blade_mm,
          "Haptic device: millimetres of cutting edge (default: a third of the body's shortest side, at most 20)")
       ->check(CLI::Range(0.01, 1e4));
+  app.add_option("--device-delay", arguments.delay_ms,
+                 "Haptic device: milliseconds each way between it and this program, 0 to 50 (default 1)")
+      ->check(CLI::Range(0.0, 50.0));
 }
 
 bool is_haply(const std::string& device) {

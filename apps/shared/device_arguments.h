@@ -15,9 +15,10 @@ struct DeviceArguments {
   double scale = 1;     ///< m of the world per m of the device
   double force = 3.3;   ///< N at most
   double blade_mm = 0;  ///< of edge; 0: as suits the body
+  double delay_ms = 1;  ///< each way between the device and this program
 };
 
-/// Offers --device-axes, --device-scale, --device-force and --device-blade.
+/// Offers --device-axes, --device-scale, --device-force, --device-blade and --device-delay.
 void add_device(CLI::App& app, DeviceArguments& arguments);
 /// Whether a value of --device means a haptic device by Haply's service.
 [[nodiscard]] bool is_haply(const std::string& device);

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <vector>
 
 #include "incise/sim/haptic_tool.h"
 #include "incise/sim/pose_track.h"
+#include "incise/sim/simulated_operator.h"
 
 namespace incise::test {
 
@@ -118,6 +120,73 @@ inline Physics wall(double stiffness) {
     s.force = Vec3(0, 0, -stiffness * tool.z());
     return s;
   };
+}
+
+/// A hand that presses 5 mm into an elastic wall, over a link that is late each way and loses ticks of the loop.
+struct DelayedPress {
+  HandOptions hand{0.1, 200, 1};  ///< a light grip that hardly damps
+  double wall = 1000;             ///< N/m
+  int delay = 3;                  ///< ticks of 1 ms each way
+  double lost = 0.01;             ///< share of the ticks
+  std::uint64_t seed = 1;
+  HapticToolOptions options;
+};
+
+/// What came of it, told at the device.
+struct DelayedRun {
+  double least_energy = 0;  ///< J from the hand, at its least
+  double motion = 0;        ///< m, of the hand in the last two of six seconds, in which it is to rest
+  double force = 0;         ///< N, its mean then
+  PassivityReport passivity;
+};
+
+/// A number in [0, 1) by hashing.
+inline double share_of(std::uint64_t seed, std::uint64_t tick) {
+  std::uint64_t x = (seed + 1) * 0x9E3779B97F4A7C15ULL + tick * 0xBF58476D1CE4E5B9ULL;
+  x = (x ^ (x >> 31U)) * 0x94D049BB133111EBULL;
+  return static_cast<double>((x ^ (x >> 29U)) >> 11U) * 0x1p-53;
+}
+
+inline DelayedRun run(const DelayedPress& press) {
+  constexpr double kDt = 1e-3;
+  constexpr int kTicks = 6000, kResting = 4000;
+  const PoseTrack plan =
+      PoseTrack::create({{0.0, Vec3(0, 0, 0.01)}, {1.0, Vec3(0, 0, -0.005)}, {10.0, Vec3(0, 0, -0.005)}}).value();
+  SimulatedOperator hand(plan, press.hand);
+  HapticTool tool(press.options);
+  const Physics physics = wall(press.wall);
+  const auto late = static_cast<std::size_t>(press.delay) + 1;
+  std::deque<Vec3> positions(late, Vec3(0, 0, 0.01)), forces(late, Vec3::Zero());
+  DelayedRun run;
+  Vec3 told = positions.front(), at_device = positions.front(), acting = Vec3::Zero();
+  double energy = 0, low = 1, high = -1, since = 0;
+  std::uint64_t serial = 0;
+  for (int i = 0; i < kTicks; ++i) {
+    const Vec3 position = hand.read(kDt * i).position;
+    energy -= acting.dot(position - at_device);
+    run.least_energy = std::min(run.least_energy, energy);
+    at_device = position;
+    positions.push_back(quantised(position, 2e-5));
+    positions.pop_front();
+    since += kDt;
+    if (i % 17 == 0) tool.accept(physics(i == 0 ? positions.front() : tool.tool_position(), ++serial));
+    if (!(share_of(press.seed, static_cast<std::uint64_t>(i)) < press.lost)) {
+      tool.tick(since, positions.front(), (positions.front() - told) / since);
+      told = positions.front();
+      since = 0;
+    }
+    forces.push_back(tool.force());
+    forces.pop_front();
+    acting = forces.front();
+    hand.command(acting);
+    if (i < kResting) continue;
+    low = std::min(low, position.z());
+    high = std::max(high, position.z());
+    run.force += acting.norm() / (kTicks - kResting);
+  }
+  run.motion = high - low;
+  run.passivity = tool.passivity();
+  return run;
 }
 
 }  // namespace incise::test

@@ -15,7 +15,7 @@ struct HapticToolOptions {
   double coupling_stiffness = 500;   ///< N/m between device and tool, above 0; 300 to 800 suits desktop arms
   double coupling_damping = 1;       ///< N·s/m on the stretch of the coupling, at least 0
   double drag = 0.3;                 ///< N·s/m on the device at all times; above half of (stiffness · dt) it pays for
-                                     ///< what sampling gives away (Colgate & Brown 1994)
+                                     ///< what sampling gives away (Colgate & Brown 1994); more over a delayed link
   double max_stretch = 0.01;         ///< m, at most between device and tool; above 0
   double max_force = 3.3;            ///< N on the device, above 0; 3.3 N is a common desktop arm's peak
   double physics_period = 1.0 / 60;  ///< s: the time over which the force goes over to a new snapshot; at least 0
@@ -32,9 +32,14 @@ struct HapticToolOptions {
 /// it back, and each tick puts it where both agree, so no stiffness can make it unstable. A new snapshot does not
 /// click: the difference to the old one at the same place fades over one physics period. What is felt passes the
 /// passivity controller last. `tool_position` is what the physics should move its blade to.
-/// **Source:** Colgate, Stanley & Brown 1995 (virtual coupling); Colgate & Brown 1994 (passivity of sampled walls).
+/// Over a link with a delay (`PassivityOptions::link_delay`) the drag is at least stiffness · (dt/2 + both ways), and
+/// the coupling no stiffer than 0.02 kg by the square of both ways: 556 N/m at 3 ms each way, 200 N/m at 5 ms.
+/// **Source:** Colgate, Stanley & Brown 1995 (virtual coupling); Colgate & Brown 1994 (passivity of sampled walls);
+/// Gil, Sánchez, Hulin, Preusche & Hirzinger 2009 (stability of walls over a delay: stiffness below damping by dt/2 +
+/// delay).
 ///
-/// One thread, O(1), no allocation, no clock, no libm but sqrt: equal inputs give equal bits. About 0.3 µs per tick.
+/// One thread, O(1) without a delay, no allocation, no clock, no libm but sqrt: equal inputs give equal bits. About 0.3
+/// µs per tick.
 class HapticTool {
  public:
   /// Options that `check` refuses give a tool that stays unspecified but finite.
@@ -60,6 +65,10 @@ class HapticTool {
   /// What the passivity controller saw and did.
   [[nodiscard]] PassivityReport passivity() const { return controller_.report(); }
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }  ///< so far
+  /// The drag on the device with ticks of `dt` s, N·s/m: as asked for, or more over a link with a delay.
+  [[nodiscard]] double drag(double dt) const;
+  /// N/m: as asked for, or less over a link with a delay.
+  [[nodiscard]] double coupling_stiffness() const { return options_.coupling_stiffness; }
 
  private:
   struct Coupling {

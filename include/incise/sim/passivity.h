@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "incise/core/result.h"
 #include "incise/geom/vec.h"
@@ -47,6 +48,9 @@ struct PassivityOptions {
   /// Energy that may be saved up for later, J. Work long spent on cutting must not pay for an oscillation now.
   double max_saved_energy = 0.1;
   double recovery_time = 0.05;  ///< s in which a force that was cut to nothing comes back, at least 0
+  /// s each way between device and controller, in [0, 0.05]: positions are so old when they come, and forces when they
+  /// act. Ticks are to be 1e-4 s or longer then.
+  double link_delay = 0;
 };
 
 /// Errors: kBadArgument names the first option out of its range.
@@ -56,7 +60,8 @@ struct PassivityOptions {
 struct PassivityReport {
   double sampled_energy = 0;       ///< Σ -f·v·dt with force and velocity of the same tick (Hannaford & Ryu 2002)
   double sampled_minimum = 0;      ///< never below 0 with the controller, whatever the device does
-  double held_energy = 0;          ///< initial_energy + what the held force really did while the device moved
+  double held_energy = 0;          ///< initial_energy + what the held force really did while the device moved, at the
+                                   ///< device, as far as its positions have come
   double held_minimum = 0;         ///< never below 0 with the controller while surprises == 0
   double removed_energy = 0;       ///< of the sampled port: what the controller kept from being given
   std::uint64_t damped_ticks = 0;  ///< the damper changed the force
@@ -71,10 +76,15 @@ struct PassivityReport {
 /// does: a force commanded now acts while the device moves to its next place, which nobody knows yet. So the controller
 /// asks that the saved energy pay for the worst displacement in reach: the last one ± (max_acceleration · dt² + 2
 /// quanta). The force that leaves is never longer than the one that came; after it was cut it comes back slowly.
+/// Over a link with a delay a force acts on displacements that come back two delays later. Until then what it may give
+/// at worst, within a reach that grows with the time ahead, is set aside and pays for nothing else: so the held port,
+/// at the device, keeps its promise for any hand. Where ticks are lost it is not known which force acted on which part
+/// of a displacement: it is shared out by time.
 /// **Source:** Hannaford & Ryu 2002 (observer, impedance-type controller). *Differs:* the held port and its
-/// reach, the fifth, the slow return.
+/// reach, the fifth, the slow return, the delay.
 ///
-/// One thread, O(1), no allocation, no clock. One call of `limit` per tick.
+/// One thread, no allocation after it was made, no clock. One call of `limit` per tick. Cost: O(1), and O(forces under
+/// way) with a delay.
 class PassivityController {
  public:
   /// `options` that `check` accepts.
@@ -96,7 +106,19 @@ class PassivityController {
   [[nodiscard]] Vec3 control(double dt, const Vec3& displacement, const Vec3& step, const Vec3& wanted);
   [[nodiscard]] Vec3 damp(const Vec3& step, const Vec3& wanted);
   [[nodiscard]] Vec3 scale(double dt, const Vec3& displacement, const Vec3& wanted);
-  [[nodiscard]] double reach(double dt) const;
+  [[nodiscard]] double reach(double dt, double ahead) const;
+  [[nodiscard]] double round_trip() const { return 2 * options_.link_delay; }
+  [[nodiscard]] Vec3 force_during(double dt);
+  [[nodiscard]] double set_aside(double dt, const Vec3& displacement) const;
+  void send(const Vec3& force);
+
+  /// A force, and when it was sent.
+  struct Sent {
+    Vec3 force = Vec3::Zero();
+    double time = 0;
+  };
+  /// The i-th of those whose displacements have not come yet, the oldest first.
+  [[nodiscard]] const Sent& under_way(std::size_t i) const { return ring_[(first_ + i) % ring_.size()]; }
 
   PassivityOptions options_;
   PassivityObserver sampled_, held_;
@@ -105,6 +127,9 @@ class PassivityController {
   double gain_ = 1;  ///< of the force; below 1 after it was cut
   Vec3 held_force_ = Vec3::Zero();
   Vec3 last_displacement_ = Vec3::Zero();
+  double time_ = 0;         // s, sum of all ticks; with a delay alone
+  std::vector<Sent> ring_;  // likewise
+  std::size_t first_ = 0, count_ = 0;
 };
 
 }  // namespace v0

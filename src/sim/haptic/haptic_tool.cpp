@@ -24,6 +24,22 @@ bool is_amount(double number) {
   return number >= 0 && std::isfinite(number);
 }
 
+/// The lightest grip, kg, for which a coupling over a link with a delay is to settle, and the share of it by the delay
+/// squared that its stiffness may reach: measured, docs/haptics.md.
+constexpr double kLightestGrip = 0.05, kDelayedStiffness = 0.4;
+
+/// Over a link with a delay the coupling is no stiffer than what light grips bear, and the drag takes what it gives
+/// away.
+HapticToolOptions suited(HapticToolOptions options) {
+  const double round_trip = 2 * options.passivity.link_delay;
+  if (!(round_trip > 0)) return options;
+  const double most = kDelayedStiffness * kLightestGrip / (round_trip * round_trip);
+  const double softer = std::min(1.0, most / options.coupling_stiffness);
+  options.coupling_stiffness *= softer;
+  options.coupling_damping *= softer;
+  return options;
+}
+
 }  // namespace
 
 Status check(const HapticToolOptions& options) {
@@ -42,7 +58,13 @@ Status check(const HapticToolOptions& options) {
 }
 
 HapticTool::HapticTool(const HapticToolOptions& options)
-    : options_(options), tissue_(options.rupture), controller_(options.passivity) {}
+    : options_(suited(options)), tissue_(options.rupture), controller_(options.passivity) {}
+
+double HapticTool::drag(double dt) const {
+  const double round_trip = 2 * options_.passivity.link_delay;
+  if (!(round_trip > 0)) return options_.drag;
+  return std::max(options_.drag, options_.coupling_stiffness * (0.5 * dt + round_trip));
+}
 
 bool HapticTool::accept(const HapticSnapshot& snapshot) {
   const std::uint64_t last = has_pending_ ? pending_.serial : tissue_.snapshot().serial;
@@ -96,7 +118,7 @@ Vec3 HapticTool::tick(double dt, const Vec3& device_position, const Vec3& device
   place_tool(coupling, device_position);
   // The saturated coupling, not the tissue, is what the hand feels.
   const Vec3 pull = coupling.stiffness * (stretch_ - coupling.rest);
-  const Vec3 wanted = shortened(pull - options_.drag * device_velocity, options_.max_force);
+  const Vec3 wanted = shortened(pull - drag(dt) * device_velocity, options_.max_force);
   force_ = controller_.limit(dt, displacement, device_velocity, wanted);
   device_position_ = device_position;
   has_moved_ = true;
