@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,15 +80,32 @@ Spread distance(const Skin& from, const TriangleTree& to, double unit) {
   return spread;
 }
 
-/// What a surface encloses, by the divergence theorem; nothing where an edge has another number of triangles than two.
+/// Whether triangles hang together through shared points.
+bool is_one_part(const io::SurfaceSoup& surface) {
+  std::vector<std::uint32_t> root(surface.points.size());
+  std::iota(root.begin(), root.end(), 0U);
+  const auto find = [&](std::uint32_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (const auto& [i, j, k] : surface.triangles) root[find(i)] = root[find(j)] = find(k);
+  return std::all_of(surface.triangles.begin(), surface.triangles.end(),
+                     [&](const auto& t) { return find(t[0]) == find(surface.triangles.front()[0]); });
+}
+
+/// What a surface encloses, by the divergence theorem; 0 where that is not known: of several parts, which may overlap,
+/// and where an edge has other triangles than one on either side that face alike.
 double enclosed(const io::SurfaceSoup& surface) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  if (surface.triangles.empty() || !is_one_part(surface)) return 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> edges;  // how often each way
   double six = 0;
   for (const auto& [i, j, k] : surface.triangles) {
     six += surface.points[i].dot(surface.points[j].cross(surface.points[k]));
-    for (const auto& [a, b] : {std::pair(i, j), std::pair(j, k), std::pair(k, i)}) ++edges[std::minmax(a, b)];
+    for (const auto& [a, b] : {std::pair(i, j), std::pair(j, k), std::pair(k, i)}) ++edges[std::minmax(a, b)][a < b];
   }
-  const bool is_closed = std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 2; });
+  const bool is_closed = std::all_of(edges.begin(), edges.end(), [](const auto& edge) {
+    return edge.second == std::array{1, 1};
+  });
   return is_closed ? std::abs(six) / 6 : 0;
 }
 
