@@ -161,22 +161,25 @@ Means middle_of(const std::vector<Means>& runs) {
   return m;
 }
 
-void add_row(const PaperRow& paper, const std::string& what, const Means& m, double draw, Table& table) {
+void add_row(const PaperRow& paper, Profile profile, const std::string& what, const Means& m, double draw,
+             Table& table) {
   const double undrawn = m.stages.collision + m.stages.relax + m.modify(), whole = undrawn + draw;
   const auto share = [&](double part) { return number(100 * part / whole, 1); };
-  table.add({paper.name, what, std::to_string(m.frames), number(m.stages.collision, 3), number(m.modify(), 3),
-             number(m.stages.relax, 3), number(draw, 3), number(1e3 / whole, 0), share(m.stages.collision),
-             share(m.modify()), share(m.stages.relax), share(draw), number(paper.fps, 1), number(paper.collision, 1),
-             number(paper.modify, 1), number(paper.relax, 1), number(paper.draw, 1)});
+  table.add({paper.name, profile == Profile::kPaper ? "paper" : "incise", what, std::to_string(m.frames),
+             number(m.stages.collision, 3), number(m.modify(), 3), number(m.stages.relax, 3), number(draw, 3),
+             number(1e3 / whole, 0), share(m.stages.collision), share(m.modify()), share(m.stages.relax), share(draw),
+             number(paper.fps, 1), number(paper.collision, 1), number(paper.modify, 1), number(paper.relax, 1),
+             number(paper.draw, 1)});
 }
 
-void measure(const PaperRow& paper, const Settings& settings, Screen& screen, Table& table) {
-  const Result<app::Scene> scene = app::read_scene(settings.root / "scenes" / (std::string(paper.file) + ".json"));
+void measure(const PaperRow& paper, Profile profile, const Settings& settings, Screen& screen, Table& table) {
+  Result<app::Scene> scene = app::read_scene(settings.root / "scenes" / (std::string(paper.file) + ".json"));
   const Result<io::LoadedMesh> loaded = scene.ok() ? app::load_model(*scene) : Result<io::LoadedMesh>(scene.error());
   if (!loaded.ok()) {
     std::fprintf(stderr, "%s is left out: %s\n", paper.name, loaded.error().message.c_str());
     return;
   }
+  scene->options.engine.cut.profile = profile;
   std::vector<Means> runs;
   for (unsigned i = 0; i < settings.repeats; ++i) {
     const Result<Means> run = run_drawn(*scene, loaded->mesh, screen);
@@ -188,8 +191,8 @@ void measure(const PaperRow& paper, const Settings& settings, Screen& screen, Ta
     if (run->hash != runs.front().hash) std::fprintf(stderr, "%s: two runs differ\n", paper.name);
   }
   const Means m = middle_of(runs);
-  add_row(paper, "draw call", m, m.draw.caller, table);
-  add_row(paper, "finished", m, m.draw.all, table);
+  add_row(paper, profile, "draw call", m, m.draw.caller, table);
+  add_row(paper, profile, "finished", m, m.draw.all, table);
 }
 
 std::string caption(const render::HeadlessContext& context) {
@@ -218,10 +221,11 @@ int report(const Settings& settings) {
   }
   Screen screen{std::move(renderer).value(), std::move(target).value(), context->is_software()};
   Table table("table2_with_drawing", caption(*context),
-              {"scene", "RD is", "frames", "CD", "GM", "RLX", "RD", "fps", "CD %", "GM %", "RLX %", "RD %",
+              {"scene", "profile", "RD is", "frames", "CD", "GM", "RLX", "RD", "fps", "CD %", "GM %", "RLX %", "RD %",
                "printed fps", "CD %", "GM %", "RLX %", "RD %"});
   for (const PaperRow& row : kRows) {
-    if (settings.only.empty() || settings.only == row.file) measure(row, settings, screen, table);
+    if (!settings.only.empty() && settings.only != row.file) continue;
+    for (const Profile profile : {Profile::kPaper, Profile::kIncise}) measure(row, profile, settings, screen, table);
   }
   table.print();
   table.write_csv(settings.folder);
@@ -230,7 +234,8 @@ int report(const Settings& settings) {
 
 constexpr const char* kUsage =
     "usage: bench_frames_drawn [--out FOLDER] [--root FOLDER] [--quick] [--repeats N] [--only SCENE]\n"
-    "Measures the frames of the paper's five scenes in ROOT/scenes while the blade cuts, and draws each.\n";
+    "Measures the frames of the paper's five scenes in ROOT/scenes while the blade cuts, and draws each, in both "
+    "profiles.\n";
 
 int parse_and_run(int argc, char** argv) {
   Settings settings;

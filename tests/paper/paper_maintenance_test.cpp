@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "incise/geom/quality.h"
 #include "incise/io/mesh_file.h"
@@ -410,6 +411,31 @@ TEST(PaperMaintenance, brings_the_average_down_and_bad_shapes_to_few) {
   EXPECT_GT(before.lr_mean, 2 * original);
   EXPECT_LT(after.lr_mean, 0.7 * before.lr_mean);
   EXPECT_LE(after.lr_over_200_pct, 0.5 * before.lr_over_200_pct);
+}
+
+/// "What's more, the best element in the optimized mesh is even better than the original mesh" (4.3): of cubes.
+TEST(PaperMaintenance, makes_the_best_tet_of_a_cube_better_than_it_was) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
+    SCOPED_TRACE(seed);
+    Engine engine = paper_engine(jittered_cube(5, seed));
+    const double original = measure_quality(engine.mesh()).lr_min;
+    cut_and_maintain(engine, plane(engine, Vec3(0.3, 0.5, 0.9), 0.8));
+    EXPECT_LT(measure_quality(engine.mesh()).lr_min, 0.99 * original);
+  }
+}
+
+/// "The proposed mesh maintenance scheme doesn't insert or delete any vertexes" (4.5): section 3 without merging.
+TEST(PaperMaintenance, of_section_3_alone_keeps_every_vertex_and_makes_none) {
+  const auto vertices_after = [](const MaintainOptions& options) {
+    Engine engine = paper_engine(jittered_cube(5, 3), options);
+    cut_and_maintain(engine, plane(engine, Vec3(0.3, 0.5, 0.9), 0.8));
+    std::vector<VertexId> all;
+    engine.mesh().for_each_vertex([&](VertexId v) { all.push_back(v); });
+    return all;
+  };
+  const std::vector<VertexId> bare = vertices_after(kNothing);
+  EXPECT_EQ(vertices_after(kImproveOnly), bare);
+  EXPECT_LT(vertices_after(kMergeOnly).size(), bare.size()) << "merging does";
 }
 
 /// How far the distribution of L/r of one mesh is from another's: half the sum of the differences of the shares of tets
