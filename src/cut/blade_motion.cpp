@@ -20,10 +20,10 @@ constexpr double kSlitShare = 0.25;
 constexpr std::array kSlitSamples = {1.0, 0.25, 0.5, 0.75};
 /// Points of a blade that moved less than this many spacings wait for more.
 constexpr double kLeastStep = 0.05;
-/// The direction in which a front has come is that of its last so many spacings.
-constexpr double kTowLength = 0.5;
-/// A strip whose middle lies this close to what was swept before lies on it.
-constexpr double kCoverShare = 0.02;
+/// A blade within so many spacings of what it has swept waits until it gets on: folds that are finer enclose vertices.
+constexpr double kWaits = 1.0;
+/// It gets on if so much of its way is along the way that its front has come.
+constexpr double kGetsOn = 0.7;
 /// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
 constexpr double kFrontShare = 1.5;
 /// The end of a blade draws back by less than this share of its last segment.
@@ -47,10 +47,11 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   front_ = number(row);
   is_swept_.assign(row.size() - 1, false);
   last_.assign(row.begin(), row.end());
+  left_ = last_;
   is_first_strip_ = true;
-  is_held_ = false;
   ways_.assign(row.size(), Vec3::Zero());
-  towed_.assign(row.begin(), row.end());
+  come_ = ways_;
+  course_.begin(row, spacing);
   reaches_on_ = {};
   seams_ = {};
   seam_segments_.clear();
@@ -98,36 +99,29 @@ bool BladeMotion::is_on(const Vec3& point, const OwnSheet& sheet, double distanc
   return distance2_to_front(place.point) > tolerance * tolerance;
 }
 
-/// Whether a point moves beside its front without getting on, as seen along the way that the front has come. What it
-/// slides along the blade's own edge counts for neither.
-bool BladeMotion::trembles(std::size_t c, const Vec3& place, bool flushes) const {
-  const Vec3& front = front_[c].position;
-  const Vec3 edge =
-      (front_[std::min(c + 1, front_.size() - 1)].position - front_[c > 0 ? c - 1 : 0].position).normalized();
-  const auto across = [&](const Vec3& v) -> Vec3 { return v - v.dot(edge) * edge; };
-  const Vec3 way = place - front, come = across(front - towed_[c]);
-  const double slit = kSlitShare * spacing_, least = flushes ? 0.0 : kLeastStep * spacing_;
-  return way.squaredNorm() < slit * slit && come.norm() > 0.5 * kTowLength * spacing_ &&
-         way.dot(come) <= least * come.norm();
+/// Whether a blade may still come back to its way: it moves beside its front, or behind it, without getting on, and is
+/// close to what it has swept. Laid at once, such strips would fold the sheet more finely than elements can follow.
+bool BladeMotion::waits(std::span<const std::size_t> points, std::span<const Vec3> row, const OwnSheet& sheet,
+                        bool flushes) const {
+  const auto count = static_cast<double>(points.size());
+  const FrontCourse::Progress progress = course_.progress(front_, row, points);
+  if (!progress.is_known) return !flushes && progress.all < kSlitShare * spacing_ * count;
+  if (progress.on >= (flushes ? 0.0 : kGetsOn) * progress.all) return false;
+  double sum = 0;
+  for (const std::size_t c : points) {
+    const SheetPlace place = sheet.closest(row[c], 2.0 * kWaits * spacing_);
+    sum += place.is_valid() ? std::sqrt(place.distance2) : 2.0 * kWaits * spacing_;
+  }
+  return sum < kWaits * spacing_ * count;
 }
 
-/// Takes the places along that follow the front as if on a rope.
-void BladeMotion::tow() {
-  const double length = kTowLength * spacing_;
-  for (std::size_t c = 0; c < front_.size(); ++c) {
-    const Vec3 behind = towed_[c] - front_[c].position;
-    const double distance = behind.norm();
-    if (distance > length) towed_[c] = front_[c].position + (length / distance) * behind;
+/// Whether a blade on its way from where it left its slit to a row comes by its front.
+bool BladeMotion::comes_by_front(std::span<const std::size_t> points, std::span<const Vec3> to) const {
+  double sum = 0;
+  for (const std::size_t c : points) {
+    sum += std::sqrt(closest_on_triangle(front_[c].position, left_[c], to[c], to[c]).distance2);
   }
-}
-
-/// Whether a strip from the front to a row would lie on what was swept already.
-bool BladeMotion::would_cover(const Row& to, const OwnSheet& sheet) const {
-  for (std::size_t c = 0; c + 1 < to.size(); ++c) {
-    const Vec3 middle = 0.25 * (front_[c].position + front_[c + 1].position + to[c].position + to[c + 1].position);
-    if (is_on(middle, sheet, kCoverShare * spacing_)) return true;
-  }
-  return false;
+  return sum <= kWaits * spacing_ * static_cast<double>(points.size());
 }
 
 SweptSurface BladeMotion::lay(const Row& from, const Row& to) const {
@@ -181,12 +175,13 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
     return move;
   }
   append(surface, seams_);
+  come_ = ways_;
   for (std::size_t c = 0; c < to.size(); ++c) {
     if (to[c].key != front_[c].key) ways_[c] = (to[c].position - front_[c].position).normalized();
   }
   Segments inner = inner_segments(to);
   if (around.has_older_cuts) {
-    if (is_first_strip_) reach_from_row(surface, front_, -1.0, around);
+    if (is_first_strip_) reach_back(surface, around);
     reach_from_ends(surface, to, around, inner);
   }
   move.strip = std::make_unique<Strip>(std::move(surface), inner);
@@ -194,7 +189,8 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
   note_swept(to);
   before_ = front_;
   front_ = to;
-  tow();
+  left_ = front();
+  course_.follow(front_);
   is_first_strip_ = false;
   seams_ = {};
   seam_segments_.clear();
@@ -207,12 +203,12 @@ void BladeMotion::start_sheet(const Row& from) {
   is_swept_.assign(from.size() - 1, false);
   reaches_on_ = {};
   is_first_strip_ = true;
-  is_held_ = false;
 }
 
 std::unique_ptr<Strip> BladeMotion::lay_anew(const Surroundings& around) {
   const Row to = front_;
   start_sheet(before_);
+  ways_ = come_;
   return move_to(to, around).strip;
 }
 
@@ -254,9 +250,10 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
   }
   is_swept_ = std::move(is_swept);
   front_ = std::move(refined);
-  ways_.assign(front_.size(), Vec3::Zero());
+  ways_ = divided(ways_, shares);
   last_ = divided(last_, shares);
-  towed_ = divided(towed_, shares);
+  left_ = divided(left_, shares);
+  course_.refine(shares);
   if (is_first_strip_) {  // nothing was swept yet: there is no seam
     seams_ = {};
     seam_segments_.clear();
@@ -269,28 +266,46 @@ std::vector<Vec3> BladeMotion::front() const {
   return points;
 }
 
-/// The blade leaves its slit elsewhere than at the front: a new sheet starts where it left. In the air it may go
-/// anywhere, and come back.
-BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> before, std::span<const Vec3> row,
-                                          const Touches& touches, const Surroundings& around) {
-  const Row from = number(before), to = number(row);
+/// The blade leaves its slit elsewhere than at the front: a new sheet starts in the slit, where it left. In the air it may
+/// go anywhere, and come back.
+BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches,
+                                          const Surroundings& around) {
+  std::vector<Vec3> start = left_;
+  for (Vec3& p : start) {
+    const SheetPlace place = sheet.closest(p, kSlitShare * spacing_);
+    if (place.is_valid()) p = place.point;
+  }
+  const Row from = number(start), to = number(row);
   const SweptSurface surface = lay(from, to);
-  if (surface.triangles.empty() || !touches(surface)) return {};
+  if (surface.triangles.empty() || !touches(surface)) {
+    left_.assign(row.begin(), row.end());
+    return {};
+  }
   start_sheet(from);
+  ways_.assign(from.size(), Vec3::Zero());
+  course_.begin(start, spacing_);
   Move move = move_to(to, around);
   move.starts_anew = true;
   return move;
 }
 
-/// `sign`: 1 ahead of the row, -1 behind it, as its points moved last. Returns the columns that reach on.
-std::vector<std::size_t> BladeMotion::reach_from_row(SweptSurface& surface, const Row& row, double sign,
-                                                     const Surroundings& around) {
+/// The first row of a sheet reaches back along the way that the one before it in this stroke has come: where the blade
+/// turns between the two, what the first strip would go back along is not open.
+void BladeMotion::reach_back(SweptSurface& surface, const Surroundings& around) {
+  std::vector<Vec3> back(front_.size());
+  for (std::size_t c = 0; c < back.size(); ++c) back[c] = come_[c] == Vec3::Zero() ? -ways_[c] : -come_[c];
+  reach_from_row(surface, front_, back, around);
+}
+
+/// `outwards`: where the row's points reach on to. Returns the columns that do.
+std::vector<std::size_t> BladeMotion::reach_from_row(SweptSurface& surface, const Row& row,
+                                                     std::span<const Vec3> outwards, const Surroundings& around) {
   BorderReach reach(around, spacing_, next_key_);
   std::vector<std::size_t> columns;
   for (std::size_t c = 0; c + 1 < row.size(); ++c) {
     if (row[c].key == row[c + 1].key) continue;
     const SweptSurface piece =
-        reach.from_row({row[c], sign * ways_[c]}, {row[c + 1], sign * ways_[c + 1]}, static_cast<std::uint32_t>(c));
+        reach.from_row({row[c], outwards[c]}, {row[c + 1], outwards[c + 1]}, static_cast<std::uint32_t>(c));
     if (piece.triangles.empty()) continue;
     append(surface, piece);
     columns.push_back(c);
@@ -329,7 +344,7 @@ BladeMotion::Move BladeMotion::reach_on(const Surroundings& around) {
   if (!around.has_older_cuts || is_first_strip_) return move;
   SweptSurface surface;
   Segments inner;
-  for (const std::size_t c : reach_from_row(surface, front_, 1.0, around)) {
+  for (const std::size_t c : reach_from_row(surface, front_, ways_, around)) {
     if (is_swept_[c]) inner.push_back(keys_of(front_[c], front_[c + 1]));
   }
   if (surface.triangles.empty()) return move;
@@ -394,23 +409,19 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnShe
   if (around.has_older_cuts) stay_before_walls(front(), row, around);
   const double least2 = flushes ? 0.0 : kLeastStep * spacing_ * kLeastStep * spacing_;
   std::vector<Vec3> wanted(row.begin(), row.end());
-  std::size_t in_slit = 0;
+  std::vector<std::size_t> free;  // points that are neither in the slit nor where the front is
   for (std::size_t c = 0; c < row.size(); ++c) {
-    const bool is_held = goes_in_slit(last_[c], row[c], sheet);
-    in_slit += is_held ? 1U : 0U;
-    if (is_held || (row[c] - front_[c].position).squaredNorm() <= least2 || trembles(c, row[c], flushes)) {
+    if (goes_in_slit(last_[c], row[c], sheet) || (row[c] - front_[c].position).squaredNorm() <= least2) {
       wanted[c] = front_[c].position;
+      left_[c] = row[c];
+    } else {
+      free.push_back(c);
     }
   }
-  const std::vector<Vec3> before = last_;
   last_.assign(given.begin(), given.end());
-  if (in_slit == row.size()) {
-    is_held_ = true;
-    return {};
-  }
+  if (free.empty() || waits(free, row, sheet, flushes)) return {};
+  if (!comes_by_front(free, row)) return leave_slit(row, sheet, touches, around);
   const Row to = number(wanted);
-  if (is_held_ && would_cover(to, sheet)) return leave_slit(before, row, touches, around);
-  is_held_ = false;
   const bool does_meet = meets(lay(front_, to), sheet);
   Move move = move_to(to, around);
   move.starts_anew = does_meet;
