@@ -16,12 +16,14 @@ namespace {
 
 /// A blade within this many spacings of what it swept before is in its own slit.
 constexpr double kSlitShare = 0.25;
-/// Where on its way it is asked for; the end first, which decides most often.
-constexpr std::array kSlitSamples = {1.0, 0.25, 0.5, 0.75};
+/// It is asked for at the end of its way, which decides most often, then at places half as far apart; at so many at most.
+constexpr double kMostSamples = 256;
 /// Points of a blade that moved less than this many spacings wait for more.
 constexpr double kLeastStep = 0.05;
 /// A blade within so many spacings of what it has swept waits until it gets on: folds that are finer enclose vertices.
 constexpr double kWaits = 1.0;
+/// It comes by its front if it has left its slit within so many spacings of it.
+constexpr double kByFront = 0.75;
 /// It gets on if so much of its way is along the way that its front has come.
 constexpr double kGetsOn = 0.7;
 /// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
@@ -87,8 +89,13 @@ double BladeMotion::distance2_to_front(const Vec3& point) const {
 /// Whether all of a point's way lies in the slit behind the front. A blade that comes to the sheet from elsewhere, as
 /// at the end of a ring, has cut up to there.
 bool BladeMotion::goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const {
-  return std::all_of(kSlitSamples.begin(), kSlitSamples.end(),
-                     [&](double share) { return is_on(from + share * (to - from), sheet, kSlitShare * spacing_); });
+  const double reach = kSlitShare * spacing_;
+  if (!is_on(to, sheet, reach)) return false;
+  const double parts = std::clamp(std::ceil(2.0 * (to - from).norm() / reach), 2.0, kMostSamples);
+  for (double k = 1; k < parts; ++k) {
+    if (!is_on(from + (k / parts) * (to - from), sheet, reach)) return false;
+  }
+  return true;
 }
 
 /// Within a distance of what the stroke has swept, and not ahead of its front.
@@ -121,7 +128,7 @@ bool BladeMotion::comes_by_front(std::span<const std::size_t> points, std::span<
   for (const std::size_t c : points) {
     sum += std::sqrt(closest_on_triangle(front_[c].position, left_[c], to[c], to[c]).distance2);
   }
-  return sum <= kWaits * spacing_ * static_cast<double>(points.size());
+  return sum <= kByFront * spacing_ * static_cast<double>(points.size());
 }
 
 SweptSurface BladeMotion::lay(const Row& from, const Row& to) const {

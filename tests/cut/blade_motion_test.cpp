@@ -157,14 +157,53 @@ TEST(BladeMotion, trembling_lays_the_same_strips_as_going_straight) {
 TEST(BladeMotion, trembling_across_its_way_waits_until_it_gets_on_or_turns) {
   Motion blade(at(0));
   blade.advance(at(1));
-  for (const double across : {0.2, -0.2, 0.15, -0.1}) {
-    blade.advance(at(1, across));
+  for (const double across : {0.2, -0.2, 0.9, -0.6, 0.3}) {
+    blade.advance(at(1.1, across));
     EXPECT_FALSE(blade.has_strip()) << across;
   }
-  blade.advance(at(1.1, 0.2));
+  blade.advance(at(1.5, 0.3));
   EXPECT_TRUE(blade.has_strip());
-  blade.advance(at(1.1, 0.6));
-  EXPECT_TRUE(blade.has_strip());
+  blade.advance(at(1.5, 1.2));
+  EXPECT_FALSE(blade.has_strip()) << "it may come back";
+  blade.advance(at(1.5, 1.4));
+  EXPECT_TRUE(blade.has_strip()) << "it has turned";
+}
+
+TEST(BladeMotion, jumps_to_and_fro_lay_no_folds) {
+  Motion blade(at(0));
+  blade.advance(at(1));
+  for (int i = 1; i <= 40; ++i) blade.advance(at(1 + 0.1 * i, i % 2 == 0 ? 0.45 : -0.45));
+  double furthest = 0;
+  Vec3 before(0, 0, 0);
+  for (const auto& strip : blade.sheet().strips()) {
+    const Vec3 way = strip->row.front().position - before;
+    before = strip->row.front().position;
+    EXPECT_LE(std::abs(way.z()), 1.03 * way.x());
+    EXPECT_GE(before.x(), furthest);
+    furthest = before.x();
+  }
+  EXPECT_GE(furthest, 4.0);
+}
+
+TEST(BladeMotion, what_waits_at_the_end_is_laid_unless_it_went_back) {
+  for (const double x : {1.1, 0.7}) {
+    Motion blade(at(0));
+    blade.advance(at(1));
+    blade.advance(at(x, 0.5));
+    EXPECT_FALSE(blade.has_strip());
+    blade.end();
+    EXPECT_EQ(blade.has_strip(), x > 1) << x;
+  }
+}
+
+TEST(BladeMotion, of_ends_that_shake_apart_gets_on_as_a_whole) {
+  Motion blade(at(0));
+  blade.advance(at(1));
+  Row row = at(1.4, 0.3);
+  row.front().z() += 0.15;  // this end alone would wait
+  blade.advance(row);
+  ASSERT_TRUE(blade.has_strip());
+  EXPECT_EQ(blade.last().surface.triangles.size(), 4U);
 }
 
 TEST(BladeMotion, sliding_along_its_own_edge_is_no_tremor) {
@@ -190,13 +229,23 @@ TEST(BladeMotion, starts_anew_where_it_leaves_its_slit_elsewhere) {
   EXPECT_EQ(blade.last().sheet.bounds().hi.x(), 1.0);
 }
 
-TEST(BladeMotion, goes_on_from_its_front_where_it_leaves_its_slit_sideways) {
+TEST(BladeMotion, goes_on_from_its_front_where_it_leaves_its_slit_beside_it) {
   Motion blade(at(0));
   blade.advance(at(2));
-  blade.advance(at(1));
-  EXPECT_FALSE(blade.advance(at(1, 1)).starts_anew);
+  blade.advance(at(1.5));
+  EXPECT_FALSE(blade.advance(at(1.5, 1)).starts_anew);
   ASSERT_TRUE(blade.has_strip());
   EXPECT_EQ(blade.last().sheet.bounds().hi.x(), 2.0);
+}
+
+TEST(BladeMotion, starts_at_its_wall_where_it_leaves_its_slit_sideways) {
+  Motion blade(at(0));
+  blade.advance(at(2));
+  blade.advance(at(1, 0.1));
+  EXPECT_TRUE(blade.advance(at(1, 1)).starts_anew);
+  ASSERT_TRUE(blade.has_strip());
+  EXPECT_EQ(blade.last().sheet.bounds().hi.x(), 1.0);
+  EXPECT_EQ(blade.last().sheet.bounds().lo.z(), 0.0);
 }
 
 /// A blade along z that goes around a unit circle from the right.
