@@ -28,6 +28,8 @@ constexpr double kByFront = 0.75;
 constexpr double kGetsOn = 0.7;
 /// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
 constexpr double kFrontShare = 1.5;
+/// A sheet overlaps the one before it, of the same stroke, by so many spacings at least.
+constexpr double kOverlap = 0.3;
 /// The end of a blade draws back by less than this share of its last segment.
 constexpr double kMostRetreat = 0.5;
 /// Older walls are looked for along the blade at places so many spacings apart, but at so many at most.
@@ -52,7 +54,8 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   left_ = last_;
   is_first_strip_ = true;
   ways_.assign(row.size(), Vec3::Zero());
-  come_ = ways_;
+  trail_.clear();
+  starts_at_wall_ = false;
   course_.begin(row, spacing);
   reaches_on_ = {};
   seams_ = {};
@@ -182,9 +185,8 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
     return move;
   }
   append(surface, seams_);
-  come_ = ways_;
   for (std::size_t c = 0; c < to.size(); ++c) {
-    if (to[c].key != front_[c].key) ways_[c] = (to[c].position - front_[c].position).normalized();
+    if (to[c].key != front_[c].key) ways_[c] = to[c].position - front_[c].position;
   }
   Segments inner = inner_segments(to);
   if (around.has_older_cuts) {
@@ -195,6 +197,7 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
   move.strip->row = to;
   note_swept(to);
   before_ = front_;
+  leave_behind(front_);
   front_ = to;
   left_ = front();
   course_.follow(front_);
@@ -202,6 +205,21 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
   seams_ = {};
   seam_segments_.clear();
   return move;
+}
+
+/// The rows behind the front, as far as a new sheet overlaps the one before it.
+void BladeMotion::leave_behind(const Row& row) {
+  trail_.push_back(row);
+  double travel = 0;
+  std::size_t first = trail_.size() - 1;
+  for (; first > 0 && travel < kOverlap * spacing_; --first) {
+    double step = 0;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      step = std::max(step, (trail_[first][c].position - trail_[first - 1][c].position).norm());
+    }
+    travel += step;
+  }
+  trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 /// The next strip is the first of a sheet that starts at a row.
@@ -215,7 +233,7 @@ void BladeMotion::start_sheet(const Row& from) {
 std::unique_ptr<Strip> BladeMotion::lay_anew(const Surroundings& around) {
   const Row to = front_;
   start_sheet(before_);
-  ways_ = come_;
+  if (!trail_.empty()) trail_.pop_back();
   return move_to(to, around).strip;
 }
 
@@ -230,6 +248,18 @@ BladeMotion::Proposal BladeMotion::propose(std::span<const Vec3> row) {
   proposal.row = number(row);
   proposal.surface = lay(front_, proposal.row);
   return proposal;
+}
+
+BladeMotion::Row BladeMotion::divided_row(const Row& row, const std::vector<std::vector<double>>& shares) {
+  Row points = {row.front()};
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    const SosPoint &a = row[c], &b = row[c + 1];
+    for (std::size_t k = 0; k + 1 < shares[c].size(); ++k) {
+      points.push_back({a.position + shares[c][k] * (b.position - a.position), next_key_++});
+    }
+    points.push_back(b);
+  }
+  return points;
 }
 
 /// The divided front is another polyline, if only by rounding: triangles without area close the seam.
@@ -251,6 +281,7 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
     if (fan.size() > 2) seam_segments_.push_back(keys_of(a, b));
     refined.insert(refined.end(), fan.begin() + 1, fan.end());
   }
+  for (Row& row : trail_) row = divided_row(row, shares);
   std::vector<bool> is_swept;
   for (std::size_t c = 0; c < shares.size(); ++c) {
     is_swept.insert(is_swept.end(), shares[c].size(), bool{is_swept_[c]});
@@ -278,8 +309,10 @@ std::vector<Vec3> BladeMotion::front() const {
 BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches,
                                           const Surroundings& around) {
   std::vector<Vec3> start = left_;
+  bool is_at_wall = true;
   for (Vec3& p : start) {
     const SheetPlace place = sheet.closest(p, kSlitShare * spacing_);
+    is_at_wall &= place.is_valid();
     if (place.is_valid()) p = place.point;
   }
   const Row from = number(start), to = number(row);
@@ -289,19 +322,35 @@ BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> row, const OwnSh
     return {};
   }
   start_sheet(from);
-  ways_.assign(from.size(), Vec3::Zero());
+  trail_.clear();
+  starts_at_wall_ = is_at_wall;
   course_.begin(start, spacing_);
   Move move = move_to(to, around);
   move.starts_anew = true;
   return move;
 }
 
-/// The first row of a sheet reaches back along the way that the one before it in this stroke has come: where the blade
-/// turns between the two, what the first strip would go back along is not open.
+/// The first row of a sheet reaches back. Where another one of this stroke has come to it, the last strips of that are laid
+/// once more, bit for bit: what is cut there is air, and what is not ought to be. Elsewhere it does so where an older cut
+/// is found, or is known to be.
 void BladeMotion::reach_back(SweptSurface& surface, const Surroundings& around) {
+  if (!trail_.empty()) {
+    trail_.push_back(front_);
+    for (std::size_t i = 0; i + 1 < trail_.size(); ++i) {
+      SweptSurface again = lay(trail_[i], trail_[i + 1]);
+      for (SweptTriangle& triangle : again.triangles) triangle.reaches_on = true;
+      append(surface, again);
+    }
+    trail_.pop_back();
+    return;
+  }
   std::vector<Vec3> back(front_.size());
-  for (std::size_t c = 0; c < back.size(); ++c) back[c] = come_[c] == Vec3::Zero() ? -ways_[c] : -come_[c];
-  reach_from_row(surface, front_, back, around);
+  for (std::size_t c = 0; c < back.size(); ++c) back[c] = -ways_[c];
+  Surroundings known = around;
+  known.reach = [&](const Vec3& place, const Vec3& outwards, const Vec3& normal) {
+    return std::max(starts_at_wall_ ? kOverlap * spacing_ : 0.0, around.reach(place, outwards, normal));
+  };
+  reach_from_row(surface, front_, back, known);
 }
 
 /// `outwards`: where the row's points reach on to. Returns the columns that do.
@@ -312,7 +361,8 @@ std::vector<std::size_t> BladeMotion::reach_from_row(SweptSurface& surface, cons
   for (std::size_t c = 0; c + 1 < row.size(); ++c) {
     if (row[c].key == row[c + 1].key) continue;
     const SweptSurface piece =
-        reach.from_row({row[c], outwards[c]}, {row[c + 1], outwards[c + 1]}, static_cast<std::uint32_t>(c));
+        reach.from_row({row[c], outwards[c].normalized()}, {row[c + 1], outwards[c + 1].normalized()},
+                       static_cast<std::uint32_t>(c));
     if (piece.triangles.empty()) continue;
     append(surface, piece);
     columns.push_back(c);

@@ -83,6 +83,8 @@ class BladeMotion {
   void stay_before_walls(std::span<const Vec3> from, std::vector<Vec3>& row, const Surroundings& around) const;
   [[nodiscard]] std::vector<Vec3> drawn_back(std::span<const Vec3> row, const Surroundings& around) const;
   void note_swept(const Row& to);
+  void leave_behind(const Row& row);
+  [[nodiscard]] Row divided_row(const Row& row, const std::vector<std::vector<double>>& shares);
   Move move_to(const Row& to, const Surroundings& around);
   void start_sheet(const Row& from);
   void reach_back(SweptSurface& surface, const Surroundings& around);
@@ -96,13 +98,15 @@ class BladeMotion {
   std::vector<bool> is_swept_;        // by column: the front there is the end of a strip
   std::vector<Vec3> last_;            // where the blade was last
   std::vector<Vec3> left_;            // by point: where it was last in its slit or at the front
-  std::vector<Vec3> ways_, come_;     // by point: how it moved last, and before the last strip
+  std::vector<Vec3> ways_;            // by point: how it moved last
+  std::vector<Row> trail_;            // the last rows behind the front, oldest first
   FrontCourse course_;                // the way that the front has come
   std::array<SosPoint, 2> ends_;      // where the ends of the front reach on to, into an older cut
   std::array<bool, 2> reaches_on_{};  // whether they do
   SweptSurface seams_;                // between the front as it was and as it is divided now
   std::vector<std::array<std::uint64_t, 2>> seam_segments_;
   bool is_first_strip_ = true;
+  bool starts_at_wall_ = false;  // the sheet: at one of an earlier sheet of this stroke
   bool is_closed_ = false;  // the edge is a ring
 };
 
