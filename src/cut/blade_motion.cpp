@@ -16,7 +16,8 @@ namespace {
 
 /// A blade within this many spacings of what it swept before is in its own slit.
 constexpr double kSlitShare = 0.25;
-/// It is asked for at the end of its way, which decides most often, then at places half as far apart; at so many at most.
+/// It is asked for at the end of its way, which decides most often, then at places half as far apart; at so many at
+/// most.
 constexpr double kMostSamples = 256;
 /// Points of a blade that moved less than this many spacings wait for more.
 constexpr double kLeastStep = 0.05;
@@ -304,8 +305,8 @@ std::vector<Vec3> BladeMotion::front() const {
   return points;
 }
 
-/// The blade leaves its slit elsewhere than at the front: a new sheet starts in the slit, where it left. In the air it may
-/// go anywhere, and come back.
+/// The blade leaves its slit elsewhere than at the front: a new sheet starts in the slit, where it left. In the air it
+/// may go anywhere, and come back.
 BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches,
                                           const Surroundings& around) {
   std::vector<Vec3> start = left_;
@@ -330,9 +331,9 @@ BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> row, const OwnSh
   return move;
 }
 
-/// The first row of a sheet reaches back. Where another one of this stroke has come to it, the last strips of that are laid
-/// once more, bit for bit: what is cut there is air, and what is not ought to be. Elsewhere it does so where an older cut
-/// is found, or is known to be.
+/// The first row of a sheet reaches back. Where another one of this stroke has come to it, the last strips of that are
+/// laid once more, bit for bit: what is cut there is air, and what is not ought to be. Elsewhere it does so where an
+/// older cut is found, or is known to be.
 void BladeMotion::reach_back(SweptSurface& surface, const Surroundings& around) {
   if (!trail_.empty()) {
     trail_.push_back(front_);
@@ -360,9 +361,8 @@ std::vector<std::size_t> BladeMotion::reach_from_row(SweptSurface& surface, cons
   std::vector<std::size_t> columns;
   for (std::size_t c = 0; c + 1 < row.size(); ++c) {
     if (row[c].key == row[c + 1].key) continue;
-    const SweptSurface piece =
-        reach.from_row({row[c], outwards[c].normalized()}, {row[c + 1], outwards[c + 1].normalized()},
-                       static_cast<std::uint32_t>(c));
+    const SweptSurface piece = reach.from_row(
+        {row[c], outwards[c].normalized()}, {row[c + 1], outwards[c + 1].normalized()}, static_cast<std::uint32_t>(c));
     if (piece.triangles.empty()) continue;
     append(surface, piece);
     columns.push_back(c);

@@ -17,10 +17,9 @@ inline namespace v0 {
 ///
 /// Points of the blade that move in the stroke's own slit, or hardly at all, are held: the front stays where it is
 /// there, and the next strip starts from it. So does the whole blade while it is within a spacing of what it has swept
-/// and does not get on along the way that its front has come. So a blade may tremble, pause, turn back, withdraw and come
-/// again.
-/// Strips share the points of the rows between them, keys included, so that every mesh edge sees one surface without
-/// seams.
+/// and does not get on along the way that its front has come. So a blade may tremble, pause, turn back, withdraw and
+/// come again. Strips share the points of the rows between them, keys included, so that every mesh edge sees one
+/// surface without seams.
 class BladeMotion {
  public:
   /// What a row asks for.
@@ -107,7 +106,7 @@ class BladeMotion {
   std::vector<std::array<std::uint64_t, 2>> seam_segments_;
   bool is_first_strip_ = true;
   bool starts_at_wall_ = false;  // the sheet: at one of an earlier sheet of this stroke
-  bool is_closed_ = false;  // the edge is a ring
+  bool is_closed_ = false;       // the edge is a ring
 };
 
 }  // namespace v0

@@ -21,11 +21,11 @@ class FrontCourse {
   /// The segments of the front are divided at shares of their lengths.
   void refine(const std::vector<std::vector<double>>& shares);
 
-  /// How far some points of a blade would get on from the front, all together. What a point slides along the blade's own
-  /// edge does not count.
+  /// How far some points of a blade would get on from the front, all together. What a point slides along the blade's
+  /// own edge does not count.
   struct Progress {
-    double on = 0;   ///< along the way that the front has come
-    double all = 0;  ///< in any direction
+    double on = 0;          ///< along the way that the front has come
+    double all = 0;         ///< in any direction
     bool is_known = false;  ///< whether the front has come far enough to tell a way
   };
   [[nodiscard]] Progress progress(std::span<const SosPoint> front, std::span<const Vec3> row,

@@ -26,7 +26,7 @@ constexpr double kGrazeShare = 0.02;
 constexpr double kFinalMargin = 0.04;
 /// What lies further behind the front than so many spacings is settled, at rest and in a body that moves: less than
 /// that, and a blade that trembles would come back to it.
-constexpr double kBand = 1.0, kMovingBand = 1.0;
+constexpr double kBand = 0.5, kMovingBand = 1.0;
 /// What lies beyond the rim of an older cut is measured by edges up to so many times as long as those that cuts left.
 constexpr double kMostShortened = 8.0;
 /// Two crossings of an edge within so many spacings of travel are a corner of the blade's way: the cut passes it by.

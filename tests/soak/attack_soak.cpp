@@ -312,8 +312,8 @@ class AttackCampaign {
       all.add(tally_[kind]);
     }
     print(settings_.set->name, all);
-    std::printf("%s: seed %llu, %zu bodies, %.0f s\n", settings_.set->name, static_cast<unsigned long long>(settings_.seed),
-                bodies_.size(), elapsed());
+    std::printf("%s: seed %llu, %zu bodies, %.0f s\n", settings_.set->name,
+                static_cast<unsigned long long>(settings_.seed), bodies_.size(), elapsed());
     return all.falls_short == 0 ? 0 : 1;
   }
 

@@ -220,7 +220,8 @@ class Hand {
   }
   Attack with_limits(Attack attack, std::size_t pieces) const {
     if (body_.is_convex) attack.pieces = pieces;
-    attack.few_tets = 2 * std::cbrt(std::pow(static_cast<double>(body_.before.tets), 2));  // that a wall across it meets
+    attack.few_tets =
+        2 * std::cbrt(std::pow(static_cast<double>(body_.before.tets), 2));  // that a wall across it meets
     attack.encloses_nothing = body_.before.surfaces == body_.before.components;
     return attack;
   }
@@ -236,8 +237,8 @@ class Hand {
   }
   using Maker = Attack (*)(Hand&);
   static constexpr std::array<Maker, kHandKinds.size()> kMakers = {
-      call<&Hand::tremor>, call<&Hand::zigzag>, call<&Hand::wave>,  call<&Hand::corner>,
-      call<&Hand::uturn>,  call<&Hand::stairs>, call<&Hand::fan>,   call<&Hand::walk>,
+      call<&Hand::tremor>, call<&Hand::zigzag>, call<&Hand::wave>,    call<&Hand::corner>,
+      call<&Hand::uturn>,  call<&Hand::stairs>, call<&Hand::fan>,     call<&Hand::walk>,
       call<&Hand::dwell>,  call<&Hand::back>,   call<&Hand::partial>, call<&Hand::inside>};
 
   const AttackedBody& body_;

@@ -10,8 +10,8 @@
 namespace incise::test {
 
 /// The names of the ways, in the order in which cases take them.
-inline constexpr std::array<const char*, 12> kHandKinds = {
-    "tremor", "zigzag", "wave", "corner", "uturn", "stairs", "fan", "walk", "dwell", "back", "partial", "inside"};
+inline constexpr std::array<const char*, 12> kHandKinds = {"tremor", "zigzag", "wave",  "corner", "uturn",   "stairs",
+                                                           "fan",    "walk",   "dwell", "back",   "partial", "inside"};
 
 /// One stroke of a kind, an index into `kHandKinds`. The body must be convex for what must come out to be known.
 [[nodiscard]] Attack make_hand(std::size_t kind, const AttackedBody& body, Random& random);

@@ -8,9 +8,8 @@
 // longer than kStrokeSeconds hangs: the program says which one and ends.
 // `strokes` moves blades step by step, as people do, through made meshes (motions.h), `models` through those of the
 // corpus; `seeds` does it with the seeds of a file, `describe` says what a seed makes, and `minimise` makes a failing
-// one small. `attack` makes sheets in many ways of which it is known what must come out (attack_strokes.h), `hands` moves
-// blades that shake, turn, dwell and wander (hand_strokes.h).
-// usage: incise_soak strokes|models [--rounds N]
+// one small. `attack` makes sheets in many ways of which it is known what must come out (attack_strokes.h), `hands`
+// moves blades that shake, turn, dwell and wander (hand_strokes.h). usage: incise_soak strokes|models [--rounds N]
 //        incise_soak seeds FILE
 //        incise_soak describe|minimise strokes|models SEED...
 //        incise_soak simulate [--rounds N] [--frames N] [--log N] [--judge-energy 1]
