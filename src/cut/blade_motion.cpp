@@ -16,16 +16,21 @@ namespace {
 
 /// A blade within this many spacings of what it swept before is in its own slit.
 constexpr double kSlitShare = 0.25;
-/// Where on its way it is asked for; the end first, which decides most often.
-constexpr std::array kSlitSamples = {1.0, 0.25, 0.5, 0.75};
+/// It is asked for at the end of its way, which decides most often, then at places half as far apart; at so many at
+/// most.
+constexpr double kMostSamples = 256;
 /// Points of a blade that moved less than this many spacings wait for more.
 constexpr double kLeastStep = 0.05;
-/// The direction in which a front has come is that of its last so many spacings.
-constexpr double kTowLength = 0.5;
-/// A strip whose middle lies this close to what was swept before lies on it.
-constexpr double kCoverShare = 0.02;
+/// A blade within so many spacings of what it has swept waits until it gets on: folds that are finer enclose vertices.
+constexpr double kWaits = 1.0;
+/// It comes by its front if it has left its slit within so many spacings of it.
+constexpr double kByFront = 0.75;
+/// It gets on if so much of its way is along the way that its front has come.
+constexpr double kGetsOn = 0.7;
 /// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
 constexpr double kFrontShare = 1.5;
+/// A sheet overlaps the one before it, of the same stroke, by so many spacings at least.
+constexpr double kOverlap = 0.3;
 /// The end of a blade draws back by less than this share of its last segment.
 constexpr double kMostRetreat = 0.5;
 /// Older walls are looked for along the blade at places so many spacings apart, but at so many at most.
@@ -47,10 +52,12 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   front_ = number(row);
   is_swept_.assign(row.size() - 1, false);
   last_.assign(row.begin(), row.end());
+  left_ = last_;
   is_first_strip_ = true;
-  is_held_ = false;
   ways_.assign(row.size(), Vec3::Zero());
-  towed_.assign(row.begin(), row.end());
+  trail_.clear();
+  starts_at_wall_ = false;
+  course_.begin(row, spacing);
   reaches_on_ = {};
   seams_ = {};
   seam_segments_.clear();
@@ -86,8 +93,13 @@ double BladeMotion::distance2_to_front(const Vec3& point) const {
 /// Whether all of a point's way lies in the slit behind the front. A blade that comes to the sheet from elsewhere, as
 /// at the end of a ring, has cut up to there.
 bool BladeMotion::goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const {
-  return std::all_of(kSlitSamples.begin(), kSlitSamples.end(),
-                     [&](double share) { return is_on(from + share * (to - from), sheet, kSlitShare * spacing_); });
+  const double reach = kSlitShare * spacing_;
+  if (!is_on(to, sheet, reach)) return false;
+  const double parts = std::clamp(std::ceil(2.0 * (to - from).norm() / reach), 2.0, kMostSamples);
+  for (double k = 1; k < parts; ++k) {
+    if (!is_on(from + (k / parts) * (to - from), sheet, reach)) return false;
+  }
+  return true;
 }
 
 /// Within a distance of what the stroke has swept, and not ahead of its front.
@@ -98,36 +110,29 @@ bool BladeMotion::is_on(const Vec3& point, const OwnSheet& sheet, double distanc
   return distance2_to_front(place.point) > tolerance * tolerance;
 }
 
-/// Whether a point moves beside its front without getting on, as seen along the way that the front has come. What it
-/// slides along the blade's own edge counts for neither.
-bool BladeMotion::trembles(std::size_t c, const Vec3& place, bool flushes) const {
-  const Vec3& front = front_[c].position;
-  const Vec3 edge =
-      (front_[std::min(c + 1, front_.size() - 1)].position - front_[c > 0 ? c - 1 : 0].position).normalized();
-  const auto across = [&](const Vec3& v) -> Vec3 { return v - v.dot(edge) * edge; };
-  const Vec3 way = place - front, come = across(front - towed_[c]);
-  const double slit = kSlitShare * spacing_, least = flushes ? 0.0 : kLeastStep * spacing_;
-  return way.squaredNorm() < slit * slit && come.norm() > 0.5 * kTowLength * spacing_ &&
-         way.dot(come) <= least * come.norm();
+/// Whether a blade may still come back to its way: it moves beside its front, or behind it, without getting on, and is
+/// close to what it has swept. Laid at once, such strips would fold the sheet more finely than elements can follow.
+bool BladeMotion::waits(std::span<const std::size_t> points, std::span<const Vec3> row, const OwnSheet& sheet,
+                        bool flushes) const {
+  const auto count = static_cast<double>(points.size());
+  const FrontCourse::Progress progress = course_.progress(front_, row, points);
+  if (!progress.is_known) return !flushes && progress.all < kSlitShare * spacing_ * count;
+  if (progress.on >= (flushes ? 0.0 : kGetsOn) * progress.all) return false;
+  double sum = 0;
+  for (const std::size_t c : points) {
+    const SheetPlace place = sheet.closest(row[c], 2.0 * kWaits * spacing_);
+    sum += place.is_valid() ? std::sqrt(place.distance2) : 2.0 * kWaits * spacing_;
+  }
+  return sum < kWaits * spacing_ * count;
 }
 
-/// Takes the places along that follow the front as if on a rope.
-void BladeMotion::tow() {
-  const double length = kTowLength * spacing_;
-  for (std::size_t c = 0; c < front_.size(); ++c) {
-    const Vec3 behind = towed_[c] - front_[c].position;
-    const double distance = behind.norm();
-    if (distance > length) towed_[c] = front_[c].position + (length / distance) * behind;
+/// Whether a blade on its way from where it left its slit to a row comes by its front.
+bool BladeMotion::comes_by_front(std::span<const std::size_t> points, std::span<const Vec3> to) const {
+  double sum = 0;
+  for (const std::size_t c : points) {
+    sum += std::sqrt(closest_on_triangle(front_[c].position, left_[c], to[c], to[c]).distance2);
   }
-}
-
-/// Whether a strip from the front to a row would lie on what was swept already.
-bool BladeMotion::would_cover(const Row& to, const OwnSheet& sheet) const {
-  for (std::size_t c = 0; c + 1 < to.size(); ++c) {
-    const Vec3 middle = 0.25 * (front_[c].position + front_[c + 1].position + to[c].position + to[c + 1].position);
-    if (is_on(middle, sheet, kCoverShare * spacing_)) return true;
-  }
-  return false;
+  return sum <= kByFront * spacing_ * static_cast<double>(points.size());
 }
 
 SweptSurface BladeMotion::lay(const Row& from, const Row& to) const {
@@ -182,23 +187,40 @@ BladeMotion::Move BladeMotion::move_to(const Row& to, const Surroundings& around
   }
   append(surface, seams_);
   for (std::size_t c = 0; c < to.size(); ++c) {
-    if (to[c].key != front_[c].key) ways_[c] = (to[c].position - front_[c].position).normalized();
+    if (to[c].key != front_[c].key) ways_[c] = to[c].position - front_[c].position;
   }
   Segments inner = inner_segments(to);
   if (around.has_older_cuts) {
-    if (is_first_strip_) reach_from_row(surface, front_, -1.0, around);
+    if (is_first_strip_) reach_back(surface, around);
     reach_from_ends(surface, to, around, inner);
   }
   move.strip = std::make_unique<Strip>(std::move(surface), inner);
   move.strip->row = to;
   note_swept(to);
   before_ = front_;
+  leave_behind(front_);
   front_ = to;
-  tow();
+  left_ = front();
+  course_.follow(front_);
   is_first_strip_ = false;
   seams_ = {};
   seam_segments_.clear();
   return move;
+}
+
+/// The rows behind the front, as far as a new sheet overlaps the one before it.
+void BladeMotion::leave_behind(const Row& row) {
+  trail_.push_back(row);
+  double travel = 0;
+  std::size_t first = trail_.size() - 1;
+  for (; first > 0 && travel < kOverlap * spacing_; --first) {
+    double step = 0;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      step = std::max(step, (trail_[first][c].position - trail_[first - 1][c].position).norm());
+    }
+    travel += step;
+  }
+  trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 /// The next strip is the first of a sheet that starts at a row.
@@ -207,12 +229,12 @@ void BladeMotion::start_sheet(const Row& from) {
   is_swept_.assign(from.size() - 1, false);
   reaches_on_ = {};
   is_first_strip_ = true;
-  is_held_ = false;
 }
 
 std::unique_ptr<Strip> BladeMotion::lay_anew(const Surroundings& around) {
   const Row to = front_;
   start_sheet(before_);
+  if (!trail_.empty()) trail_.pop_back();
   return move_to(to, around).strip;
 }
 
@@ -227,6 +249,18 @@ BladeMotion::Proposal BladeMotion::propose(std::span<const Vec3> row) {
   proposal.row = number(row);
   proposal.surface = lay(front_, proposal.row);
   return proposal;
+}
+
+BladeMotion::Row BladeMotion::divided_row(const Row& row, const std::vector<std::vector<double>>& shares) {
+  Row points = {row.front()};
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    const SosPoint &a = row[c], &b = row[c + 1];
+    for (std::size_t k = 0; k + 1 < shares[c].size(); ++k) {
+      points.push_back({a.position + shares[c][k] * (b.position - a.position), next_key_++});
+    }
+    points.push_back(b);
+  }
+  return points;
 }
 
 /// The divided front is another polyline, if only by rounding: triangles without area close the seam.
@@ -248,15 +282,17 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
     if (fan.size() > 2) seam_segments_.push_back(keys_of(a, b));
     refined.insert(refined.end(), fan.begin() + 1, fan.end());
   }
+  for (Row& row : trail_) row = divided_row(row, shares);
   std::vector<bool> is_swept;
   for (std::size_t c = 0; c < shares.size(); ++c) {
     is_swept.insert(is_swept.end(), shares[c].size(), bool{is_swept_[c]});
   }
   is_swept_ = std::move(is_swept);
   front_ = std::move(refined);
-  ways_.assign(front_.size(), Vec3::Zero());
+  ways_ = divided(ways_, shares);
   last_ = divided(last_, shares);
-  towed_ = divided(towed_, shares);
+  left_ = divided(left_, shares);
+  course_.refine(shares);
   if (is_first_strip_) {  // nothing was swept yet: there is no seam
     seams_ = {};
     seam_segments_.clear();
@@ -269,28 +305,64 @@ std::vector<Vec3> BladeMotion::front() const {
   return points;
 }
 
-/// The blade leaves its slit elsewhere than at the front: a new sheet starts where it left. In the air it may go
-/// anywhere, and come back.
-BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> before, std::span<const Vec3> row,
-                                          const Touches& touches, const Surroundings& around) {
-  const Row from = number(before), to = number(row);
+/// The blade leaves its slit elsewhere than at the front: a new sheet starts in the slit, where it left. In the air it
+/// may go anywhere, and come back.
+BladeMotion::Move BladeMotion::leave_slit(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches,
+                                          const Surroundings& around) {
+  std::vector<Vec3> start = left_;
+  bool is_at_wall = true;
+  for (Vec3& p : start) {
+    const SheetPlace place = sheet.closest(p, kSlitShare * spacing_);
+    is_at_wall &= place.is_valid();
+    if (place.is_valid()) p = place.point;
+  }
+  const Row from = number(start), to = number(row);
   const SweptSurface surface = lay(from, to);
-  if (surface.triangles.empty() || !touches(surface)) return {};
+  if (surface.triangles.empty() || !touches(surface)) {
+    left_.assign(row.begin(), row.end());
+    return {};
+  }
   start_sheet(from);
+  trail_.clear();
+  starts_at_wall_ = is_at_wall;
+  course_.begin(start, spacing_);
   Move move = move_to(to, around);
   move.starts_anew = true;
   return move;
 }
 
-/// `sign`: 1 ahead of the row, -1 behind it, as its points moved last. Returns the columns that reach on.
-std::vector<std::size_t> BladeMotion::reach_from_row(SweptSurface& surface, const Row& row, double sign,
-                                                     const Surroundings& around) {
+/// The first row of a sheet reaches back. Where another one of this stroke has come to it, the last strips of that are
+/// laid once more, bit for bit: what is cut there is air, and what is not ought to be. Elsewhere it does so where an
+/// older cut is found, or is known to be.
+void BladeMotion::reach_back(SweptSurface& surface, const Surroundings& around) {
+  if (!trail_.empty()) {
+    trail_.push_back(front_);
+    for (std::size_t i = 0; i + 1 < trail_.size(); ++i) {
+      SweptSurface again = lay(trail_[i], trail_[i + 1]);
+      for (SweptTriangle& triangle : again.triangles) triangle.reaches_on = true;
+      append(surface, again);
+    }
+    trail_.pop_back();
+    return;
+  }
+  std::vector<Vec3> back(front_.size());
+  for (std::size_t c = 0; c < back.size(); ++c) back[c] = -ways_[c];
+  Surroundings known = around;
+  known.reach = [&](const Vec3& place, const Vec3& outwards, const Vec3& normal) {
+    return std::max(starts_at_wall_ ? kOverlap * spacing_ : 0.0, around.reach(place, outwards, normal));
+  };
+  reach_from_row(surface, front_, back, known);
+}
+
+/// `outwards`: where the row's points reach on to. Returns the columns that do.
+std::vector<std::size_t> BladeMotion::reach_from_row(SweptSurface& surface, const Row& row,
+                                                     std::span<const Vec3> outwards, const Surroundings& around) {
   BorderReach reach(around, spacing_, next_key_);
   std::vector<std::size_t> columns;
   for (std::size_t c = 0; c + 1 < row.size(); ++c) {
     if (row[c].key == row[c + 1].key) continue;
-    const SweptSurface piece =
-        reach.from_row({row[c], sign * ways_[c]}, {row[c + 1], sign * ways_[c + 1]}, static_cast<std::uint32_t>(c));
+    const SweptSurface piece = reach.from_row(
+        {row[c], outwards[c].normalized()}, {row[c + 1], outwards[c + 1].normalized()}, static_cast<std::uint32_t>(c));
     if (piece.triangles.empty()) continue;
     append(surface, piece);
     columns.push_back(c);
@@ -329,7 +401,7 @@ BladeMotion::Move BladeMotion::reach_on(const Surroundings& around) {
   if (!around.has_older_cuts || is_first_strip_) return move;
   SweptSurface surface;
   Segments inner;
-  for (const std::size_t c : reach_from_row(surface, front_, 1.0, around)) {
+  for (const std::size_t c : reach_from_row(surface, front_, ways_, around)) {
     if (is_swept_[c]) inner.push_back(keys_of(front_[c], front_[c + 1]));
   }
   if (surface.triangles.empty()) return move;
@@ -394,23 +466,19 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnShe
   if (around.has_older_cuts) stay_before_walls(front(), row, around);
   const double least2 = flushes ? 0.0 : kLeastStep * spacing_ * kLeastStep * spacing_;
   std::vector<Vec3> wanted(row.begin(), row.end());
-  std::size_t in_slit = 0;
+  std::vector<std::size_t> free;  // points that are neither in the slit nor where the front is
   for (std::size_t c = 0; c < row.size(); ++c) {
-    const bool is_held = goes_in_slit(last_[c], row[c], sheet);
-    in_slit += is_held ? 1U : 0U;
-    if (is_held || (row[c] - front_[c].position).squaredNorm() <= least2 || trembles(c, row[c], flushes)) {
+    if (goes_in_slit(last_[c], row[c], sheet) || (row[c] - front_[c].position).squaredNorm() <= least2) {
       wanted[c] = front_[c].position;
+      left_[c] = row[c];
+    } else {
+      free.push_back(c);
     }
   }
-  const std::vector<Vec3> before = last_;
   last_.assign(given.begin(), given.end());
-  if (in_slit == row.size()) {
-    is_held_ = true;
-    return {};
-  }
+  if (free.empty() || waits(free, row, sheet, flushes)) return {};
+  if (!comes_by_front(free, row)) return leave_slit(row, sheet, touches, around);
   const Row to = number(wanted);
-  if (is_held_ && would_cover(to, sheet)) return leave_slit(before, row, touches, around);
-  is_held_ = false;
   const bool does_meet = meets(lay(front_, to), sheet);
   Move move = move_to(to, around);
   move.starts_anew = does_meet;

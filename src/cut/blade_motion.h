@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cut/border_reach.h"
+#include "cut/front_course.h"
 #include "cut/strip.h"
 
 namespace incise {
@@ -15,9 +16,10 @@ inline namespace v0 {
 /// Turns the rows of a blade, one after the other, into the strips to cut along. All in the rest shape.
 ///
 /// Points of the blade that move in the stroke's own slit, or hardly at all, are held: the front stays where it is
-/// there, and the next strip starts from it. So a blade may tremble, pause, turn back, withdraw and come again.
-/// Strips share the points of the rows between them, keys included, so that every mesh edge sees one surface without
-/// seams.
+/// there, and the next strip starts from it. So does the whole blade while it is within a spacing of what it has swept
+/// and does not get on along the way that its front has come. So a blade may tremble, pause, turn back, withdraw and
+/// come again. Strips share the points of the rows between them, keys included, so that every mesh edge sees one
+/// surface without seams.
 class BladeMotion {
  public:
   /// What a row asks for.
@@ -68,22 +70,24 @@ class BladeMotion {
   [[nodiscard]] bool goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const;
   [[nodiscard]] bool is_on(const Vec3& point, const OwnSheet& sheet, double distance) const;
   [[nodiscard]] double distance2_to_front(const Vec3& point) const;
-  [[nodiscard]] bool would_cover(const Row& to, const OwnSheet& sheet) const;
+  [[nodiscard]] bool waits(std::span<const std::size_t> points, std::span<const Vec3> row, const OwnSheet& sheet,
+                           bool flushes) const;
+  [[nodiscard]] bool comes_by_front(std::span<const std::size_t> points, std::span<const Vec3> to) const;
   [[nodiscard]] SweptSurface lay(const Row& from, const Row& to) const;
   [[nodiscard]] bool meets(const SweptSurface& surface, const OwnSheet& sheet) const;
   [[nodiscard]] std::vector<std::array<std::uint64_t, 2>> inner_segments(const Row& to) const;
-  Move leave_slit(std::span<const Vec3> before, std::span<const Vec3> row, const Touches& touches,
-                  const Surroundings& around);
+  Move leave_slit(std::span<const Vec3> row, const OwnSheet& sheet, const Touches& touches, const Surroundings& around);
   [[nodiscard]] double retreat_of(std::span<const Vec3> from, std::span<const Vec3> row, std::size_t c,
                                   const Surroundings& around) const;
   void stay_before_walls(std::span<const Vec3> from, std::vector<Vec3>& row, const Surroundings& around) const;
   [[nodiscard]] std::vector<Vec3> drawn_back(std::span<const Vec3> row, const Surroundings& around) const;
   void note_swept(const Row& to);
-  [[nodiscard]] bool trembles(std::size_t c, const Vec3& place, bool flushes) const;
-  void tow();
+  void leave_behind(const Row& row);
+  [[nodiscard]] Row divided_row(const Row& row, const std::vector<std::vector<double>>& shares);
   Move move_to(const Row& to, const Surroundings& around);
   void start_sheet(const Row& from);
-  std::vector<std::size_t> reach_from_row(SweptSurface& surface, const Row& row, double sign,
+  void reach_back(SweptSurface& surface, const Surroundings& around);
+  std::vector<std::size_t> reach_from_row(SweptSurface& surface, const Row& row, std::span<const Vec3> outwards,
                                           const Surroundings& around);
   void reach_from_ends(SweptSurface& surface, const Row& to, const Surroundings& around, Segments& inner);
 
@@ -92,15 +96,17 @@ class BladeMotion {
   Row front_, before_;                // now; before the last strip
   std::vector<bool> is_swept_;        // by column: the front there is the end of a strip
   std::vector<Vec3> last_;            // where the blade was last
+  std::vector<Vec3> left_;            // by point: where it was last in its slit or at the front
   std::vector<Vec3> ways_;            // by point: how it moved last
-  std::vector<Vec3> towed_;           // by point: what follows the front on a rope: the way that it has come
+  std::vector<Row> trail_;            // the last rows behind the front, oldest first
+  FrontCourse course_;                // the way that the front has come
   std::array<SosPoint, 2> ends_;      // where the ends of the front reach on to, into an older cut
   std::array<bool, 2> reaches_on_{};  // whether they do
   SweptSurface seams_;                // between the front as it was and as it is divided now
   std::vector<std::array<std::uint64_t, 2>> seam_segments_;
   bool is_first_strip_ = true;
-  bool is_held_ = false;    // wholly, in its own slit
-  bool is_closed_ = false;  // the edge is a ring
+  bool starts_at_wall_ = false;  // the sheet: at one of an earlier sheet of this stroke
+  bool is_closed_ = false;       // the edge is a ring
 };
 
 }  // namespace v0

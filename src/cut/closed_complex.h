@@ -22,6 +22,7 @@ struct ClosedEdge {
   double t = 0.5;                           ///< where the blade's sheet crosses it, from a to b
   Vec3 position = Vec3::Zero();             ///< of that place
   Vec3 normal = Vec3::Zero();               ///< unit, of the sheet there
+  double travel = 0;                        ///< of the blade up to there, in its sheet
   VertexId split;                           ///< the vertex that splits it, while there is one
   std::array<VertexId, 2> halves;           ///< its copies towards a and towards b
   std::uint32_t first_use = kInvalidIndex;  ///< master · 6 + edge number: the masters that have it, as a list

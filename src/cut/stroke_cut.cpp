@@ -29,6 +29,8 @@ constexpr double kFinalMargin = 0.04;
 constexpr double kBand = 0.5, kMovingBand = 1.0;
 /// What lies beyond the rim of an older cut is measured by edges up to so many times as long as those that cuts left.
 constexpr double kMostShortened = 8.0;
+/// Two crossings of an edge within so many spacings of travel are a corner of the blade's way: the cut passes it by.
+constexpr double kCorner = 1.5;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
 
@@ -201,6 +203,7 @@ void StrokeCut::cross(const TetMesh& mesh, const Crossed& crossed) {
     edge.t = std::min(std::max(crossed.t, clamp), 1.0 - clamp);
     edge.position = mesh.rest(edge.a) + edge.t * (mesh.rest(edge.b) - mesh.rest(edge.a));
     edge.normal = crossed.normal;
+    edge.travel = sheet_.travel();
   }
   refresh_around(crossed.edge);
 }
@@ -406,7 +409,8 @@ bool StrokeCut::crosses_own_cut(const CutContext& context, const Strip& strip, d
   looked_at_ = &strip;
   return std::any_of(crossed_->begin(), crossed_->end(), [&](const StripCrossing& crossing) {
     const ClosedEdge& edge = complex_.edges()[crossing.edge];
-    if (crossing.count % 2 == 0 || !edge.is_crossed || std::abs(crossing.t - edge.t) < least_apart) {
+    if (crossing.count % 2 == 0 || !edge.is_crossed || std::abs(crossing.t - edge.t) < least_apart ||
+        sheet_.travel() - edge.travel < kCorner * spacing_) {
       return false;
     }
     bool is_done = true;

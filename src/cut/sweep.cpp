@@ -180,6 +180,27 @@ bool meet(const Corners& a, const Corners& b, double slit) {
   return covers(a, b, reach) || covers(b, a, reach);
 }
 
+/// Whether one triangle laps over another one: a place a little inside one of its corners, or of the middles of its
+/// edges, lies within `slit` of the other, but for what they share.
+bool laps(const Corners& a, const Corners& b, double slit) {
+  constexpr double kInset = 0.05;  // one that ends where the other begins does not lap over it
+  const auto is_shared = [&](const SosPoint& p) {
+    return std::any_of(b.begin(), b.end(), [&](const SosPoint& q) { return p.key == q.key; });
+  };
+  const Vec3 centre = (a[0].position + a[1].position + a[2].position) / 3.0;
+  const auto is_on = [&](const Vec3& p) {
+    const Vec3 place = p + kInset * (centre - p);
+    return closest_on_triangle(place, b[0].position, b[1].position, b[2].position).distance2 <= slit * slit;
+  };
+  bool does_lap = false;
+  for (unsigned k = 0; k < 3; ++k) {
+    const SosPoint &p = a[k], &q = a[(k + 1) % 3];
+    if (is_shared(p)) continue;
+    does_lap = does_lap || is_on(p.position) || is_on(0.5 * (p.position + q.position));
+  }
+  return does_lap;
+}
+
 Box box_of(const SweptSurface& surface, std::uint32_t triangle, double margin) {
   const auto t = corners(surface, triangle);
   Box box{t[0].position, t[0].position};
@@ -297,8 +318,10 @@ bool strips_meet(const SweptSurface& strip, const SweptSurface& earlier, const S
   for (std::uint32_t i = 0; i < strip.triangles.size() && !do_meet; ++i) {
     const Box box = box_of(strip, i, slit);
     if (!box.overlaps(sheet.bounds())) continue;
-    sheet.tree().for_each_overlap(
-        box, [&](std::uint32_t j) { do_meet = do_meet || meet(corners(strip, i), corners(earlier, j), slit); });
+    sheet.tree().for_each_overlap(box, [&](std::uint32_t j) {
+      const Corners a = corners(strip, i), b = corners(earlier, j);
+      do_meet = do_meet || meet(a, b, slit) || laps(a, b, slit) || laps(b, a, slit);
+    });
   }
   return do_meet;
 }

@@ -98,13 +98,12 @@ void judge_shape(const TetReview& before, const TetReview& after, Shortfall& fou
             after.worst_ratio, before.worst_ratio));
 }
 
-std::vector<std::string> growth_faults(const TetReview& before, const TetReview& after, const TetReview& single,
-                                       double limit) {
-  constexpr double kFew = 40;
+std::vector<std::string> growth_faults(const Attack& attack, const TetReview& before, const TetReview& after,
+                                       const TetReview& single) {
   std::vector<std::string> faults;
   const auto grown = [&](const TetReview& r) { return static_cast<double>(r.tets) - static_cast<double>(before.tets); };
-  const double share = grown(after) / std::max(kFew, grown(single));
-  if (share > limit) faults.push_back(words("%.1f times the new tets of one stroke", share));
+  const double share = grown(after) / std::max(attack.few_tets, grown(single));
+  if (share > attack.growth_limit) faults.push_back(words("%.1f times the new tets of one stroke", share));
   if (single.components != after.components) {
     faults.push_back(words("%zu pieces, %zu in one stroke", after.components, single.components));
   }
@@ -135,9 +134,12 @@ Shortfall judge(const Attack& attack, const AttackOptions& options, const TetRev
   if (options.counts_pieces && attack.pieces && after.components != *attack.pieces) {
     found.faults.push_back(words("%zu pieces, %zu expected", after.components, *attack.pieces));
   }
+  if (attack.encloses_nothing && after.surfaces != after.components) {
+    found.faults.push_back(words("%zu surfaces of %zu pieces", after.surfaces, after.components));
+  }
   if (!options.judges_shape) return found;
   if (single) {
-    for (std::string& fault : growth_faults(before, after, *single, attack.growth_limit)) {
+    for (std::string& fault : growth_faults(attack, before, after, *single)) {
       found.faults.push_back(std::move(fault));
     }
   }

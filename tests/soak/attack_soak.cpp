@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -32,6 +31,7 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 struct AttackSettings {
+  const AttackSet* set = nullptr;  // the kinds that there are
   std::uint64_t seed = 1;
   double seconds = 0;       // 0: no such limit
   std::uint64_t cases = 0;  // 0: no such limit; ten of each kind where there is none at all
@@ -83,8 +83,9 @@ bool set(AttackSettings& settings, const std::string& key, const Words& values) 
 }
 
 bool are_known(const AttackSettings& settings) {
-  const auto is_kind = [](const std::string& name) {
-    return std::any_of(kAttackKinds.begin(), kAttackKinds.end(), [&](const char* kind) { return name == kind; });
+  const auto is_kind = [&](const std::string& name) {
+    const auto& kinds = settings.set->kinds;
+    return std::any_of(kinds.begin(), kinds.end(), [&](const char* kind) { return name == kind; });
   };
   const auto are_options = [](const std::string& name) {
     return std::any_of(kAttackOptions.begin(), kAttackOptions.end(), [&](const auto& o) { return name == o.name; });
@@ -93,8 +94,9 @@ bool are_known(const AttackSettings& settings) {
          std::all_of(settings.options.begin(), settings.options.end(), are_options) && !settings.options.empty();
 }
 
-std::optional<AttackSettings> read_settings(const Words& arguments) {
+std::optional<AttackSettings> read_settings(const AttackSet& attacks, const Words& arguments) {
   AttackSettings settings;
+  settings.set = &attacks;
   for (std::size_t i = 0; i < arguments.size();) {
     const std::string& key = arguments[i++];
     Words values;
@@ -163,34 +165,36 @@ std::optional<std::vector<AttackedBody>> bodies_of(const Words& names) {
 // --- cases
 // --------------------------------------------------------------------------------------------------------------------
 
-std::size_t kind_of(std::uint64_t number) {
-  return number % kAttackKinds.size();
+std::size_t kind_of(const AttackSet& set, std::uint64_t number) {
+  return number % set.kinds.size();
 }
 
-const AttackOptions& options_of(std::uint64_t number) {
-  return kAttackOptions[number / kAttackKinds.size() % kAttackOptions.size()];
+const AttackOptions& options_of(const AttackSet& set, std::uint64_t number) {
+  return kAttackOptions[number / set.kinds.size() % kAttackOptions.size()];
 }
 
 /// All that a case is made of.
 struct AttackCase {
   std::uint64_t number;
   std::size_t kind;
+  const char* kind_name;
   const AttackOptions& options;
   const AttackedBody& body;
   std::string name;  ///< says where it comes from
   Attack attack;
 };
 
-AttackCase make_case(std::uint64_t seed, std::uint64_t number, const std::vector<AttackedBody>& bodies) {
+AttackCase make_case(const AttackSet& set, std::uint64_t seed, std::uint64_t number,
+                     const std::vector<AttackedBody>& bodies) {
   Random mixed(seed);
   Random random(mixed.bits() ^ Random(number).bits());
-  const std::size_t kind = kind_of(number);
-  const AttackOptions& options = options_of(number);
+  const std::size_t kind = kind_of(set, number);
+  const AttackOptions& options = options_of(set, number);
   const auto last = static_cast<std::int64_t>(bodies.size()) - 1;
   const AttackedBody& body = bodies[static_cast<std::size_t>(random.integer(0, last))];
-  const std::string name = std::string(kAttackKinds[kind]) + " " + options.name + " " + body.name + " seed " +
+  const std::string name = std::string(set.kinds[kind]) + " " + options.name + " " + body.name + " seed " +
                            std::to_string(seed) + " case " + std::to_string(number);
-  return {number, kind, options, body, name, make_attack(kind, body, random)};
+  return {number, kind, set.kinds[kind], options, body, name, set.make(kind, body, random)};
 }
 
 enum class Verdict : std::uint8_t { kHolds, kFallsShort, kInShapeAlone };
@@ -226,7 +230,7 @@ void keep(const AttackCase& a, const fs::path& folder) {
   fs::create_directories(folder, ignored);
   std::string stem = a.name.substr(a.name.rfind(" seed "));
   std::replace(stem.begin(), stem.end(), ' ', '-');
-  stem = kAttackKinds[a.kind] + stem;
+  stem = a.kind_name + stem;
   MotionCase motion;
   for (const Stroke& stroke : a.attack.strokes) motion.strokes.push_back({stroke.name, stroke.edges, false});
   const fs::path blade = folder / (stem + ".json"), mesh = a.body.is_made() ? folder / (stem + ".mesh") : a.body.file;
@@ -254,7 +258,7 @@ struct KindTally {
 class AttackCampaign {
  public:
   AttackCampaign(AttackSettings settings, std::vector<AttackedBody> bodies)
-      : settings_(std::move(settings)), bodies_(std::move(bodies)) {}
+      : settings_(std::move(settings)), bodies_(std::move(bodies)), tally_(settings_.set->kinds.size()) {}
 
   int run() {
     if (settings_.only) {
@@ -273,17 +277,18 @@ class AttackCampaign {
   }
   [[nodiscard]] bool is_over() const {
     const bool is_limited = settings_.cases > 0 || settings_.seconds > 0;
-    const std::uint64_t cases = is_limited ? settings_.cases : 10 * kAttackKinds.size();
+    const std::uint64_t cases = is_limited ? settings_.cases : 10 * settings_.set->kinds.size();
     return (cases > 0 && done_ >= cases) || (settings_.seconds > 0 && elapsed() >= settings_.seconds);
   }
   [[nodiscard]] bool is_wanted(std::uint64_t number) const {
-    return (settings_.kinds.empty() || has(settings_.kinds, kAttackKinds[kind_of(number)])) &&
-           has(settings_.options, options_of(number).name);
+    const AttackSet& set = *settings_.set;
+    return (settings_.kinds.empty() || has(settings_.kinds, set.kinds[kind_of(set, number)])) &&
+           has(settings_.options, options_of(set, number).name);
   }
 
   /// One that is repeated alone stays in this process, for the debugger.
   void attack(std::uint64_t number) {
-    const AttackCase a = make_case(settings_.seed, number, bodies_);
+    const AttackCase a = make_case(*settings_.set, settings_.seed, number, bodies_);
     const Verdict verdict = settings_.only ? run_case(a, settings_.limit) : run_case_apart(a, settings_.limit);
     ++done_;
     KindTally& tally = tally_[a.kind];
@@ -303,12 +308,12 @@ class AttackCampaign {
   [[nodiscard]] int print_table() const {
     KindTally all;
     for (std::size_t kind = 0; kind < tally_.size(); ++kind) {
-      if (tally_[kind].cases > 0) print(kAttackKinds[kind], tally_[kind]);
+      if (tally_[kind].cases > 0) print(settings_.set->kinds[kind], tally_[kind]);
       all.add(tally_[kind]);
     }
-    print("attack", all);
-    std::printf("attack: seed %llu, %zu bodies, %.0f s\n", static_cast<unsigned long long>(settings_.seed),
-                bodies_.size(), elapsed());
+    print(settings_.set->name, all);
+    std::printf("%s: seed %llu, %zu bodies, %.0f s\n", settings_.set->name,
+                static_cast<unsigned long long>(settings_.seed), bodies_.size(), elapsed());
     return all.falls_short == 0 ? 0 : 1;
   }
 
@@ -316,12 +321,12 @@ class AttackCampaign {
   std::vector<AttackedBody> bodies_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::uint64_t done_ = 0;
-  std::array<KindTally, kAttackKinds.size()> tally_{};
+  std::vector<KindTally> tally_;  // by kind
 };
 
-int attack_usage() {
-  std::fprintf(stderr, "usage: incise_soak %s\nkinds:", kAttackUsage);
-  for (const char* kind : kAttackKinds) std::fprintf(stderr, " %s", kind);
+int attack_usage(const AttackSet& set) {
+  std::fprintf(stderr, "usage: incise_soak %s %s\nkinds:", set.name, kAttackUsage);
+  for (const char* kind : set.kinds) std::fprintf(stderr, " %s", kind);
   std::fprintf(stderr, "\noptions:");
   for (const AttackOptions& options : kAttackOptions) std::fprintf(stderr, " %s", options.name);
   std::fprintf(stderr, "\n");
@@ -330,9 +335,9 @@ int attack_usage() {
 
 }  // namespace
 
-int soak_attacks(const std::vector<std::string>& arguments) {
-  std::optional<AttackSettings> settings = read_settings(arguments);
-  if (!settings) return attack_usage();
+int soak_attacks(const AttackSet& set, const std::vector<std::string>& arguments) {
+  std::optional<AttackSettings> settings = read_settings(set, arguments);
+  if (!settings) return attack_usage(set);
   std::optional<std::vector<AttackedBody>> bodies = bodies_of(settings->meshes);
   if (!bodies) return 2;
   return AttackCampaign(std::move(*settings), std::move(*bodies)).run();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,19 @@ struct Attack {
   std::vector<Stroke> single;         ///< the same sheet in one stroke; empty where there is no such stroke
   std::optional<std::size_t> pieces;  ///< that must come out; none where that is not known
   double growth_limit = 1.6;          ///< new tets, against those of `single`
+  double few_tets = 40;               ///< or against so many, where `single` makes fewer
+  bool encloses_nothing = false;      ///< every wall must reach the skin: no bubble inside
 };
 
 /// The strokes of one kind, an index into `kAttackKinds`.
 [[nodiscard]] Attack make_attack(std::size_t kind, const AttackedBody& body, Random& random);
+
+/// A campaign: its name, the kinds of its cases, and what makes them.
+struct AttackSet {
+  const char* name;
+  std::span<const char* const> kinds;
+  Attack (*make)(std::size_t kind, const AttackedBody& body, Random& random);
+};
+inline constexpr AttackSet kAttacks = {"attack", kAttackKinds, make_attack};
 
 }  // namespace incise::test

@@ -90,6 +90,22 @@ std::size_t count_components(const std::vector<TetFace>& faces, std::size_t tets
   return count;
 }
 
+/// How many surfaces the boundary is made of, joined through the vertices of its faces.
+std::size_t count_surfaces(const std::vector<TetFace>& faces, std::size_t points) {
+  Groups groups(points);
+  std::vector<bool> is_outer(points, false);
+  for_each_face(faces, [&](std::size_t first, std::size_t end) {
+    if (end != first + 1) return;
+    for (const std::uint32_t v : faces[first].corners) {
+      is_outer[v] = true;
+      groups.join(faces[first].corners[0], v);
+    }
+  });
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < points; ++v) count += is_outer[v] && groups.of(v) == v ? 1U : 0U;
+  return count;
+}
+
 std::size_t count_bad_edges(const std::vector<TetFace>& faces) {
   std::vector<Pair> edges;
   for_each_face(faces, [&](std::size_t first, std::size_t end) {
@@ -186,6 +202,7 @@ TetReview review(const TetSoup& soup) {
                 [&](std::size_t first, std::size_t end) { found.overshared_faces += end - first > 2 ? 1U : 0U; });
   found.duplicate_tets = count_duplicates(tets);
   found.components = count_components(faces, tets.size());
+  found.surfaces = count_surfaces(faces, soup.points.size());
   found.bad_edges = count_bad_edges(faces);
   review_vertices(tets, faces, found);
   return found;

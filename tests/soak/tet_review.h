@@ -14,6 +14,7 @@ namespace incise::test {
 struct TetReview {
   std::size_t tets = 0;
   std::size_t components = 0;  ///< joined through faces
+  std::size_t surfaces = 0;  ///< of the boundary, joined through edges: more than pieces where walls enclose something
   double volume = 0;
   double worst_ratio = 0;  ///< longest edge over inradius; infinite where a tet is flat
 
