@@ -18,6 +18,9 @@ namespace {
 
 /// Points of the blade stand at most so many spacings apart.
 constexpr double kPointSpacing = 0.25;
+/// The way that the front has come is that of its last so many spacings, of all points within a spacing.
+constexpr double kComeLength = 0.5;
+constexpr std::size_t kNearPoints = 4;
 /// Segments of more parts than this are dense only near the body, if they leave its surroundings: so many of its
 /// diagonals.
 constexpr double kManyParts = 256, kSurroundings = 1.0;
@@ -178,7 +181,7 @@ void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std:
     point.hint = nearest.is_valid() ? nearest : surface.nearest_as_it_stands(mesh, places[i]);
     find(mesh, surface, point, places[i]);
     nearest = point.hint;
-    anchors_[i] = point.candidate;
+    anchors_[i] = point.towed = point.candidate;
     point.has_entered = point.tet.is_valid();
     // A blade that is put in place inside tissue has its tip there: without it the blade would never be ahead.
     if (point.has_entered) point.master = complex.adopt(mesh, point.tet);
@@ -243,8 +246,9 @@ void MaterialBlade::find_tip(const TetMesh& mesh, const ClosedComplex& complex, 
     if (!point.tet.is_valid() && !mesh.is_live(point.hint)) point.hint = child;
     // The direction of cutting goes with the material.
     std::array<double, 4> ahead{};
-    if (!point.rest_step.isZero(0.0) && weights_in(rest, anchor + point.rest_step, ahead)) {
-      point.direction = taken(rest, current, ahead) - point.tip;
+    const Vec3 come = anchor - point.towed;
+    if (!come.isZero(0.0) && weights_in(rest, anchor + come, ahead)) {
+      point.direction = (taken(rest, current, ahead) - point.tip).normalized();
     }
   }
   if (beyond > kAway * spacing_) {
@@ -261,22 +265,77 @@ bool MaterialBlade::meets_tissue(const TetMesh& mesh, const Point& point) const 
   return false;
 }
 
+/// Where the edge cuts: the way that the front has come, as the material stands now, of all of the edge that is near.
+/// Single tets are bent; and what the edge slides along itself cuts nothing.
+void MaterialBlade::find_directions(const Vec3& given) {
+  const std::size_t last = points_.size() - 1;
+  std::vector<Vec3> sums(points_.size(), Vec3::Zero());
+  for (std::size_t i = 0; i <= last; ++i) {
+    Point& point = points_[i];
+    point.along = (points_[std::min(i + 1, last)].world - points_[i > 0 ? i - 1 : 0].world).normalized();
+    const std::size_t end = std::min(i + kNearPoints, last);
+    for (std::size_t k = i > kNearPoints ? i - kNearPoints : 0; k <= end; ++k) {
+      if (points_[k].has_entered) sums[i] += points_[k].direction;
+    }
+  }
+  for (std::size_t i = 0; i <= last; ++i) {
+    Point& point = points_[i];
+    const Vec3 way = given.isZero(0.0) ? sums[i] : given;
+    const Vec3 across = way - way.dot(point.along) * point.along;
+    if (point.has_entered || !given.isZero(0.0)) point.direction = across.normalized();
+  }
+}
+
+/// Takes the place along that follows the anchor. A point that has just entered tissue has come as the blade moves, or
+/// from where it was beside it.
+void MaterialBlade::tow(const TetMesh& mesh, std::size_t point, const Vec3& step) {
+  Point& p = points_[point];
+  const double length = kComeLength * spacing_;
+  if (!p.has_entered) {
+    const Vec3 motion = shortened(p.world - p.before, kLeastStep * spacing_);
+    bool is_possible = false;
+    const Vec3 come = p.candidate - to_rest(mesh, p.tet, p.world - motion, is_possible);
+    const Vec3& way = is_possible && come.squaredNorm() > 0 ? come : step;
+    if (way.squaredNorm() > 0) p.towed = anchors_[point] - length * way.normalized();
+  }
+  const Vec3 behind = p.towed - anchors_[point];
+  const double distance = behind.norm();
+  if (distance > length) p.towed = anchors_[point] + (length / distance) * behind;
+}
+
 /// Whether the front follows a point of the blade that is so far away in the rest shape.
 bool MaterialBlade::is_due(double step) const {
   const bool is_long = step >= kLeastStep * spacing_;
   return is_last_ ? !is_long && step >= kLeastLastStep * spacing_ : is_long;
 }
 
-void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor) {
+/// Whether a point that comes into tissue stands behind the front of the one nearest to it, or beside that: there the
+/// blade has cut, or waits.
+bool MaterialBlade::is_behind_others(std::size_t i) const {
+  const Point& point = points_[i];
+  const Point* leader = nullptr;
+  for (std::size_t apart = 1; apart <= kNearPoints && leader == nullptr; ++apart) {
+    if (i >= apart && points_[i - apart].has_entered) leader = &points_[i - apart];
+    if (i + apart < points_.size() && points_[i + apart].has_entered) leader = &points_[i + apart];
+  }
+  if (leader == nullptr || leader->direction.isZero(0.0)) return false;
+  const Vec3 way = point.world - leader->tip, across = way - way.dot(point.along) * point.along;
+  const double lead = across.dot(leader->direction), beside = (across - lead * leader->direction).norm();
+  return lead < kCone * beside - kLeastStep * spacing_;
+}
+
+void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, std::size_t i) {
+  Point& point = points_[i];
+  const Vec3& anchor = anchors_[i];
   point.is_accepted = false;
   if (!point.has_entered && !point.tet.is_valid()) return;  // follows one that has
-  const Vec3 way = point.world - point.tip;
+  const Vec3 way = point.world - point.tip, across = way - way.dot(point.along) * point.along;
   const double length = point.direction.norm();
   point.lead = length > 0 ? way.dot(point.direction) / length : way.norm();
-  const double beside = length > 0 ? (way - point.lead * point.direction / length).norm() : 0.0;
+  const double beside = length > 0 ? (across - point.lead * point.direction / length).norm() : 0.0;
   const bool is_ahead = point.lead > kCone * beside;
   if (point.tet.is_valid()) {
-    const bool is_new = !point.has_entered;
+    const bool is_new = !point.has_entered && !is_behind_others(i);
     const double step = (point.candidate - anchor).norm();
     const bool is_likely = step <= kGreatestStretch * way.norm() + kTrust * spacing_;  // else found in another part
     point.is_accepted = is_new || (is_ahead && is_likely && is_due(step));
@@ -416,9 +475,11 @@ void MaterialBlade::locate(const TetMesh& mesh, const SurfaceIndex& surface, con
     Point& point = points_[i];
     point.before = std::exchange(point.world, places[i]);
     find_tip(mesh, complex, point, anchors_[i]);
-    if (!direction.isZero(0.0)) point.direction = direction;
-    find(mesh, surface, point, anchors_[i]);
-    judge(mesh, surface, point, anchors_[i]);
+  }
+  find_directions(direction);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    find(mesh, surface, points_[i], anchors_[i]);
+    judge(mesh, surface, i);
   }
   follow_entered(mesh, surface);
   keep_clear(mesh, surface, 0);
@@ -568,7 +629,7 @@ void MaterialBlade::take_over(const TetMesh& mesh, const SurfaceIndex& surface, 
   points_.assign(places.size(), {});
   for (std::size_t i = 0; i < points_.size(); ++i) {
     points_[i].world = points_[i].before = points_[i].reached = points_[i].tip = places[i];
-    points_[i].candidate = anchors_[i];
+    points_[i].candidate = points_[i].towed = anchors_[i];
   }
   find_masters(mesh, surface, complex);
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -589,7 +650,7 @@ void MaterialBlade::advance(const TetMesh& mesh, const SurfaceIndex& surface, Cl
     anchors_[i] = point.candidate;
     point.reached = point.world;
     if (!point.tet.is_valid()) continue;
-    point.rest_step = step;
+    tow(mesh, i, step);
     if (!mesh.is_live(point.tet)) point.tet = incise::locate(mesh, surface, {point.candidate, next_key_++});
     if (point.tet.is_valid()) point.master = complex.adopt(mesh, point.tet);
     point.has_entered = true;

@@ -80,8 +80,9 @@ class MaterialBlade {
     Vec3 reached = Vec3::Zero();    ///< where it was when its anchor was last put in place
     Vec3 candidate = Vec3::Zero();  ///< the rest point there
     Vec3 tip = Vec3::Zero();        ///< where the front's rest point stands now
+    Vec3 towed = Vec3::Zero();      ///< follows the anchor through tissue at rest as if on a rope
     Vec3 direction = Vec3::Zero();  ///< of cutting, as the body stands
-    Vec3 rest_step = Vec3::Zero();  ///< the last step of the anchor in tissue
+    Vec3 along = Vec3::Zero();      ///< the blade's edge here, unit
     double lead = 0;
     TetId tet;                             ///< that holds it, if it is in tissue
     TetId hint;                            ///< a live tet near it
@@ -98,8 +99,11 @@ class MaterialBlade {
   }
   /// Where the front's rest point stands now. A point that is away from the tet that it left by follows others.
   void find_tip(const TetMesh& mesh, const ClosedComplex& complex, Point& point, const Vec3& anchor) const;
+  void find_directions(const Vec3& given);
+  void tow(const TetMesh& mesh, std::size_t point, const Vec3& step);
   [[nodiscard]] bool is_due(double step) const;
-  void judge(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
+  [[nodiscard]] bool is_behind_others(std::size_t i) const;
+  void judge(const TetMesh& mesh, const SurfaceIndex& surface, std::size_t i);
   [[nodiscard]] bool lies_in_cut(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest) const;
   bool push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest);
   bool keep_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest,

@@ -66,5 +66,40 @@ TEST_F(PressedCube, does_not_throw_a_blade_that_comes_to_it) {
   expect_calm({Vec3(-0.5, -0.5, 0.5), Vec3(-0.5, 1.5, 0.5)}, Vec3(0.05, 0, 0.0));
 }
 
+/// A body that flaps about a blade that gets on slowly: it slides along the edge, to and fro, and turns.
+TEST(MaterialBlade, keeps_its_front_even_in_a_body_that_flaps) {
+  TetMesh mesh = build(jittered_cube(5, 7));
+  SplitTemplates templates;
+  ClosedComplex complex(templates);
+  SurfaceIndex surface;
+  surface.follow(mesh, Journal());
+  const double spacing = 0.2;
+  std::vector<Vec3> row = {Vec3(-0.1, -0.3, 0.45), Vec3(-0.1, 1.3, 0.55)};
+  MaterialBlade blade;
+  blade.begin(mesh, surface, row, spacing, complex);
+  double front = 0, edge = 0;
+  for (unsigned i = 0; i < 60; ++i) {
+    const double sway = std::sin(1.1 * i), turn = 0.3 * std::sin(0.7 * i);
+    std::vector<Vec3> current(mesh.vertex_slots());
+    mesh.for_each_vertex([&](VertexId v) {
+      const Vec3 arm = mesh.rest(v) - Vec3(0.5, 0.5, 0.5);
+      current[v.value] = Vec3(0.5 + arm.x() - turn * arm.y(), 0.5 + arm.y() + turn * arm.x() + 0.2 * sway,
+                              0.5 + arm.z() + 0.1 * sway * arm.x());
+    });
+    mesh.set_current(current);
+    for (Vec3& p : row) p.x() += 0.012;
+    blade.locate(mesh, surface, complex, row, Vec3::Zero());
+    const std::vector<Vec3> wanted = blade.wanted();
+    blade.advance(mesh, surface, complex);
+    const double part = (row[1] - row[0]).norm() / static_cast<double>(wanted.size() - 1);
+    for (std::size_t k = 1; k < wanted.size(); ++k) {
+      if (!blade.is_in_tissue(k) || !blade.is_in_tissue(k - 1)) continue;
+      front += (wanted[k] - wanted[k - 1]).norm();
+      edge += part;
+    }
+  }
+  EXPECT_LT(front, 2 * edge);
+}
+
 }  // namespace
 }  // namespace incise::test

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A body that follows the mesh while it is cut and maintained: what its steps add to the energy. The seeds are those of
-// a dozen (two of eight, where springs hold) in which joined lips come back to what there was; in the others the joined
-// body stores more than the open one, however it stands (decision 105).
+// A body that follows the mesh while it is cut and maintained: what its steps add to the energy. All of a dozen seeds
+// stay below the limit where the ends are held rigidly; half of them, the worst among them, are run. Where springs
+// hold, three of eight do: in the others the joined body stores more than the open one, however it stands (decision
+// 126).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -75,16 +76,16 @@ void expect_no_gain(std::uint64_t seed, double stiffness) {
   SCOPED_TRACE(seed);
   DrawnBody drawn(seed, stiffness);
   for (unsigned i = 0; i < 6 && !testing::Test::HasFatalFailure(); ++i) drawn.cut();
-  EXPECT_LE(drawn.rise, 0.02 * drawn.peak);
+  EXPECT_LE(drawn.rise, 0.03 * drawn.peak);
 }
 
 TEST(BodyBalance, FollowingAddsNoEnergy) {
-  for (const std::uint64_t seed : {1U, 3U, 6U, 8U, 11U, 12U})
+  for (const std::uint64_t seed : {1U, 2U, 6U, 8U, 10U, 11U})
     expect_no_gain(seed, std::numeric_limits<double>::infinity());
 }
 
 TEST(BodyBalance, FollowingAddsNoEnergyToSpringsThatHold) {
-  for (const std::uint64_t seed : {7U, 8U}) expect_no_gain(seed, 100.0);
+  for (const std::uint64_t seed : {1U, 7U, 8U}) expect_no_gain(seed, 100.0);
 }
 
 }  // namespace

@@ -198,13 +198,6 @@ void DeformableBody::State::prepare_pulls() {
   list_uses();
 }
 
-/// Lists the springs that hold vertices, and nothing else.
-void DeformableBody::State::prepare_holds() {
-  forget_terms();
-  add_holds();
-  list_uses();
-}
-
 void DeformableBody::State::list_uses() {
   const auto for_each_use = [&](const auto& visit) {
     for (std::uint32_t t = 0; t < terms.size(); ++t) {
@@ -364,7 +357,8 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
   for (const std::uint32_t slot : vertices) {
     detail::Motion& motion = motions[VertexId(slot)];
     motion.weight = 0;
-    if (!with_terms) motion.pulls = 0;
+    if (with_terms) continue;
+    motion.pulls = 0;
     motion.contacts = 0;
   }
   std::vector<std::array<float, 3>> before;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lips that stood apart and that a step of the journal joins store energy that was not there: their corners go towards
-// their balance, with as much of what stands around them as that takes.
+// What a step of the journal puts in place may store energy that was not there, as where it joins lips that stood
+// apart: it goes towards its balance, with as much of what stands around as that takes. Hands and tools go on pressing.
 #include <algorithm>
 #include <array>
 
@@ -11,13 +11,12 @@ inline namespace v0 {
 
 namespace {
 
-/// A tet that is drawn out along an edge by more than this, or pressed to less than that share of its volume, is taken
-/// to have lips that stood apart as its corners.
-constexpr double kDrawnOut = 1.3, kPressed = 0.6;
 /// Sweeps between two looks at the energy: each is over in a moment, and most often one is enough.
 constexpr std::array kSweeps = {1U, 1U, 2U, 4U};
 /// A step that adds no more than this share of what its tets had adds nothing.
 constexpr double kGain = 0.01;
+/// Strains below are none.
+constexpr double kNoStrain = 1e-3;
 /// Once there are so many vertices by the tets that were touched, and besides, a further ring is taken in only where
 /// there is more than so many times the energy still: where lips that stood apart were joined. In the end all are swept
 /// so often more.
@@ -25,22 +24,14 @@ constexpr std::size_t kMostByTouched = 4, kMostBesides = 400;
 constexpr double kFarMore = 1.5;
 constexpr unsigned kMoreSweeps = 24;
 
-/// Whether a tet stands as none does that cutting or maintenance puts in place where no lips are joined.
-bool is_wide(const std::array<Vec3, 4>& now, const std::array<Vec3, 4>& rest) {
-  const auto is_drawn_out = [&](const auto& edge) {
-    return (now[edge[0]] - now[edge[1]]).squaredNorm() >
-           kDrawnOut * kDrawnOut * (rest[edge[0]] - rest[edge[1]]).squaredNorm();
-  };
-  return detail::six_volumes(now) < kPressed * detail::six_volumes(rest) ||
-         std::any_of(kEdgeCorners.begin(), kEdgeCorners.end(), is_drawn_out);
-}
-
 /// The tets whose energy a step changes: those that it touched, and those around all that goes towards its balance.
 class Balance {
  public:
   explicit Balance(DeformableBody::State& state) : s_(state), most_((1 + kGain) * state.touched.energy) {
     for (const std::uint32_t t : s_.touched.tets) {
-      if (s_.tets[TetId(t)][0].is_valid()) list(TetId(t));
+      if (!s_.tets[TetId(t)][0].is_valid()) continue;
+      list(TetId(t));
+      most_ += least_energy(TetId(t));
     }
   }
   Balance(const Balance&) = delete;
@@ -102,6 +93,11 @@ class Balance {
     Vec3 place;  ///< before it moved
   };
 
+  /// Of a tet that is strained so little that it counts for nothing.
+  [[nodiscard]] double least_energy(TetId t) const {
+    const double volume = detail::six_volumes(s_.corners_at_rest(t)) / 6;
+    return 0.5 * kNoStrain * kNoStrain * s_.materials.of(s_.regions[t]).young * s_.unit() * volume;
+  }
   [[nodiscard]] double energy(std::size_t i) const {
     return detail::energy_of(elements_[i], s_.corners(TetId(tets_[i])));
   }
@@ -139,20 +135,11 @@ void DeformableBody::State::note_energy() {
   }
 }
 
-/// Whether the step has joined lips that stood apart. Else what is more than was there before is what blades and hands
-/// press, which sweeps without them would take out.
-bool DeformableBody::State::has_joined_lips() const {
-  return std::any_of(touched.tets.begin(), touched.tets.end(), [&](std::uint32_t t) {
-    const TetId tet(t);
-    return tets[tet][0].is_valid() && is_wide(corners(tet), corners_at_rest(tet));
-  });
-}
-
 std::size_t DeformableBody::State::balance() {
-  if (!has_joined_lips()) return 0;
   Balance balance(*this);
   if (!balance.has_gained()) return 0;
-  prepare_holds();
+  prepare_pulls();
+  if (options.self.on) contact.list_terms(*this);
   bool is_balanced = false;
   while (!is_balanced && balance.grow()) is_balanced = balance.relax();
   if (!is_balanced) balance.relax_more();

@@ -227,7 +227,6 @@ struct DeformableBody::State {
 
   // joined lips go towards their balance (body_balance.cpp)
   void note_energy();
-  [[nodiscard]] bool has_joined_lips() const;
   std::size_t balance();
 
   // ties (body_ties.cpp)
@@ -269,7 +268,6 @@ struct DeformableBody::State {
   void forget_terms();
   void add_holds();
   void prepare_pulls();
-  void prepare_holds();
   void wake_pulled(const Pull& pull);
   [[nodiscard]] bool is_as_before(const Pull& a, const Pull& b) const;
   void wake_where_pulls_differ(const std::vector<Pull>& next);

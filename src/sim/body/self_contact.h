@@ -65,6 +65,9 @@ class SelfContact {
   [[nodiscard]] std::size_t count_pressing() const;
   void add_to(StateHash& hash) const;
 
+  /// Lists what the descent reads of the contacts as they are known, with all where it stands now.
+  void list_terms(DeformableBody::State& body);
+
  private:
   /// A vertex that is looked at.
   struct Query {
@@ -107,7 +110,6 @@ class SelfContact {
   [[nodiscard]] bool is_through_material(const DeformableBody::State& body, const Query& query,
                                          const Found& found) const;
   [[nodiscard]] Contact contact_of(const DeformableBody::State& body, const Query& query, const Found& found) const;
-  void list_terms(DeformableBody::State& body);
   void list_uses(DeformableBody::State& body);
 
   ContactSurface surface_;
