@@ -76,13 +76,11 @@ set(incise_package_of_Threads::Threads Threads)
 set(incise_header_only Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt-header-only CLI11::CLI11
                        spdlog::spdlog_header_only)
 
-# A compiler cache, where there is one. Emscripten brings its own wrapper. It takes precompiled headers only where it is told
-# to trust the definitions that they were compiled with, and the sums beside them, both of which InciseHeaders.cmake sees to.
+# A compiler cache, where there is one. Emscripten brings its own wrapper.
 if(PROJECT_IS_TOP_LEVEL AND NOT EMSCRIPTEN AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(INCISE_CCACHE ccache)
   mark_as_advanced(INCISE_CCACHE)
   if(INCISE_CCACHE)
-    set(CMAKE_CXX_COMPILER_LAUNCHER
-        ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_PCH_EXTSUM=1 ${INCISE_CCACHE})
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${INCISE_CCACHE})
   endif()
 endif()

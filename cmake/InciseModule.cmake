@@ -27,8 +27,6 @@ if(INCISE_SANITIZE)
   target_link_options(incise_flags INTERFACE $<BUILD_INTERFACE:-fsanitize=${incise_link_sanitize}>)
 endif()
 
-include(InciseHeaders)
-
 # incise_module(NAME DEPENDS module... PUBLIC library... PRIVATE library... SOURCES file...)
 #
 # A static library `incise_NAME`, also `incise::NAME`. It may include the modules under DEPENDS and what they may.
@@ -48,9 +46,6 @@ function(incise_module name)
   foreach(dep IN LISTS ARG_DEPENDS)
     target_link_libraries(incise_${name} PUBLIC incise_${dep})
   endforeach()
-  if(TARGET incise_headers)
-    target_precompile_headers(incise_${name} REUSE_FROM incise_headers)
-  endif()
   set_property(GLOBAL APPEND PROPERTY INCISE_BUILT_MODULES ${name})
 endfunction()
 
