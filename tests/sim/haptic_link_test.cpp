@@ -120,5 +120,16 @@ TEST(HapticLink, DelaysOutOfRangeAreNamed) {
   }
 }
 
+TEST(HapticLink, AToolOfADelayThatIsRefusedStaysFinite) {
+  for (const double delay : {-1.0, 1e300, std::numeric_limits<double>::infinity()}) {
+    HapticToolOptions options;
+    options.passivity.link_delay = delay;
+    HapticTool tool(options);
+    for (int i = 0; i < 10; ++i) {
+      EXPECT_TRUE(tool.tick(1e-3, Vec3(0, 0, -1e-3 * i), Vec3(0, 0, -1)).allFinite()) << delay;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace incise

@@ -51,6 +51,7 @@ struct PassivityOptions {
   /// s each way between device and controller, in [0, 0.05]: positions are so old when they come, and forces when they
   /// act. Ticks are to be 1e-4 s or longer then.
   double link_delay = 0;
+  static constexpr double kLongestDelay = 0.05;  ///< s; longer ones are refused
 };
 
 /// Errors: kBadArgument names the first option out of its range.

@@ -31,6 +31,7 @@ constexpr double kLightestGrip = 0.05, kDelayedStiffness = 0.4;
 /// Over a link with a delay the coupling is no stiffer than what light grips bear, and the drag takes what it gives
 /// away.
 HapticToolOptions suited(HapticToolOptions options) {
+  options.passivity.link_delay = std::min(options.passivity.link_delay, PassivityOptions::kLongestDelay);
   const double round_trip = 2 * options.passivity.link_delay;
   if (!(round_trip > 0)) return options;
   const double most = kDelayedStiffness * kLightestGrip / (round_trip * round_trip);

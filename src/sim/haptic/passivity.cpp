@@ -15,8 +15,8 @@ namespace {
 constexpr double kSpent = 0.2;
 /// Of the saved energy, the share that one tick may risk. From the rest a drained store grows again, tick by tick.
 constexpr double kRisked = 0.9;
-/// The longest delay of a link each way, and the shortest ticks over one, s.
-constexpr double kLongestDelay = 0.05, kShortestTick = 1e-4;
+/// The shortest ticks over a link with a delay, s.
+constexpr double kShortestTick = 1e-4;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Status check(const PassivityOptions& options) {
   if (!is_amount(options.position_quantum)) return bad("the position's quantum must be at least 0 m");
   if (!is_amount(options.max_saved_energy)) return bad("the largest saved energy must be at least 0 J");
   if (!is_amount(options.recovery_time)) return bad("the recovery time must be at least 0 s");
-  if (!(options.link_delay >= 0 && options.link_delay <= kLongestDelay)) {
+  if (!(options.link_delay >= 0 && options.link_delay <= PassivityOptions::kLongestDelay)) {
     return bad("the link's delay must lie in [0, 0.05] s each way");
   }
   return {};
@@ -43,7 +43,8 @@ PassivityController::PassivityController(const PassivityOptions& options)
     : options_(options),
       held_(options.initial_energy),
       saved_(std::min(options.initial_energy, options.max_saved_energy)) {
-  if (options.link_delay > 0) ring_.resize(static_cast<std::size_t>(2 * options.link_delay / kShortestTick) + 4);
+  options_.link_delay = std::min(options.link_delay, PassivityOptions::kLongestDelay);  // options may be refused ones
+  if (options_.link_delay > 0) ring_.resize(static_cast<std::size_t>(round_trip() / kShortestTick) + 4);
 }
 
 /// By how much the displacement within a tick that ends so long ahead may differ from the last one.
