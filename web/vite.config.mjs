@@ -9,7 +9,7 @@ const missing = existsSync(here('../build/npm/incise_plain.mjs')) ? [] : [/incis
 export default {
   base: './', // the site may stand in any folder
   publicDir: here('../build/web-public'),
-  resolve: { alias: { 'incise/worker': here('../build/npm/worker.mjs') } },
+  resolve: { alias: { 'incise/worker': here('../build/npm/worker.mjs'), 'incise/life': here('../build/npm/life.mjs') } },
   worker: { format: 'es', rollupOptions: { external: missing } },
   build: { rollupOptions: { external: missing }, target: 'es2022', outDir: here('../build/site'), emptyOutDir: true, sourcemap: true, chunkSizeWarningLimit: 900, assetsInlineLimit: 0 },
   server: { fs: { allow: [here('..')] } },

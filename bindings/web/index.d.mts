@@ -83,6 +83,7 @@ export declare class Engine {
 }
 
 export type ToolName = 'Orbit' | 'Scalpel' | 'Plane cut' | 'Forceps' | 'Pin' | 'Probe' | 'Hook' | 'Retractor' | 'Scissors' | 'Punch' | 'Suture' | 'Staple';
+export type ColorName = 'tissue' | 'region' | 'stroke' | 'quality' | 'defects';
 export type PointerKind = 'move' | 'press' | 'release' | 'wheel';
 
 export interface PointerOptions {
@@ -107,6 +108,12 @@ export interface Surface {
   normals: Float32Array;
   /** Four bytes per corner: flags (1 wall of a cut, 2 of the newest stroke, 8 of a tet that is too small), stroke, region, quality. */
   looks: Uint8Array;
+  /** Four numbers per corner: its place in the rest shape and its depth below the skin, in `extent`s; patterns stick to it. */
+  places: Float32Array;
+  /** Of the body at rest. */
+  extent: number;
+  /** What it is drawn as: 0 skin over fat and muscle, 1 liver, 2 vessel, 3 bone. */
+  tissue: number;
 }
 
 /** Column by column, as WebGL takes them. */
@@ -117,12 +124,19 @@ export interface CameraMatrices {
 
 /** Views of the module's memory: copy them before the next call. An ink is a place in `Look.inks`. */
 export interface Marks {
-  /** Nine numbers each: from, to, ink, width in pixels, 1 where it is seen through what is before it. */
+  /**
+   * Ten numbers each: from, to, width in pixels, ink, depth (0 where it is, 1 seen through what is before it, 2 well before a
+   * surface, 3 only behind one), 1 where it is dashed.
+   */
   lines: Float32Array;
-  /** Six numbers each: centre, ink, radius, 1 where that is in pixels. */
+  /** Six numbers each: centre, radius, ink, 1 where the radius is in pixels. */
   balls: Float32Array;
-  /** Eleven numbers each: three corners, ink, opacity. */
+  /** Five numbers for each corner of a triangle: place, opacity, ink. The furthest triangles come first. */
   triangles: Float32Array;
+  /** Instruments: eleven numbers for each corner of a triangle: place, normal, red, green, blue, opacity, gloss. */
+  solids: Float32Array;
+  /** How many corners come before those that are seen through. */
+  solidCornersBeforeGhosts: number;
 }
 
 export interface Figures {
@@ -164,6 +178,8 @@ export declare class Session {
   /** Opens a mesh, a scene or a recording, told apart by what is in it. A scene's body is at rest when this returns. */
   static open(bytes: Bytes, name: string, options?: SessionOptions): Session;
   tool: ToolName;
+  /** What the colours of the surface tell. */
+  color: ColorName;
   /** Of the scalpel, as a share of the body's shortest side, in [0.01, 2]. */
   depth: number;
   /** A drag, or a cut by a plane, is under way. */
@@ -199,8 +215,9 @@ export declare class Session {
   /** Brings `surface` up to date. Returns whether triangles came or went. */
   refresh(): boolean;
   surface(): Surface;
-  camera(): CameraMatrices;
   marks(): Marks;
+  /** As the last call of `marks` left it: what that shows is not cut off. */
+  camera(): CameraMatrices;
   figures(): Figures;
   /** Of all tets at rest, now and before the first cut. */
   quality(): { now: QualityFigures; before: QualityFigures };
@@ -214,14 +231,30 @@ export declare class Session {
   [Symbol.dispose](): void;
 }
 
+/** GLSL 3.30 without its version line. */
+export interface Shader {
+  vertex: string;
+  fragment: string;
+}
+
+/** How marks of one kind look: numbers of patterns for lines, balls and triangles that the shaders know. */
+export interface Ink {
+  color: Vec3;
+  casing: Vec3;
+  shapes: Vec3;
+}
+
 /** How the window draws. Colours are sRGB in [0, 1]. */
 export interface Look {
-  /** GLSL 3.30 without its version line. */
-  vertexShader: string;
-  fragmentShader: string;
+  shaders: Record<'surface' | 'solids' | 'lines' | 'balls' | 'triangles', Shader>;
   /** 256 × 2 RGBA: colours of labels, then of quality. */
   palette: Uint8Array;
-  inks: Vec3[];
+  /** `noiseSide` cubed: the pattern of tissue. */
+  noise: Uint8Array;
+  noiseSide: number;
+  /** The quality byte from which a tet is bad-shaped. */
+  redFrom: number;
+  inks: Ink[];
   top: Vec3;
   bottom: Vec3;
   rim: number;
@@ -230,6 +263,9 @@ export interface Look {
 export interface Incise {
   readonly version: string;
   readonly tools: readonly ToolName[];
+  readonly colors: readonly ColorName[];
+  /** Bytes of the module's memory: what objects hold, and what it has taken from the machine, which never shrinks. */
+  memory(): { used: number; taken: number };
   look(theme: 'light' | 'dark'): Look;
   readonly Engine: typeof Engine;
   readonly Session: typeof Session;

@@ -168,7 +168,7 @@ function makeEngine(module) {
   };
 }
 
-function makeSession(module, tools) {
+function makeSession(module, tools, colors) {
   return class Session {
     #held;
     constructor(core) {
@@ -186,6 +186,12 @@ function makeSession(module, tools) {
     }
     set tool(name) {
       this.#core.choose(placeIn(tools, name, 'tool'));
+    }
+    get color() {
+      return colors[this.#core.color];
+    }
+    set color(name) {
+      this.#core.chooseColor(placeIn(colors, name, 'color'));
     }
     get depth() {
       return this.#core.depth;
@@ -285,12 +291,14 @@ function makeSession(module, tools) {
 /** Loads the module. Each call makes one of its own, with memory of its own. */
 export async function load(options = {}) {
   const module = await instantiate(options);
-  const tools = Object.freeze(module.tools());
+  const tools = Object.freeze(module.tools()), colors = Object.freeze(module.colors());
   return Object.freeze({
     version: module.version,
     tools,
+    colors,
+    memory: () => module.memory(),
     look: (theme) => module.look(placeIn(['light', 'dark'], theme, 'theme') === 1),
     Engine: makeEngine(module),
-    Session: makeSession(module, tools),
+    Session: makeSession(module, tools, colors),
   });
 }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <utility>
 
+#include "app/scene/view_names.h"
+#include "app/view/drapes.h"
 #include "app/view/scene_camera.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
-#include "render/ink_style.h"
+#include "render/scene_box.h"
 
 namespace incise_web {
 
@@ -23,7 +25,6 @@ using incise::Vec3;
 namespace {
 
 constexpr const char* kRecording = "recording.jsonl";
-constexpr float kRimWidth = 2, kFrontWidth = 2.5F;  // pixels
 
 double stiffest(const app::Scene& scene) {
   double young = scene.options.materials.fallback.young;
@@ -78,8 +79,10 @@ val WebSession::open(const val& bytes, const std::string& name, const val& files
   if (!session.ok()) return to_error(folder->named(session.error()));
   auto made = std::make_shared<WebSession>(std::move(folder), std::move(session).value());
   if (const Status bound = made->bind_surface(); !bound.ok()) return to_error(made->folder_->named(bound.error()));
+  made->picture_.options = app::view_options_of(made->session_.scene());
   made->begin_anew();
   made->frame_camera();
+  made->lay_drapes();
   return val(made);
 }
 
@@ -93,10 +96,18 @@ Status WebSession::bind_surface() {
   return {};
 }
 
+/// Cloths around the body where the scene has them.
+void WebSession::lay_drapes() {
+  const app::Scene& scene = session_.scene();
+  if (!scene.view || !scene.view->has_drapes) return;
+  picture_.ground =
+      std::make_shared<const std::vector<app::SolidCorner>>(app::drapes_around(body_, picture_.camera.up));
+}
+
 /// The body is where it starts: nothing is held.
 void WebSession::begin_anew() {
   refresh();
-  body_ = app::bounds_of(frame_);
+  body_ = app::bounds_of(picture_.surface);
   tools_.reset(settings_of(session_, body_));
   set_depth(depth_share_);
   queue_.clear();
@@ -104,15 +115,15 @@ void WebSession::begin_anew() {
 
 /// The body is framed as in a picture of the free height; the field of view is that of the whole.
 void WebSession::frame_camera() {
-  camera_ = app::camera_of(session_.scene(), body_, {viewport_.width, free_height_});
-  camera_.distance *= static_cast<double>(viewport_.height) / free_height_;
-  framed_ = camera_;
+  picture_.camera = app::camera_of(session_.scene(), body_, {viewport_.width, free_height_});
+  picture_.camera.distance *= static_cast<double>(viewport_.height) / free_height_;
+  framed_ = picture_.camera;
 }
 
 void WebSession::resize(int width, int height, int free_height) {
   if (width <= 0 || height <= 0) return;
-  const bool is_framed = camera_.distance == framed_.distance && camera_.azimuth == framed_.azimuth &&
-                         camera_.elevation == framed_.elevation && camera_.target == framed_.target;
+  const bool is_framed = picture_.camera.distance == framed_.distance && picture_.camera.azimuth == framed_.azimuth &&
+                         picture_.camera.elevation == framed_.elevation && picture_.camera.target == framed_.target;
   viewport_ = {width, height};
   free_height_ = std::clamp(free_height, 1, height);
   if (is_framed) frame_camera();  // else the person's view stays
@@ -128,7 +139,7 @@ void WebSession::pointer(int kind, double x, double y, int button, int keys, dou
   event.alt = (keys & 4) != 0;
   event.wheel = wheel;
   event.pressure = pressure;
-  tools_.handle(event, {viewport_, &frame_, body_}, camera_);
+  tools_.handle(event, {viewport_, &picture_.surface, body_}, picture_.camera);
   if (const auto stroke = tools_.take_stroke()) session_.follow(*stroke, tools_.tool());
   if (const auto stitch = tools_.take_stitch()) (void)session_.add_suture(stitch->rest_places, stitch->suture);
   set_hands();
@@ -207,10 +218,13 @@ bool WebSession::take_over() {
 }
 
 bool WebSession::refresh() {
-  const auto before = frame_.topology;
+  const auto before = picture_.surface.topology;
   follow();
-  const bool is_other = frame_.topology != before;
-  if (is_other) averages_.find_creases(frame_.topology->triangles, frame_.positions);
+  const bool is_other = picture_.surface.topology != before;
+  if (is_other) {
+    averages_.find_creases(picture_.surface.topology->triangles, picture_.surface.positions);
+    places_.find(picture_.surface);
+  }
   fill_corners();
   return is_other;
 }
@@ -218,24 +232,26 @@ bool WebSession::refresh() {
 void WebSession::follow() {
   const incise::TetMesh& mesh = session_.mesh();
   const incise::Journal& journal = session_.engine().journal();
-  if (fine_ && fine_->show(mesh, journal, frame_).ok()) return;
+  if (fine_ && fine_->show(mesh, journal, picture_.surface).ok()) return;
   fine_.reset();
   surface_.follow(mesh, journal);
-  surface_.fill(mesh, frame_);
+  surface_.fill(mesh, picture_.surface);
 }
 
 void WebSession::fill_corners() {
-  const app::SurfaceTopology& topology = *frame_.topology;
-  const std::vector<Eigen::Vector3f>& normals = averages_.average(topology.triangles, frame_.positions);
+  const app::SurfaceTopology& topology = *picture_.surface.topology;
+  const std::vector<Eigen::Vector3f>& normals = averages_.average(topology.triangles, picture_.surface.positions);
   positions_.clear();
   normals_.clear();
+  corner_places_.clear();
   looks_.clear();
   for (std::size_t i = 0; i < topology.triangles.size(); ++i) {
     const app::TriangleLook look = topology.looks[i];
     if ((look.flags & app::TriangleLook::kUnused) != 0) continue;
     for (const std::uint32_t point : topology.triangles[i]) {
-      positions_.push_back(frame_.positions[point]);
+      positions_.push_back(picture_.surface.positions[point]);
       normals_.push_back(normals[point]);
+      corner_places_.push_back(places_.of_points()[point]);
       looks_.push_back(look);
     }
   }
@@ -246,51 +262,68 @@ val WebSession::surface() const {
   surface.set("positions", view_of<float>(std::span(positions_)));
   surface.set("normals", view_of<float>(std::span(normals_)));
   surface.set("looks", view_of<std::uint8_t>(std::span(looks_)));
+  surface.set("places", view_of<float>(std::span(corner_places_)));
+  surface.set("extent", places_.extent());
+  surface.set("tissue", static_cast<int>(picture_.options.look));
   return surface;
 }
 
 val WebSession::camera() const {
   val camera = val::object();
-  camera.set("view", to_array(camera_.to_view()));
+  camera.set("view", to_array(picture_.camera.to_view()));
   camera.set("clip", to_array(app::to_clip(camera_, viewport_, body_)));
   return camera;
 }
 
-void WebSession::add_edges(const std::vector<std::array<std::uint32_t, 2>>& edges, std::size_t style, float width) {
-  for (const auto& [from, to] : edges) {
-    push(lines_, frame_.positions[from]);
-    push(lines_, frame_.positions[to]);
-    lines_.insert(lines_.end(), {static_cast<float>(style), width, 0});
-  }
+void WebSession::choose_color(int color) {
+  picture_.options.color =
+      static_cast<app::ColorBy>(std::clamp(color, 0, static_cast<int>(app::kColorNames.size()) - 1));
 }
 
 val WebSession::marks() {
-  app::Marks marks;
-  session_.draw(marks);
-  tools_.draw({viewport_, &frame_, body_}, camera_, marks);
-  lines_.clear();
-  balls_.clear();
-  triangles_.clear();
-  for (const app::Marks::Line& line : marks.lines) {
-    push(lines_, line.from);
-    push(lines_, line.to);
-    lines_.insert(lines_.end(), {static_cast<float>(line.ink), line.width, line.is_on_top ? 1.0F : 0.0F});
-  }
-  for (const app::Marks::Ball& ball : marks.balls) {
-    push(balls_, ball.centre);
-    balls_.insert(balls_.end(), {static_cast<float>(ball.ink), ball.radius, ball.is_in_pixels ? 1.0F : 0.0F});
-  }
-  for (const app::Marks::Triangle& triangle : marks.triangles) {
-    for (const Eigen::Vector3f& corner : triangle.corners) push(triangles_, corner);
-    triangles_.insert(triangles_.end(), {static_cast<float>(triangle.ink), triangle.opacity});
-  }
-  add_edges(frame_.topology->contour_edges, render::kContourStyle, kRimWidth);
-  add_edges(frame_.topology->front_edges, render::kFrontStyle, kFrontWidth);
+  picture_.marks = {};
+  session_.draw(picture_.marks);
+  tools_.draw({viewport_, &picture_.surface, body_}, picture_.camera, picture_.marks);
+  mark_rows_.gather(picture_);
+  solid_rows_.gather(picture_);
+  fill_rows();
   val value = val::object();
   value.set("lines", view_of<float>(std::span(std::as_const(lines_))));
   value.set("balls", view_of<float>(std::span(std::as_const(balls_))));
   value.set("triangles", view_of<float>(std::span(std::as_const(triangles_))));
+  value.set("solids", view_of<float>(std::span(std::as_const(solids_))));
+  value.set("solidCornersBeforeGhosts", static_cast<double>(solid_rows_.opaque()));
   return value;
+}
+
+/// Rows as the page has them: numbers of one kind.
+void WebSession::fill_rows() {
+  lines_.clear();
+  for (const render::MarkRows::Line& line : mark_rows_.lines()) {
+    push(lines_, line.from);
+    push(lines_, line.to);
+    lines_.push_back(line.width);
+    for (const std::uint32_t number : {line.style, line.depth, line.is_dashed}) {
+      lines_.push_back(static_cast<float>(number));
+    }
+  }
+  balls_.clear();
+  for (const render::MarkRows::Ball& ball : mark_rows_.balls()) {
+    push(balls_, ball.centre);
+    balls_.insert(balls_.end(), {ball.radius, static_cast<float>(ball.style), static_cast<float>(ball.is_in_pixels)});
+  }
+  triangles_.clear();
+  for (const render::MarkRows::Corner& corner : mark_rows_.corners()) {
+    push(triangles_, corner.at);
+    triangles_.insert(triangles_.end(), {corner.opacity, static_cast<float>(corner.style)});
+  }
+  solids_.clear();
+  for (const app::SolidCorner& corner : solid_rows_.corners()) {
+    push(solids_, corner.at);
+    push(solids_, corner.normal);
+    for (const std::uint8_t channel : corner.finish.color) solids_.push_back(static_cast<float>(channel) / 255);
+    solids_.push_back(corner.finish.gloss);
+  }
 }
 
 val WebSession::figures() const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,9 +12,13 @@
 #include "app/session/quality_monitor.h"
 #include "app/session/session.h"
 #include "app/view/fine_view.h"
+#include "app/view/picture.h"
 #include "app/view/surface_view.h"
 #include "folder.h"
+#include "render/mark_rows.h"
+#include "render/solid_rows.h"
 #include "render/surface_normals.h"
+#include "render/surface_places.h"
 #include "values.h"
 
 namespace incise_web {
@@ -57,9 +60,13 @@ class WebSession {
   /// Catches up with the mesh. Returns whether triangles changed.
   bool refresh();
   [[nodiscard]] val surface() const;
+  /// As the last call of `marks` left it: what that shows is not cut off.
   [[nodiscard]] val camera() const;
-  /// Marks of the hands and the scene, as rows of numbers.
+  /// Marks of the hands and the scene, as rows of numbers; instruments as triangles.
   [[nodiscard]] val marks();
+  /// What colours tell: a place in `app::kColorNames`.
+  [[nodiscard]] int color() const { return static_cast<int>(picture_.options.color); }
+  void choose_color(int color);
   [[nodiscard]] val figures() const;
   [[nodiscard]] val quality();
   [[nodiscard]] val log() const;
@@ -75,27 +82,32 @@ class WebSession {
   void set_hands();
   incise::Status bind_surface();
   void begin_anew();
+  void lay_drapes();
   void follow();
-  void add_edges(const std::vector<std::array<std::uint32_t, 2>>& edges, std::size_t style, float width);
   void fill_corners();
+  void fill_rows();
   void frame_camera();
 
   std::unique_ptr<Folder> folder_;
   incise::app::Session session_;
   incise::app::SurfaceView surface_;
   std::optional<incise::app::FineView> fine_;  // shown in its place where the scene has a fine surface
-  incise::app::SurfaceFrame frame_;
   incise::app::ToolMachine tools_;
   incise::app::HandQueue queue_;
-  incise::app::Camera camera_, framed_;  // as it is; as it last looked at the whole body
+  incise::app::Picture picture_;
+  incise::app::Camera framed_;  // as the picture's last looked at the whole body
   incise::app::Viewport viewport_;
   int free_height_ = viewport_.height;
   incise::app::QualityMonitor monitor_;
   incise::Box body_;
   incise::render::SurfaceNormals averages_;
-  std::vector<Eigen::Vector3f> positions_, normals_;  // per corner of a triangle in use
-  std::vector<incise::app::TriangleLook> looks_;      // likewise
-  std::vector<float> lines_, balls_, triangles_;      // rows
+  incise::render::SurfacePlaces places_;
+  incise::render::MarkRows mark_rows_;
+  incise::render::SolidRows solid_rows_;
+  std::vector<Eigen::Vector3f> positions_, normals_;       // per corner of a triangle in use
+  std::vector<Eigen::Vector4f> corner_places_;             // likewise
+  std::vector<incise::app::TriangleLook> looks_;           // likewise
+  std::vector<float> lines_, balls_, triangles_, solids_;  // rows
   double depth_share_ = 0.125;
 };
 

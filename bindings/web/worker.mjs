@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A session in a worker: questions with answers, pointer events, frames. `import { SessionWorker } from 'incise/worker'`;
 // what may be asked and what is told: worker.d.mts.
+import { watchLife } from './life.mjs';
+
 export class SessionWorker extends EventTarget {
   #worker;
   #waiting = new Map();
   #next = 1;
+  #endWatch = () => {};
 
   constructor() {
     super();
@@ -12,8 +15,18 @@ export class SessionWorker extends EventTarget {
     this.#worker.onmessage = ({ data }) => this.#hear(data);
     this.#worker.onerror = (event) => {
       event.preventDefault();
-      this.#tell('broken', { error: { message: event.message || 'the worker ended', code: 'Internal' } });
+      this.#break(event.message || 'the worker ended');
     };
+  }
+
+  /** Questions that wait for their answers. */
+  get waiting() {
+    return this.#waiting.size;
+  }
+
+  #break(message) {
+    this.end();
+    this.#tell('broken', { error: { message, code: 'Internal' } });
   }
 
   #tell(type, data) {
@@ -21,7 +34,10 @@ export class SessionWorker extends EventTarget {
   }
 
   #hear(data) {
-    if (data.type !== 'answer') return this.#tell(data.type, data);
+    if (data.type === 'alive') this.#endWatch = watchLife(data.lock, () => this.#break('the worker is gone'));
+    else if (data.type === 'broken') this.#break(data.error.message);
+    else if (data.type !== 'answer') return this.#tell(data.type, data);
+    if (data.type !== 'answer' || !this.#waiting.has(data.id)) return;
     const { resolve, reject } = this.#waiting.get(data.id);
     this.#waiting.delete(data.id);
     if (data.error) reject(Object.assign(new Error(data.error.message), { code: data.error.code }));
@@ -42,8 +58,10 @@ export class SessionWorker extends EventTarget {
 
   /** Ends the worker. What waits for an answer is told so. */
   end() {
+    this.#endWatch();
+    this.#worker.onmessage = this.#worker.onerror = null;
     this.#worker.terminate();
-    for (const { reject } of this.#waiting.values()) reject(new Error('the worker was ended'));
+    for (const { reject } of this.#waiting.values()) reject(Object.assign(new Error('the worker was ended'), { code: 'Ended' }));
     this.#waiting.clear();
   }
 }

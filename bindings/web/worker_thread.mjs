@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // What worker.mjs starts: a session that runs at the pace of the clock and shows its frames to the page.
 import { load } from './index.mjs';
+import { holdLife } from './life.mjs';
 
 const STILL_FRAMES = 20; // without motion, and the body is said to be at rest
 const STILL = 2e-5; // of the body's size, in a frame
 const IDLE_FRAMES = 600; // after the last hand, whatever still trembles
 const SPREAD = 3; // frames
 const REPLAY_SECONDS = 12; // that a recording takes at most
+const LATEST_MS = 50; // that frames make up for
+const PLAY_MS = 100; // at a time: what is asked for in between is answered
+const KEEP_SHARE = 0.05; // of the time, that recordings are written in
 
 let incise, session, size = 1, viewport = [960, 640, 640];
 let events = [], last, stillFrames = 0, replayed = false;
-let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, timer = 0, perFrame = 1;
+let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, timer = 0, due = 0, perFrame = 1;
+let isBusy = false, isUnseen = false, isKept = true, nextKeep = 0;
 let rate = { frames: 0, since: 0, value: 0, longest: 0 };
 
 const say = (type, data = {}, transfer = []) => postMessage({ type, ...data }, transfer);
@@ -34,10 +39,15 @@ function warmUp() {
   small.dispose();
 }
 
-function open({ bytes, name, files, up }) {
+function open({ bytes, name, files, up, resumes, isStill }) {
   const next = incise.Session.open(bytes, name, { files, up });
+  if (resumes) {
+    next.seek(next.place().calls);
+    next.takeOver();
+  }
   session?.dispose(); // only now: where the new one fails, the old one stays
   session = next;
+  isKept = true; // whoever opened it has it
   session.resize(...viewport);
   events = [];
   wake();
@@ -48,7 +58,8 @@ function open({ bytes, name, files, up }) {
   replayed = false;
   if (session.isReplay) {
     const calls = session.place().calls;
-    perFrame = Math.max(1, Math.ceil(calls / (60 * REPLAY_SECONDS)));
+    perFrame = isStill ? calls : Math.max(1, Math.ceil(calls / (60 * REPLAY_SECONDS)));
+    isUnseen = Boolean(isStill);
   }
   return { title: session.title, tets: session.figures().tets, isReplay: session.isReplay };
 }
@@ -88,24 +99,36 @@ function feed() {
   return taken.length > 0;
 }
 
+/** Plays a share of a recording. Returns whether it has ended. */
+function play() {
+  const began = performance.now();
+  for (let i = 0; i < perFrame && performance.now() - began < PLAY_MS; ++i) session.frame();
+  const { call, calls } = session.place();
+  return call >= calls;
+}
+
 function step() {
-  if (session.isReplay) {
-    for (let i = 0; i < perFrame; ++i) session.frame();
-    const { call, calls } = session.place();
-    if (call >= calls && !replayed) {
-      replayed = true;
-      say('replayed', { verdict: session.log().at(-1) ?? '', hash: session.hash });
-      session.takeOver();
-    }
-  } else {
-    session.frame();
+  if (!session.isReplay) session.frame();
+  else if (play() && !replayed) {
+    replayed = true;
+    say('replayed', { verdict: session.log().at(-1) ?? '', hash: session.hash });
+    session.takeOver();
   }
   if (session.refresh()) hasNewTriangles = true;
 }
 
+/** Tells the page the recording, from which another worker could go on. */
+function keep() {
+  if (isKept || performance.now() < nextKeep) return;
+  const began = performance.now(), recording = session.recording();
+  isKept = true;
+  nextKeep = performance.now() + (performance.now() - began) / KEEP_SHARE;
+  say('kept', { recording }, [recording.buffer]);
+}
+
 function show(withSurface) {
   isWanted = false;
-  const data = { camera: session.camera(), figures: session.figures(), isReplay: session.isReplay, isAwake };
+  const data = { figures: session.figures(), isReplay: session.isReplay, isAwake, color: incise.colors.indexOf(session.color) };
   if (session.isReplay) data.place = session.place();
   data.figures.rate = rate.value;
   data.figures.longestFrameMs = rate.longest;
@@ -116,11 +139,16 @@ function show(withSurface) {
     return copy;
   };
   const marks = session.marks();
-  data.marks = { lines: take(marks.lines), balls: take(marks.balls), triangles: take(marks.triangles) };
+  data.marks = { solidCornersBeforeGhosts: marks.solidCornersBeforeGhosts };
+  for (const kind of ['lines', 'balls', 'triangles', 'solids']) data.marks[kind] = take(marks[kind]);
+  data.camera = session.camera();
   if (withSurface || hasNewTriangles) {
     const surface = session.surface();
     data.surface = { positions: take(surface.positions), normals: take(surface.normals) };
-    if (hasNewTriangles) data.surface.looks = take(surface.looks);
+    if (hasNewTriangles) {
+      const { extent, tissue } = surface;
+      Object.assign(data.surface, { looks: take(surface.looks), places: take(surface.places), extent, tissue });
+    }
     hasNewTriangles = false;
   }
   say('frame', data, transfer);
@@ -137,33 +165,45 @@ function count(ms) {
   }
 }
 
+/** After these nothing of the module can be trusted: memory is out, or a bug. */
+const isFatal = (error) => error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+
 let hasMoved = true;
-function tick() {
+/** One frame of a session that is awake. */
+function advance() {
   const began = performance.now();
-  let pause = 16;
-  if (session && isShown) {
-    try {
-      const hadEvents = feed();
-      if (session.isBusy || session.isReplay) wake();
-      if (isAwake) {
-        pause = 1000 * session.figures().frameSeconds;
-        step();
-        const { positions } = session.surface();
-        stillFrames = moves(positions) ? 0 : stillFrames + 1;
-        last = positions.slice();
-        hasMoved = true;
-        if (stillFrames > STILL_FRAMES || ++idleFrames > IDLE_FRAMES) isAwake = false;
-        count(performance.now() - began);
-      }
-      if (isWanted && (hasMoved || hadEvents || hasNewTriangles)) {
-        show(hasMoved);
-        hasMoved = false;
-      }
-    } catch (error) {
-      say('failed', { error: errorOf(error) });
-    }
+  step();
+  const { positions } = session.surface();
+  stillFrames = moves(positions) ? 0 : stillFrames + 1;
+  last = positions.slice();
+  hasMoved = true;
+  if (stillFrames > STILL_FRAMES || ++idleFrames > IDLE_FRAMES) isAwake = isKept = false;
+  count(performance.now() - began);
+}
+
+function goOn() {
+  const hadEvents = feed();
+  if (session.isBusy || session.isReplay) wake();
+  if (session.isBusy !== isBusy) isKept = false; // a drag began or ended
+  isBusy = session.isBusy;
+  if (isAwake) advance();
+  if (!session.isBusy && !session.isReplay) keep();
+  if (!isWanted || (isUnseen && session.isReplay) || !(hasMoved || hadEvents || hasNewTriangles)) return;
+  show(hasMoved);
+  hasMoved = false;
+}
+
+/** Frames keep the beat of the clock: a late one does not delay those after it, unless it was so late that they would be a rush. */
+function tick() {
+  try {
+    if (session && isShown) goOn();
+  } catch (error) {
+    if (isFatal(error)) return say('broken', { error: errorOf(error) });
+    say('failed', { error: errorOf(error) });
   }
-  timer = setTimeout(tick, Math.max(0, pause - (performance.now() - began)));
+  const now = performance.now();
+  due = Math.max(due + (session ? 1000 * session.figures().frameSeconds : 16), now - LATEST_MS);
+  timer = setTimeout(tick, Math.max(0, due - now));
 }
 
 const answers = {
@@ -181,37 +221,43 @@ const answers = {
   recording: () => session.recording(),
   write: ({ extension }) => session.write(extension),
   look: ({ theme }) => incise.look(theme),
-  memory: () => performance.memory?.usedJSHeapSize ?? 0,
+  color: ({ name }) => act(() => (session.color = name)),
+  memory: () => incise.memory(),
+  isKept: () => isKept,
+  events: (list) => void events.push(...list),
+  resize: (size) => {
+    viewport = size;
+    session?.resize(...viewport);
+    hasMoved = true;
+  },
 };
 
 function act(what) {
   const result = what();
   wake();
+  isKept = false;
   if (session.refresh()) hasNewTriangles = true;
   hasMoved = true;
   return result;
 }
 
 onmessage = ({ data }) => {
-  if (data.type === 'events') {
-    events.push(...data.events);
-  } else if (data.type === 'want') {
+  if (data.type === 'want') {
     isWanted = true;
+    hasNewTriangles ||= Boolean(data.isWhole);
   } else if (data.type === 'shown') {
     isShown = data.isShown;
-  } else if (data.type === 'resize') {
-    viewport = data.size;
-    session?.resize(...viewport);
-    hasMoved = true;
   } else if (data.type === 'ask') {
     try {
       say('answer', { id: data.id, value: answers[data.what](data.with ?? {}) });
     } catch (error) {
-      say('answer', { id: data.id, error: errorOf(error) });
+      if (isFatal(error)) say('broken', { error: errorOf(error) });
+      else say('answer', { id: data.id, error: errorOf(error) });
     }
   }
 };
 
+holdLife((lock) => say('alive', { lock }));
 try {
   incise = await load();
   say('loaded', { version: incise.version, look: incise.look('dark') });

@@ -15,8 +15,9 @@ inline namespace v0 {
 namespace render {
 namespace {
 
-constexpr float kFrontWidth = 1.6F, kContourWidth = 0.6F;  // pixels
-constexpr float kMostPixels = 1024;                        // of widths and radii
+using Line = MarkRows::Line;
+using Ball = MarkRows::Ball;
+using Corner = MarkRows::Corner;
 
 /// How an array of instances (`divisor` 1) or vertices (0) is laid out.
 class Layout {
@@ -46,14 +47,6 @@ class Layout {
   GLsizei stride_;
   unsigned divisor_;
 };
-
-std::uint32_t style_of(app::Ink ink) {
-  return std::min(static_cast<std::uint32_t>(ink), static_cast<std::uint32_t>(kInks - 1));
-}
-
-float in_pixels(float size) {
-  return size > 0 ? std::min(size, kMostPixels) : 1.0F;
-}
 
 void set_styles(const GlObject& program, app::Theme theme) {
   const auto styles = ink_styles(theme);
@@ -111,70 +104,17 @@ void MarksPass::set_up() {
   glBindVertexArray(0);
 }
 
-void MarksPass::gather_lines(const app::Picture& picture) {
-  lines_.clear();
-  const app::SurfaceFrame& surface = picture.surface;
-  // Beside tissue that looks like tissue a line of the mesh's would be out of place.
-  const bool is_mesh = picture.options.color != app::ColorBy::kTissue || picture.options.shows_wireframe;
-  if (surface.topology && picture.options.shows_front && is_mesh) {
-    for (const auto& [from, to] : surface.topology->front_edges) {
-      if (from >= surface.positions.size() || to >= surface.positions.size()) continue;
-      lines_.push_back({surface.positions[from], surface.positions[to], kFrontWidth, kFrontStyle, 0, 0});
-    }
-  }
-  if (surface.topology && picture.options.shows_surface) {
-    for (const auto& [from, to] : surface.topology->contour_edges) {
-      if (from >= surface.positions.size() || to >= surface.positions.size()) continue;
-      lines_.push_back({surface.positions[from], surface.positions[to], kContourWidth, kContourStyle, 2, 0});
-    }
-  }
-  const bool has_instruments = !picture.marks.instruments.empty();
-  for (const app::Marks::Line& line : picture.marks.lines) {
-    // The instrument itself is seen; of its edge only what is inside the tissue is not.
-    const bool is_inside = has_instruments && line.is_on_top && line.ink == app::Ink::kBlade;
-    const std::uint32_t depth = is_inside ? 3 : line.is_on_top ? 1 : 0;
-    lines_.push_back({line.from, line.to, in_pixels(line.width), style_of(line.ink), depth, line.is_dashed ? 1U : 0U});
-  }
-}
-
-void MarksPass::gather_balls(const app::Marks& marks) {
-  balls_.clear();
-  for (const app::Marks::Ball& ball : marks.balls) {
-    const float radius = ball.is_in_pixels ? in_pixels(ball.radius) : ball.radius;
-    balls_.push_back({ball.centre, radius, style_of(ball.ink), ball.is_in_pixels ? 1U : 0U});
-  }
-}
-
-void MarksPass::gather_corners(const app::Picture& picture) {
-  const std::vector<app::Marks::Triangle>& triangles = picture.marks.triangles;
-  const Eigen::Vector3f towards_eye = picture.camera.backward().cast<float>();
-  order_.clear();
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto& [a, b, c] = triangles[i].corners;
-    order_.emplace_back(towards_eye.dot(a + b + c), static_cast<std::uint32_t>(i));
-  }
-  // NaNs would break the order that sorting asks for.
-  std::erase_if(order_, [](const auto& one) { return !(one.first == one.first); });
-  std::sort(order_.begin(), order_.end());
-  corners_.clear();
-  for (const auto& [depth, i] : order_) {
-    const app::Marks::Triangle& triangle = triangles[i];
-    for (const Eigen::Vector3f& at : triangle.corners) {
-      corners_.push_back({at, triangle.opacity, style_of(triangle.ink)});
-    }
-  }
-}
-
 void MarksPass::upload(const app::Picture& picture, DrawStatistics& statistics) {
   ThreadTimer watch;
-  gather_lines(picture);
-  gather_balls(picture.marks);
-  gather_corners(picture);
-  statistics.marks = lines_.size() + balls_.size() + corners_.size() / 3;
+  rows_.gather(picture);
+  const std::vector<Line>& lines = rows_.lines();
+  const std::vector<Ball>& balls = rows_.balls();
+  const std::vector<Corner>& corners = rows_.corners();
+  statistics.marks = lines.size() + balls.size() + corners.size() / 3;
   statistics.compare_ms += watch.lap();
-  statistics.bytes_uploaded += line_buffer_.update(lines_.data(), lines_.size(), sizeof(Line));
-  statistics.bytes_uploaded += ball_buffer_.update(balls_.data(), balls_.size(), sizeof(Ball));
-  statistics.bytes_uploaded += corner_buffer_.update(corners_.data(), corners_.size(), sizeof(Corner));
+  statistics.bytes_uploaded += line_buffer_.update(lines.data(), lines.size(), sizeof(Line));
+  statistics.bytes_uploaded += ball_buffer_.update(balls.data(), balls.size(), sizeof(Ball));
+  statistics.bytes_uploaded += corner_buffer_.update(corners.data(), corners.size(), sizeof(Corner));
   statistics.upload_ms += watch.lap();
 }
 
@@ -189,21 +129,21 @@ void MarksPass::use(const GlObject& program, app::Theme theme, const ViewMatrice
 }
 
 void MarksPass::draw_corners(app::Theme theme, const ViewMatrices& view) const {
-  if (corners_.empty()) return;
+  if (rows_.corners().empty()) return;
   use(fill_program_, theme, view);
   glBindVertexArray(corner_array_.id());
   glDepthMask(GL_FALSE);
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners_.size()));
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(rows_.corners().size()));
   glDepthMask(GL_TRUE);
 }
 
 void MarksPass::draw_lines(app::Theme theme, const ViewMatrices& view) const {
-  if (lines_.empty()) return;
+  if (rows_.lines().empty()) return;
   use(line_program_, theme, view);
   glBindVertexArray(line_array_.id());
-  const auto count = static_cast<GLsizei>(lines_.size());
-  if (std::any_of(lines_.begin(), lines_.end(),
-                  [](const Line& line) { return line.is_top == 1 || line.is_top == 3; })) {
+  const auto count = static_cast<GLsizei>(rows_.lines().size());
+  if (std::any_of(rows_.lines().begin(), rows_.lines().end(),
+                  [](const Line& line) { return line.depth == 1 || line.depth == 3; })) {
     glUniform1i(location(line_program_, "is_behind"), 1);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);
@@ -216,10 +156,10 @@ void MarksPass::draw_lines(app::Theme theme, const ViewMatrices& view) const {
 }
 
 void MarksPass::draw_balls(app::Theme theme, const ViewMatrices& view) const {
-  if (balls_.empty()) return;
+  if (rows_.balls().empty()) return;
   use(ball_program_, theme, view);
   glBindVertexArray(ball_array_.id());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(balls_.size()));
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rows_.balls().size()));
 }
 
 void MarksPass::draw(app::Theme theme, const ViewMatrices& view) const {

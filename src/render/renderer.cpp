@@ -10,6 +10,7 @@
 #include "render/canvas.h"
 #include "render/marks_pass.h"
 #include "render/occlusion_pass.h"
+#include "render/scene_box.h"
 #include "render/shadow_pass.h"
 #include "render/solids_pass.h"
 #include "render/surface_pass.h"
@@ -23,9 +24,8 @@ namespace render {
 namespace {
 
 constexpr unsigned kMostSamples = 16;
-constexpr int kVersion = 33;               // of OpenGL
-constexpr double kInstrumentLength = 140;  // mm, at most
-constexpr float kShadowReach = 1.25F;      // of the body's half diagonal
+constexpr int kVersion = 33;           // of OpenGL
+constexpr float kShadowReach = 1.25F;  // of the body's half diagonal
 
 Error bad_argument(const std::string& what) {
   return {ErrorCode::kBadArgument, what, {}};
@@ -49,28 +49,6 @@ Status check_options(const app::ViewOptions& options) {
   return bad_argument("the skin's opacity must be above 0 and at most 1");
 }
 
-/// Grows by what marks show, so that planes of the view do not cut them off. What is not finite is left out.
-void extend(Box& box, const Eigen::Vector3f& at, float radius = 0) {
-  if (!at.allFinite() || !std::isfinite(radius)) return;
-  box.extend(Vec3(at.cast<double>() - Vec3::Constant(radius)));
-  box.extend(Vec3(at.cast<double>() + Vec3::Constant(radius)));
-}
-
-void extend(Box& box, const app::Marks& marks) {
-  for (const auto& line : marks.lines) {
-    extend(box, line.from);
-    extend(box, line.to);
-  }
-  for (const auto& ball : marks.balls) extend(box, ball.centre, ball.is_in_pixels ? 0 : ball.radius);
-  for (const auto& triangle : marks.triangles) {
-    for (const auto& corner : triangle.corners) extend(box, corner);
-  }
-  // What is nearer than the body must not be cut off.
-  for (const auto& one : marks.instruments) {
-    extend(box, one.tip.cast<float>(), static_cast<float>(kInstrumentLength * one.millimetre));
-  }
-}
-
 double size_of(const Box& box, const app::Camera& camera) {
   const double size = box.is_empty() ? 0 : (box.hi - box.lo).norm();
   return size > 0 ? size : camera.distance;
@@ -82,11 +60,7 @@ bool has_shadows(const app::ViewOptions& options) {
 }
 
 Result<ViewMatrices> make_view(const app::Picture& picture, const app::Viewport& viewport, const Box& body) {
-  Box scene = body;
-  extend(scene, picture.marks);
-  if (picture.ground) {
-    for (const app::SolidCorner& corner : *picture.ground) extend(scene, corner.at);
-  }
+  const Box scene = box_of_all(picture, body);
   ViewMatrices view;
   view.to_view = picture.camera.to_view().cast<float>();
   view.to_clip = to_clip(picture.camera, viewport, scene).cast<float>();

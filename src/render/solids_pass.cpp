@@ -3,7 +3,6 @@
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
 #include <string>
 
 #include "render/solid_shaders.h"
@@ -51,25 +50,10 @@ void SolidsPass::set_up() {
 
 void SolidsPass::upload(const app::Picture& picture, DrawStatistics& statistics) {
   ThreadTimer watch;
-  corners_.clear();
-  if (picture.ground) corners_ = *picture.ground;
-  ground_ = corners_.size();
-  for (const bool is_ghost : {false, true}) {
-    for (const app::Instrument& instrument : picture.marks.instruments) {
-      if (instrument.is_ghost == is_ghost) add_solid(instrument, corners_);
-    }
-    if (!is_ghost) opaque_ = corners_.size();
-  }
-  // A place that is not finite would take its triangle over the whole picture.
-  const auto is_sound = [](const app::SolidCorner& corner) {
-    return corner.at.allFinite() && corner.normal.allFinite();
-  };
-  if (!std::all_of(corners_.begin(), corners_.end(), is_sound)) {
-    corners_.clear();
-    ground_ = opaque_ = 0;
-  }
+  rows_.gather(picture);
+  const std::vector<app::SolidCorner>& corners = rows_.corners();
   statistics.compare_ms += watch.lap();
-  statistics.bytes_uploaded += buffer_.update(corners_.data(), corners_.size(), sizeof(app::SolidCorner));
+  statistics.bytes_uploaded += buffer_.update(corners.data(), corners.size(), sizeof(app::SolidCorner));
   statistics.upload_ms += watch.lap();
 }
 
@@ -81,17 +65,17 @@ void SolidsPass::use(const GlObject& program, const ViewMatrices& view) const {
 }
 
 void SolidsPass::draw_opaque(const ViewMatrices& view, const ShadowPass* shadows) const {
-  if (opaque_ == 0) return;
+  if (rows_.opaque() == 0) return;
   use(shadows != nullptr ? shadowed_ : plain_, view);
   if (shadows != nullptr) shadows->bind(shadowed_, kShadowUnit);
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(opaque_));
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(rows_.opaque()));
 }
 
 void SolidsPass::draw_ghosts(const ViewMatrices& view) const {
-  if (corners_.size() == opaque_) return;
+  if (rows_.corners().size() == rows_.opaque()) return;
   use(plain_, view);
-  const auto first = static_cast<GLint>(opaque_);
-  const auto count = static_cast<GLsizei>(corners_.size() - opaque_);
+  const auto first = static_cast<GLint>(rows_.opaque());
+  const auto count = static_cast<GLsizei>(rows_.corners().size() - rows_.opaque());
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glDrawArrays(GL_TRIANGLES, first, count);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -101,9 +85,10 @@ void SolidsPass::draw_ghosts(const ViewMatrices& view) const {
 }
 
 void SolidsPass::draw_shadows() const {
-  if (corners_.size() == ground_) return;
+  if (rows_.corners().size() == rows_.ground()) return;
   glBindVertexArray(array_.id());
-  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(ground_), static_cast<GLsizei>(corners_.size() - ground_));
+  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(rows_.ground()),
+               static_cast<GLsizei>(rows_.corners().size() - rows_.ground()));
 }
 
 }  // namespace render

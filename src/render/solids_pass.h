@@ -10,6 +10,7 @@
 #include "render/mirrored_buffer.h"
 #include "render/renderer.h"
 #include "render/shadow_pass.h"
+#include "render/solid_rows.h"
 #include "render/view_matrices.h"
 
 namespace incise {
@@ -30,7 +31,7 @@ class SolidsPass {
   /// Depths of what throws shadows: instruments, opaque or not.
   void draw_shadows() const;
 
-  [[nodiscard]] bool is_empty() const { return corners_.empty(); }
+  [[nodiscard]] bool is_empty() const { return rows_.corners().empty(); }
 
  private:
   void set_up();
@@ -39,8 +40,7 @@ class SolidsPass {
   GlObject plain_, shadowed_;  // programs
   GlObject array_;
   MirroredBuffer buffer_;
-  std::vector<app::SolidCorner> corners_;  // opaque ones, then ghosts
-  std::size_t ground_ = 0, opaque_ = 0;    // corners of the ground, which come first; of all that is opaque
+  SolidRows rows_;
 };
 
 }  // namespace render

@@ -3,7 +3,6 @@
 
 #include <epoxy/gl.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -12,6 +11,7 @@
 
 #include "app/view/color_map.h"
 #include "render/ink_style.h"
+#include "render/noise.h"
 #include "render/surface_shaders.h"
 #include "render/thread_timer.h"
 
@@ -21,17 +21,10 @@ namespace render {
 namespace {
 
 constexpr int kPaletteWidth = 256;
-constexpr int kNoiseSide = 32;
 enum Unit : int { kLooksUnit, kPaletteUnit, kNoiseUnit, kShadowUnit };
 
-/// Random values on a grid, smoothed by the filter of the texture.
 GlObject make_noise() {
-  std::vector<unsigned char> values(std::size_t{kNoiseSide} * kNoiseSide * kNoiseSide);
-  std::uint32_t state = 1;
-  for (unsigned char& value : values) {
-    state = state * 1664525U + 1013904223U;  // the high bits of it are random enough for tissue
-    value = static_cast<unsigned char>(state >> 24U);
-  }
+  const std::vector<std::uint8_t> values = noise_values();
   GlObject noise = make_texture();
   glBindTexture(GL_TEXTURE_3D, noise.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -143,8 +136,9 @@ Status SurfacePass::upload(const app::SurfaceFrame& frame, DrawStatistics& stati
   const bool is_new = frame.topology != topology_;
   if (is_new) {
     bytes += triangles_.update(topology.triangles.data(), topology.triangles.size(), sizeof topology.triangles[0]);
-    find_places(frame);
-    bytes += places_.update(place_of_.data(), place_of_.size(), sizeof place_of_[0]);
+    place_of_.find(frame);
+    const std::vector<Eigen::Vector4f>& places = place_of_.of_points();
+    bytes += places_.update(places.data(), places.size(), sizeof places[0]);
     look_bytes = looks_.update(topology.looks.data(), topology.looks.size(), sizeof(app::TriangleLook));
   }
   topology_ = frame.topology;
@@ -163,21 +157,6 @@ Status SurfacePass::upload(const app::SurfaceFrame& frame, DrawStatistics& stati
   return {};
 }
 
-/// A surface without a rest shape is at rest as it is first seen.
-void SurfacePass::find_places(const app::SurfaceFrame& frame) {
-  const app::SurfaceTopology& topology = *frame.topology;
-  const std::size_t points = frame.positions.size();
-  const std::vector<Eigen::Vector3f>& rest = topology.rest.size() == points ? topology.rest : frame.positions;
-  Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& at : rest) box.extend(at);
-  extent_ = box.isEmpty() || !(box.diagonal().norm() > 0) ? 1.0F : box.diagonal().norm();
-  place_of_.resize(points);
-  for (std::size_t i = 0; i < points; ++i) {
-    const float depth = topology.depths.size() == points ? topology.depths[i] : 0.0F;
-    place_of_[i] << rest[i] / extent_, depth / extent_;
-  }
-}
-
 void SurfacePass::use(const GlObject& program, const app::ViewOptions& options, const ViewMatrices& view,
                       Only only) const {
   const Grounds grounds = grounds_of(options.theme);
@@ -194,7 +173,7 @@ void SurfacePass::use(const GlObject& program, const app::ViewOptions& options, 
   glUniform1i(location(program, "is_flat_light"), options.color == app::ColorBy::kTissue ? 0 : 1);
   glUniform1f(location(program, "opacity"), only == Only::kSkin ? static_cast<float>(options.skin_opacity) : 1.0F);
   glUniform1f(location(program, "rim"), grounds.rim);
-  glUniform1f(location(program, "extent"), extent_);
+  glUniform1f(location(program, "extent"), place_of_.extent());
   glUniform1i(location(program, "noise"), kNoiseUnit);
   glUniform3f(location(program, "lone_wire"), options.shows_surface ? -1.0F : grounds.lone_wire[0],
               grounds.lone_wire[1], grounds.lone_wire[2]);

@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "render/shadow_pass.h"
 #include "render/surface_normals.h"
+#include "render/surface_places.h"
 #include "render/view_matrices.h"
 
 namespace incise {
@@ -46,12 +47,10 @@ class SurfacePass {
 
   GlObject all_, some_, wire_;         // programs; `some_` leaves triangles out
   GlObject all_shaded_, some_shaded_;  // with shadows
-  void find_places(const app::SurfaceFrame& frame);
 
   GlObject array_, palette_, noise_, looks_texture_;
   MirroredBuffer positions_, normals_, places_, triangles_, looks_;
-  std::vector<Eigen::Vector4f> place_of_;  // per point: in the rest shape, and its depth, in extents of the body
-  float extent_ = 1;                       // of the body at rest, length units
+  SurfacePlaces place_of_;
   SurfaceNormals averages_;
   std::shared_ptr<const app::SurfaceTopology> topology_;  // as uploaded
   int most_looks_ = 0;

@@ -36,7 +36,7 @@ export async function serve(folder) {
 export const executablePath = ['/usr/bin/chromium', '/usr/bin/google-chrome'].find(existsSync);
 
 /** Starts Chromium. It draws by the processor, so that machines without a graphics processor can run this. */
-export function launch() {
+export function launch(...flags) {
   const { chromium } = createRequire(at('web/package.json'))('playwright-core');
-  return chromium.launch({ executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--js-flags=--expose-gc'] });
+  return chromium.launch({ executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--js-flags=--expose-gc', ...flags] });
 }

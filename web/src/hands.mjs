@@ -8,10 +8,13 @@ export class Hands {
   #gesture = null;
   #events = [];
   #down = null; // the button of a drag
+  #tell;
 
-  constructor(canvas) {
-    this.canvas = canvas;
-    const hear = (type, what, options) => canvas.addEventListener(type, what, options);
+  /** @param tell  that there is something to take */
+  constructor(place, tell) {
+    this.place = place;
+    this.#tell = tell;
+    const hear = (type, what, options) => place.addEventListener(type, what, options);
     hear('pointerdown', (event) => this.#press(event));
     hear('pointermove', (event) => this.#move(event));
     hear('pointerup', (event) => this.#release(event));
@@ -24,15 +27,21 @@ export class Hands {
     return this.#events.splice(0);
   }
 
+  /** An event at a place of the picture. */
+  put(kind, x, y, options) {
+    this.#events.push([kind, x, y, options]);
+    this.#tell();
+  }
+
   #add(kind, event, options = {}) {
-    const { left, top } = this.canvas.getBoundingClientRect();
+    const { left, top } = this.place.getBoundingClientRect();
     const keys = { shift: event.shiftKey, control: event.ctrlKey, alt: event.altKey };
     const pressure = event.pointerType === 'pen' ? event.pressure : 1;
-    this.#events.push([kind, event.clientX - left, event.clientY - top, { ...keys, pressure, ...options }]);
+    this.put(kind, event.clientX - left, event.clientY - top, { ...keys, pressure, ...options });
   }
 
   #press(event) {
-    this.canvas.setPointerCapture(event.pointerId);
+    this.place.setPointerCapture(event.pointerId);
     if (event.pointerType === 'touch') {
       this.#fingers.set(event.pointerId, event);
       if (this.#fingers.size === 2) return this.#beginGesture(event);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: controls, files and links around a session that runs in a worker.
-import { SessionWorker } from 'incise/worker';
-import { drawHistogram } from './histogram.mjs';
+import { Drawing } from './drawing.mjs';
 import { Hands } from './hands.mjs';
 import { icon } from './icons.mjs';
+import { Keeper } from './keeper.mjs';
+import { KeyHand } from './keyboard.mjs';
 import { LONGEST_LINK, fromFragment, toFragment } from './link.mjs';
-import { Picture } from './picture.mjs';
+import { Frames, batches, inTurn, newest } from './pacing.mjs';
+import { Panel } from './panel.mjs';
 import bodies from '../bodies.json';
 
 const $ = (id) => document.getElementById(id);
@@ -21,15 +23,24 @@ const TOOLS = [
 const LARGEST_FILE = 200e6; // bytes; a mesh of some two million tets
 
 /** For tests and the curious: what the page measured of itself. */
-const measured = (window.incise = { state: 'loading', failures: [], frames: 0, longestBlockMs: 0, longestBlockLoadingMs: 0, drawMs: 0 });
+const measured = (window.incise = {
+  state: 'loading', failures: [], frames: 0, longestBlockMs: 0, longestBlockLoadingMs: 0, mostWaiting: 0, replacements: 0, drawingReplaced: 0,
+  get engine() {
+    return keeper.engine;
+  },
+});
 
-let engine, picture, hands, look, tool = 'Scalpel', theme, isReady = false, hasFrame = false;
-let opened = { id: '', isReplay: false }, hintTimer = 0, shownAt = 0;
+const keeper = new Keeper(), panel = new Panel((what) => ask(what));
+const ask = (what, data) => keeper.engine.ask(what, data);
+const hintOf = (name) => TOOLS.find((each) => each.name === name).hint;
+
+let drawing, frames, hands, tool = 'Scalpel', theme, isReady = false, hasFrame = false;
+let opened = { id: '', isReplay: false }, hintTimer = 0;
 
 function say(text, seconds = 0) {
   $('hint').textContent = text;
   clearTimeout(hintTimer);
-  if (seconds > 0) hintTimer = setTimeout(() => say(TOOLS.find((each) => each.name === tool).hint), 1000 * seconds);
+  if (seconds > 0) hintTimer = setTimeout(() => say(hintOf(tool)), 1000 * seconds);
 }
 
 /** Instead of the page: why it cannot work, and what to do. */
@@ -42,6 +53,7 @@ function cover(text, remedy, label, action) {
 }
 
 function failed(error) {
+  if (error.code === 'Ended') return; // of a worker that died, which is told of by itself
   measured.failures.push(error.message);
   say(`That did not work: ${error.message}`, 12);
 }
@@ -54,10 +66,9 @@ async function setTheme(next) {
   try {
     localStorage.setItem('incise-theme', next);
   } catch { /* a page without storage */ }
-  if (!picture) return;
-  look = await engine.ask('look', { theme: next });
-  picture.setLook(look);
-  refreshFigures();
+  if (!drawing) return;
+  drawing.setLook(await ask('look', { theme: next }));
+  panel.refresh().catch(failed);
 }
 
 function firstTheme() {
@@ -86,19 +97,36 @@ async function fetchParts(body) {
 async function open(what, id) {
   say('Opening…');
   measured.state = 'opening';
-  const info = await engine.ask('open', what);
+  const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
+  try {
+    take(await keeper.open({ ...what, isStill }), id);
+  } catch (error) {
+    if (hasFrame) measured.state = 'ready'; // what was there is there still
+    throw error;
+  }
+  await setUp();
+  if (opened.isReplay) say(isStill ? 'Playing the recording; its end is shown.' : 'Playing the recording of a link or file.');
+  else say(`${measured.tets.toLocaleString('en')} tets. ${hintOf(tool)}`);
+}
+
+/** A session is there. */
+function take(info, id) {
   opened = { id, isReplay: info.isReplay };
-  measured.body = id;
+  Object.assign(measured, { body: id, tets: info.tets });
   $('replay').hidden = !info.isReplay;
   isReady = true;
-  await engine.ask('tool', { name: tool });
-  await engine.ask('depth', { share: Number($('depth').value) });
-  if (info.isReplay) say('Playing the recording of a link or file.');
-  else say(`${info.tets.toLocaleString('en')} tets. ${TOOLS.find((each) => each.name === tool).hint}`);
   hasFrame = false;
-  engine.send({ type: 'want' });
-  refreshFigures();
 }
+
+/** What hands chose holds for a session that is new, too. */
+async function setUp() {
+  await Promise.all([ask('tool', { name: tool }), ask('depth', { share: Number($('depth').value) })]);
+  if ($('color').value !== 'scene') await ask('color', { name: $('color').value });
+  want();
+  await panel.refresh();
+}
+
+const want = (isWhole = false) => keeper.engine.send({ type: 'want', isWhole });
 
 async function openBody(id) {
   const body = bodies.find((each) => each.id === id) ?? bodies[0];
@@ -133,7 +161,7 @@ async function openLink(found) {
 }
 
 async function share() {
-  const recording = await engine.ask('recording');
+  const recording = await ask('recording');
   const fragment = await toFragment(opened.id, recording);
   if (opened.id === '' || fragment.length > LONGEST_LINK) {
     save(new Blob([recording]), 'incise-recording.jsonl');
@@ -154,20 +182,8 @@ function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
 }
 
-/** The picture with the page's ground behind it. */
-function screenshot() {
-  picture.draw();
-  const source = picture.renderer.domElement;
-  const sheet = Object.assign(document.createElement('canvas'), { width: source.width, height: source.height });
-  const pen = sheet.getContext('2d');
-  const ground = pen.createLinearGradient(0, 0, 0, sheet.height);
-  const style = getComputedStyle(document.documentElement);
-  ground.addColorStop(0, style.getPropertyValue('--top'));
-  ground.addColorStop(1, style.getPropertyValue('--bottom'));
-  pen.fillStyle = ground;
-  pen.fillRect(0, 0, sheet.width, sheet.height);
-  pen.drawImage(source, 0, 0);
-  sheet.toBlob((blob) => save(blob, 'incise.png'));
+async function screenshot() {
+  save(await drawing.shoot(), 'incise.png');
 }
 
 // --- tools and acts
@@ -181,16 +197,18 @@ function choose(name) {
   }
   $('picture').style.cursor = name === 'Orbit' ? 'grab' : 'crosshair';
   if (!isReady) return;
-  engine.ask('tool', { name }).catch(failed);
-  say(TOOLS.find((each) => each.name === name).hint);
+  ask('tool', { name }).catch(failed);
+  say(hintOf(name));
 }
 
-async function act(what) {
+const turns = inTurn();
+
+async function act(what, isRepeat) {
   if (!isReady) return;
-  const done = await engine.ask(what).catch(failed);
+  const turn = turns(() => ask(what), isRepeat);
+  const done = await turn?.catch(failed);
   if (done === false && what !== 'cancel') say(what === 'undo' ? 'Nothing to take back.' : 'Nothing to make again.', 3);
-  engine.send({ type: 'want' });
-  setTimeout(refreshFigures, 50);
+  panel.refresh().catch(failed);
 }
 
 function makeTools() {
@@ -221,13 +239,15 @@ function toggle(id) {
     $(other).hidden = other !== id || !isShown;
     $(`${other}-button`).setAttribute('aria-expanded', !$(other).hidden);
   }
-  refreshFigures();
+  panel.refresh().catch(failed);
 }
 
 function changeDepth(by) {
   $('depth').value = Number($('depth').value) + by;
   $('depth').oninput();
 }
+
+const sendDepth = newest((share) => ask('depth', { share }).catch(failed));
 
 const KEYS = {
   ...Object.fromEntries(TOOLS.map(({ name }, i) => [i + 1, () => choose(name)])),
@@ -243,7 +263,7 @@ function onKey(event) {
     const what = key === 'z' ? (event.shiftKey ? 'redo' : 'undo') : key === 'y' ? 'redo' : null;
     if (!what) return;
     event.preventDefault();
-    return act(what);
+    return act(what, event.repeat);
   }
   if (event.altKey || !KEYS[key]) return;
   event.preventDefault();
@@ -259,13 +279,13 @@ function hearControls() {
   hear('figures-button', () => toggle('figures'));
   hear('help-button', () => toggle('help'));
   hear('take-over', async () => {
-    await engine.ask('takeOver');
+    await ask('takeOver');
     endReplay();
   });
-  $('depth').oninput = () => isReady && engine.ask('depth', { share: Number($('depth').value) }).catch(failed);
-  $('color').onchange = () => picture.setColorBy(Number($('color').value));
+  $('depth').oninput = () => isReady && sendDepth(Number($('depth').value));
+  $('color').onchange = () => ask('color', { name: $('color').value }).catch(failed);
   $('body').onchange = () => $('body').value && openBody($('body').value).catch(failed);
-  $('open-label').onkeydown = (event) => ['Enter', ' '].includes(event.key) && (event.preventDefault(), $('file').click());
+  hear('open', () => $('file').click());
   $('file').onchange = () => {
     const [file] = $('file').files;
     if (file) openFile(file).catch(failed);
@@ -280,32 +300,7 @@ function hearControls() {
     const [file] = event.dataTransfer.files;
     if (file) openFile(file).catch(failed);
   });
-  document.addEventListener('visibilitychange', () => engine?.send({ type: 'shown', isShown: !document.hidden }));
-}
-
-// --- figures
-
-const show = (id, text) => ($(id).textContent = text);
-
-async function refreshFigures() {
-  if (!isReady || $('figures').hidden) return;
-  if (measured.figures) showFrame(measured.figures); // at rest no frames come
-  const { now, before, pieces } = await engine.ask('quality');
-  show('f-pieces', pieces);
-  show('f-mean', `${before.lrMean.toFixed(2)} → ${now.lrMean.toFixed(2)}`);
-  show('f-worst', `${before.lrMax.toFixed(1)} → ${now.lrMax.toFixed(1)}`);
-  show('f-hash', await engine.ask('hash'));
-  const style = getComputedStyle(document.documentElement);
-  drawHistogram($('histogram'), before.histogram, now.histogram, style.getPropertyValue('--accent'), style.getPropertyValue('--text'));
-}
-
-function showFrame(figures) {
-  if ($('figures').hidden) return;
-  show('f-tets', `${figures.tetsAtStart.toLocaleString('en')} → ${figures.tets.toLocaleString('en')}`);
-  show('f-strokes', figures.strokes);
-  show('f-force', `${figures.force.toFixed(2)} N, peak ${figures.peakForce.toFixed(2)}`);
-  show('f-frame', `${figures.frameMs.toFixed(1)} ms`);
-  show('f-rate', `${figures.rate.toFixed(0)} frames/s`);
+  document.addEventListener('visibilitychange', () => keeper.engine?.send({ type: 'shown', isShown: !document.hidden }));
 }
 
 // --- frames
@@ -313,22 +308,25 @@ function showFrame(figures) {
 function endReplay() {
   opened.isReplay = false;
   $('replay').hidden = true;
-  say(TOOLS.find((each) => each.name === tool).hint);
+  say(hintOf(tool));
 }
 
 function onFrame({ detail }) {
-  picture.take(detail);
   if (detail.surface) measured.triangles = detail.surface.positions.length / 9;
-  Object.assign(measured, { state: 'ready', figures: detail.figures, isAwake: detail.isAwake, isReplay: detail.isReplay });
+  Object.assign(measured, { figures: detail.figures, isAwake: detail.isAwake, isReplay: detail.isReplay });
   if (detail.place) $('progress').value = detail.place.call / Math.max(1, detail.place.calls);
-  if (!hasFrame) {
-    hasFrame = true;
-    measured.cuttableMs ??= performance.now();
-  }
-  if (performance.now() - shownAt > 200) {
-    shownAt = performance.now();
-    showFrame(detail.figures);
-  }
+  hasFrame = true;
+  panel.take(detail.figures);
+  frames.take(detail);
+}
+
+function onDrawn({ detail }) {
+  ++measured.frames;
+  measured.drawMs = detail.ms;
+  frames.pass();
+  if (!hasFrame || !detail.hasBody || measured.state === 'covered') return;
+  measured.state = 'ready';
+  measured.cuttableMs ??= performance.now();
 }
 
 function onReplayed({ detail }) {
@@ -338,25 +336,17 @@ function onReplayed({ detail }) {
   say(isSame ? 'Played: the same state as was recorded, bit for bit. Go on by hand.' : `Played. ${detail.verdict}`, 10);
 }
 
-function animate() {
-  if (measured.state !== 'covered') requestAnimationFrame(animate);
-  if (!picture) return;
-  const events = hands.take();
-  if (events.length > 0 && isReady) engine.send({ type: 'events', events });
-  if (picture.needsDraw) {
-    const began = performance.now();
-    picture.draw();
-    measured.drawMs = performance.now() - began;
-    ++measured.frames;
-    if (isReady) engine.send({ type: 'want' });
-  }
-}
+const sizeOfView = () => {
+  const { innerWidth: width, innerHeight: height } = window;
+  const controls = 2 * Math.max(document.querySelector('header').offsetHeight, document.querySelector('footer').offsetHeight);
+  return [width, height, Math.max(height / 3, height - controls)];
+};
+const sendSize = newest((size) => ask('resize', size).catch(failed));
 
 function fit() {
-  const { innerWidth: width, innerHeight: height } = window;
-  picture?.resize(width, height);
-  const controls = 2 * Math.max(document.querySelector('header').offsetHeight, document.querySelector('footer').offsetHeight);
-  engine?.send({ type: 'resize', size: [width, height, Math.max(height / 3, height - controls)] });
+  const size = sizeOfView();
+  drawing?.resize([size[0], size[1], devicePixelRatio]);
+  if (keeper.engine) sendSize(size);
 }
 
 /** The longest times for which the page did not answer: while it loaded, and once it could be cut. */
@@ -373,36 +363,59 @@ function watchBlocks() {
 // --- beginning
 
 function startEngine() {
-  engine = new SessionWorker();
-  measured.engine = engine;
-  engine.addEventListener('loaded', (event) => onLoaded(event).catch(failed));
-  engine.addEventListener('warm', () => openFirst().catch(failed));
-  engine.addEventListener('frame', onFrame);
-  engine.addEventListener('replayed', onReplayed);
-  engine.addEventListener('failed', ({ detail }) => failed(detail.error));
-  engine.addEventListener('broken', ({ detail }) => {
-    engine.end();
+  const hear = (type, what) => keeper.addEventListener(type, what);
+  hear('loaded', onLoaded);
+  hear('warm', () => openFirst().catch(failed));
+  hear('frame', onFrame);
+  hear('replayed', onReplayed);
+  hear('failed', ({ detail }) => failed(detail.error));
+  hear('dead', ({ detail }) => {
     isReady = false;
-    cover('The engine stopped: ' + detail.error.message, 'What was cut is lost. A smaller mesh may help.', 'Start again', () => location.reload());
+    measured.state = 'replacing';
+    measured.deathNoticed = performance.timeOrigin + performance.now();
+    say(`The engine stopped (${detail.error.message}). Another one is starting.`);
   });
+  hear('resumed', ({ detail }) => onResumed(detail).catch(failed));
+  hear('lost', ({ detail }) => {
+    isReady = false;
+    const again = () => location.reload();
+    cover(`The engine stopped: ${detail.error.message}`, 'It was started again, and stopped again. A smaller mesh may help.', 'Start again', again);
+  });
+  keeper.start();
 }
 
-async function onLoaded({ detail }) {
+async function onResumed({ info, isWhole }) {
+  take(info, opened.id);
+  await setUp();
+  ++measured.replacements;
+  say(isWhole ? 'The engine stopped and was started again. All that was done is here.' : 'The engine stopped and was started again: here is the body as it was opened.', 12);
+}
+
+function onLoaded({ detail }) {
   measured.version = detail.version;
   measured.loadedMs = performance.now();
-  if (!picture) {
-    picture = new Picture($('picture'), detail.look);
-    $('picture').addEventListener('webglcontextlost', (event) => {
-      event.preventDefault();
-      say('The picture was lost; it comes back by itself.');
-    });
-    $('picture').addEventListener('webglcontextrestored', () => {
-      picture.needsDraw = true;
-      say('The picture is back.', 3);
-    });
-  }
   fit();
-  await setTheme(theme);
+  if (drawing) return setTheme(theme).catch(failed);
+  startDrawing(detail.look);
+  setTheme(theme).catch(failed);
+}
+
+function startDrawing(look) {
+  const [width, height] = sizeOfView(), wanted = new URLSearchParams(location.search).get('look');
+  const level = ['full', 'plain', 'coarse'].find((each) => each === wanted); // by itself as good as the machine can draw it
+  drawing = new Drawing($('picture'), { look, size: [width, height, devicePixelRatio], level });
+  frames = new Frames(drawing, () => isReady && want());
+  const hear = (type, what) => drawing.addEventListener(type, what);
+  hear('drawn', onDrawn);
+  hear('begun', ({ detail }) => Object.assign(measured, { renderer: detail.renderer, level: detail.level }));
+  hear('level', ({ detail }) => (measured.level = detail.level));
+  hear('lost', () => say('The picture was lost; it comes back by itself.'));
+  hear('restored', () => say('The picture is back.', 3));
+  hear('replaced', () => {
+    ++measured.drawingReplaced;
+    want(true);
+  });
+  hear('unable', () => cover('This browser offers no WebGL 2, with which Incise draws.', 'Turn hardware acceleration on in its settings, or use a current Firefox, Chrome, Edge or Safari.'));
 }
 
 async function openFirst() {
@@ -422,19 +435,20 @@ function begin() {
   if (typeof WebAssembly !== 'object') {
     return cover('This browser has no WebAssembly, in which Incise computes.', 'Use a current Firefox, Chrome, Edge or Safari, or allow WebAssembly in its settings.');
   }
-  if (!document.createElement('canvas').getContext('webgl2')) {
-    return cover('This browser offers no WebGL 2, with which Incise draws.', 'Turn hardware acceleration on in its settings, or use a current Firefox, Chrome, Edge or Safari.');
-  }
   for (const body of bodies) $('body').append(new Option(body.name, body.id));
   makeTools();
   hearControls();
-  hands = new Hands($('picture'));
+  const sendEvents = batches(() => hands.take().filter(() => isReady), (events) => ask('events', events).catch(() => {}), requestAnimationFrame);
+  hands = new Hands($('picture'), () => {
+    measured.mostWaiting = Math.max(measured.mostWaiting, keeper.engine?.waiting ?? 0);
+    sendEvents();
+  });
+  new KeyHand($('picture'), $('cross'), hands);
   watchBlocks();
   startEngine();
   addEventListener('resize', fit);
   addEventListener('hashchange', () => openFirst().catch(failed));
-  setInterval(() => refreshFigures().catch(failed), 1000);
-  requestAnimationFrame(animate);
+  setInterval(() => isReady && panel.refresh().catch(failed), 1000);
 }
 
 begin();
