@@ -108,6 +108,53 @@ test('a plane across a moving body leaves two pieces, which undo joins', () => {
   assert.equal(session.figures().strokes, 0);
 });
 
+// --- what is drawn
+
+/** The depth of each corner below the skin, of walls or of the skin. */
+function depthsOf({ looks, places }, wantsWalls) {
+  const depths = [];
+  for (let i = 0; i < looks.length / 4; ++i) if (((looks[4 * i] & 1) === 1) === wantsWalls) depths.push(places[4 * i + 3]);
+  return depths;
+}
+
+test('patterns stick to tissue that moves, and walls know how deep they lie', () => {
+  const session = module.Session.open(patch, 'patch.json');
+  session.refresh();
+  const { places, positions } = session.surface(), extent = session.surface().extent;
+  assert.equal(places.length / 4, positions.length / 3);
+  assert.ok(Math.abs(extent - Math.hypot(84, 60, 24)) < 2, `${extent}`);
+  draw(session);
+  const copy = (surface) => ({ looks: surface.looks.slice(), places: surface.places.slice(), positions: surface.positions.slice() });
+  const cut = copy(session.surface());
+  assert.ok(depthsOf(cut, false).every((depth) => depth === 0));
+  const walls = depthsOf(cut, true), deepest = Math.max(...walls) * extent;
+  assert.ok(walls.length > 100 && Math.min(...walls) >= 0 && deepest > 1 && deepest < 24, `${deepest}`);
+  for (let i = 0; i < 5; ++i) session.frame();
+  session.refresh();
+  const later = copy(session.surface());
+  assert.notDeepEqual(later.positions, cut.positions);
+  assert.deepEqual(later.places, cut.places);
+});
+
+test('an instrument is in the hand while it works, and colours are the scene\'s until others are chosen', () => {
+  const session = module.Session.open(patch, 'patch.json');
+  session.resize(800, 600);
+  session.refresh();
+  assert.equal(session.marks().solids.length, 0);
+  session.pointer('press', 400, 300);
+  session.pointer('move', 420, 305);
+  const { solids, solidCornersBeforeGhosts } = session.marks();
+  assert.ok(solids.length > 0 && solids.length % 33 === 0, `${solids.length} numbers`);
+  assert.equal(solidCornersBeforeGhosts, solids.length / 11);
+  assert.equal(session.color, 'tissue');
+  session.color = 'quality';
+  assert.equal(session.color, 'quality');
+  assert.throws(() => (session.color = 'mauve'), (error) => error instanceof InciseError && /tissue, region/.test(error.message));
+  const bone = module.Session.open(JSON.stringify({ ...JSON.parse(patch), view: { look: 'bone', color: 'region' } }), 'bone.json');
+  bone.refresh();
+  assert.deepEqual([bone.surface().tissue, bone.color], [3, 'region']);
+});
+
 // --- fine surfaces
 
 /** The surface of the unit cube as an .obj, each face of 2 n² triangles. */
@@ -320,6 +367,8 @@ test('index.d.mts declares what the module has, and no more', () => {
   const returned = { Figures: session.figures(), Marks: session.marks(), Surface: session.surface(), CameraMatrices: session.camera() };
   returned.QualityFigures = session.quality().now;
   returned.Look = module.look('dark');
+  returned.Ink = returned.Look.inks[0];
+  returned.Shader = returned.Look.shaders.solids;
   for (const [type, value] of Object.entries(returned)) assert.deepEqual(own(value), members(declared.interface[type], false), type);
   assert.deepEqual([...declared.function].sort(), ['hasSimd', 'load']);
 });

@@ -106,6 +106,29 @@ describe('the page', { skip }, () => {
     assert.equal((await figures()).cutTets, cutTets);
   });
 
+  test('a pen that presses lightly cuts less deep', async () => {
+    const cutBy = async (force) => {
+      await openPage();
+      await visit.page.evaluate(() => document.getElementById('depth').focus());
+      for (let i = 0; i < 20; ++i) await press('ArrowRight'); // deep enough to tell the two apart
+      const devtools = await visit.page.context().newCDPSession(visit.page);
+      const pen = (type, x, y) => devtools.send('Input.dispatchMouseEvent', { type, x, y, button: 'left', buttons: 1, clickCount: 1, pointerType: 'pen', force });
+      await pen('mousePressed', 400, 290);
+      for (let i = 1; i <= 20; ++i) {
+        await pen('mouseMoved', 400 + 8 * i, 290 + i);
+        await visit.page.waitForTimeout(16);
+      }
+      await pen('mouseReleased', 560, 310);
+      await until(() => window.incise.figures.strokes === 1);
+      await isAtRest();
+      const { cutTets } = await figures();
+      await visit.end();
+      return cutTets;
+    };
+    const light = await cutBy(0.25), hard = await cutBy(1);
+    assert.ok(light > 0 && hard > 1.3 * light, `${light} tets lightly, ${hard} hard`);
+  });
+
   test('a link plays the session again and ends in the same state', async () => {
     await openPage();
     await drag([0.4, 0.45], [0.6, 0.5]);
