@@ -271,7 +271,7 @@ val WebSession::surface() const {
 val WebSession::camera() const {
   val camera = val::object();
   camera.set("view", to_array(picture_.camera.to_view()));
-  camera.set("clip", to_array(app::to_clip(camera_, viewport_, body_)));
+  camera.set("clip", to_array(app::to_clip(picture_.camera, viewport_, render::box_of_all(picture_, body_))));
   return camera;
 }
 

@@ -15,7 +15,6 @@ export const LEVELS = ['full', 'plain', 'coarse'];
 export class Picture {
   constructor(canvas, look) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
-    this.renderer.debug.checkShaderErrors = false; // it waits for the compiler; a shader that fails draws nothing, which tests see
     this.scene = new Scene();
     this.camera = new PerspectiveCamera();
     this.level = LEVELS[0];
