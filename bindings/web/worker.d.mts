@@ -10,6 +10,8 @@ export interface Opening {
   up?: readonly [number, number, number];
   /** The bytes are a recording: go on from its end instead of playing it. */
   resumes?: boolean;
+  /** The body is at rest: nothing is simulated until a hand comes. */
+  isAtRest?: boolean;
   /** A recording is played as fast as it goes, and its end is what is seen first. */
   isStill?: boolean;
 }
@@ -67,7 +69,7 @@ export type Message =
 
 /**
  * Starts the worker. Events, each with its data as `detail`: `loaded` {version, look}; `warm`, when a session may be opened;
- * `frame` (a `Frame`); `replayed` {verdict, hash}, at a recording's end; `kept` {recording}, from which `open` with `resumes` goes on
+ * `frame` (a `Frame`); `replayed` {verdict, hash}, at a recording's end; `kept` {recording, isAtRest}, from which `open` with `resumes` goes on
  * in another worker; `failed` {error}, after which the session goes on; `broken` {error}: the worker is gone, and whatever waits for an
  * answer is rejected. Where the page is served securely that is told at once, however the worker ended.
  */

@@ -39,7 +39,7 @@ function warmUp() {
   small.dispose();
 }
 
-function open({ bytes, name, files, up, resumes, isStill }) {
+function open({ bytes, name, files, up, resumes, isAtRest, isStill }) {
   const next = incise.Session.open(bytes, name, { files, up });
   if (resumes) {
     next.seek(next.place().calls);
@@ -51,6 +51,7 @@ function open({ bytes, name, files, up, resumes, isStill }) {
   session.resize(...viewport);
   events = [];
   wake();
+  isAwake = !isAtRest;
   session.refresh();
   size = extent(session.surface().positions);
   hasNewTriangles = true;
@@ -123,7 +124,7 @@ function keep() {
   const began = performance.now(), recording = session.recording();
   isKept = true;
   nextKeep = performance.now() + (performance.now() - began) / KEEP_SHARE;
-  say('kept', { recording }, [recording.buffer]);
+  say('kept', { recording, isAtRest: !isAwake }, [recording.buffer]);
 }
 
 function show(withSurface) {
@@ -214,14 +215,14 @@ const answers = {
   cancel: () => session.cancel(),
   frameBody: () => act(() => session.frameBody()),
   takeOver: () => act(() => session.takeOver()),
-  tool: ({ name }) => act(() => (session.tool = name)),
-  depth: ({ share }) => act(() => (session.depth = share)),
+  tool: ({ name }) => choose(() => (session.tool = name)),
+  depth: ({ share }) => choose(() => (session.depth = share)),
   hash: () => session.hash,
   quality: () => ({ ...session.quality(), pieces: session.pieces, log: session.log() }),
   recording: () => session.recording(),
   write: ({ extension }) => session.write(extension),
   look: ({ theme }) => incise.look(theme),
-  color: ({ name }) => act(() => (session.color = name)),
+  color: ({ name }) => choose(() => (session.color = name)),
   memory: () => incise.memory(),
   isKept: () => isKept,
   events: (list) => void events.push(...list),
@@ -239,6 +240,14 @@ function act(what) {
   if (session.refresh()) hasNewTriangles = true;
   hasMoved = true;
   return result;
+}
+
+/** What a hand will do, not the body: one at rest stays so. */
+function choose(what) {
+  const wasBusy = session.isBusy;
+  what();
+  if (wasBusy) wake();
+  hasMoved = true;
 }
 
 onmessage = ({ data }) => {

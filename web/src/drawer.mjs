@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Takes what drawing.mjs sends, in a worker or in the page itself: one picture at a time, and as much in it as the machine draws in time.
-import { LEVELS, Picture } from './picture.mjs';
+import { LEVELS, Picture, contextOf } from './picture.mjs';
 
 const SLOW_MS = 30; // a picture that takes longer
 const SLOW_PICTURES = 10; // of the last `OF_PICTURES`: less is drawn from then on
@@ -21,7 +21,7 @@ export class Drawer {
 
   hear({ type, ...data }) {
     const doings = { begin: this.#begin, frame: this.#take, look: this.#setLook, resize: this.#resize, shot: this.#shoot };
-    doings[type].call(this, data);
+    if (type === 'begin' || this.#picture) doings[type].call(this, data);
   }
 
   /** For tests: the picture, whose context they lose. */
@@ -39,15 +39,13 @@ export class Drawer {
       this.#tell({ type: 'restored' });
       this.#ask();
     });
-    try {
-      this.#picture = new Picture(canvas, look);
-    } catch {
-      return this.#tell({ type: 'unable' });
-    }
+    const context = contextOf(canvas);
+    if (!context) return this.#tell({ type: 'unable' });
+    this.#picture = new Picture(canvas, context, look);
     this.#canFall = !level;
     this.#picture.setLevel(level ?? LEVELS[0]);
     this.#picture.resize(...size);
-    const context = this.#picture.renderer.getContext(), names = context.getExtension('WEBGL_debug_renderer_info');
+    const names = context.getExtension('WEBGL_debug_renderer_info');
     this.#tell({ type: 'begun', renderer: names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : '', level: this.#picture.level });
   }
 

@@ -3,7 +3,9 @@
 // hand a canvas over, the page draws itself.
 import { watchLife } from 'incise/life';
 
-/** Events: `begun` {renderer, level}, `drawn` {ms}, `level` {level}, `lost`, `restored`, `unable`, and `replaced` after its worker died. */
+const MOST_DEATHS = 3; // of workers: a further one would die, too
+
+/** Events: `begun` {renderer, level}, `drawn` {ms}, `level` {level}, `lost`, `restored`, `unable` (no WebGL 2, or worker after worker died), and `replaced` after its worker died. */
 export class Drawing extends EventTarget {
   #holder;
   #worker = null;
@@ -11,6 +13,7 @@ export class Drawing extends EventTarget {
   #endWatch = () => {};
   #state; // what another worker would need
   #shots = [];
+  #deaths = 0;
   isBusy = false;
 
   /** @param holder  of the canvas, which is made anew when a worker dies */
@@ -44,6 +47,7 @@ export class Drawing extends EventTarget {
   #replace() {
     this.#endWatch();
     this.#worker.terminate();
+    if (++this.#deaths > MOST_DEATHS) return this.dispatchEvent(new CustomEvent('unable'));
     this.isBusy = false;
     this.#start();
     this.dispatchEvent(new CustomEvent('replaced'));

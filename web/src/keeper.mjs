@@ -10,7 +10,7 @@ const SHORT_MS = 60_000; // deaths within this have to do with each other
  */
 export class Keeper extends EventTarget {
   #opened = null;
-  #recording = null;
+  #kept = null; // a recording, and whether the body was at rest
   #deaths = [];
   #wasWarm = false;
   engine = null;
@@ -18,7 +18,7 @@ export class Keeper extends EventTarget {
   start() {
     const engine = (this.engine = new SessionWorker());
     for (const type of ['loaded', 'frame', 'replayed', 'failed']) engine.addEventListener(type, ({ detail }) => this.#tell(type, detail));
-    engine.addEventListener('kept', ({ detail }) => (this.#recording = detail.recording));
+    engine.addEventListener('kept', ({ detail }) => (this.#kept = detail));
     engine.addEventListener('warm', () => this.#begin());
     engine.addEventListener('broken', ({ detail }) => this.#mourn(detail.error));
   }
@@ -31,7 +31,7 @@ export class Keeper extends EventTarget {
     const engine = this.engine, info = await engine.ask('open', what);
     if (engine !== this.engine) return info; // it has died since
     this.#opened = what;
-    this.#recording = null;
+    this.#kept = null;
     return info;
   }
 
@@ -42,10 +42,10 @@ export class Keeper extends EventTarget {
   }
 
   async #resume() {
-    const { files, bytes, name, up } = this.#opened, recording = this.#recording;
-    const kept = { bytes: recording, name: 'kept.jsonl', files: { ...files, [name]: bytes }, up, resumes: true };
-    const info = await this.engine.ask('open', recording ? kept : this.#opened);
-    this.#tell('resumed', { info, isWhole: recording !== null });
+    const { files, bytes, name, up } = this.#opened, kept = this.#kept;
+    const end = kept && { bytes: kept.recording, name: 'kept.jsonl', files: { ...files, [name]: bytes }, up, resumes: true, isAtRest: kept.isAtRest };
+    const info = await this.engine.ask('open', end ?? this.#opened);
+    this.#tell('resumed', { info, isWhole: kept !== null });
   }
 
   /** The second death in a short time may come of what was kept, a third one of the body. */
@@ -53,7 +53,7 @@ export class Keeper extends EventTarget {
     const now = performance.now();
     this.#deaths = [...this.#deaths.filter((then) => now - then < SHORT_MS), now];
     if (!this.#wasWarm || this.#deaths.length > 2) return this.#tell('lost', { error });
-    if (this.#deaths.length === 2) this.#recording = null;
+    if (this.#deaths.length === 2) this.#kept = null;
     this.#tell('dead', { error });
     this.start();
   }

@@ -12,9 +12,13 @@ const TISSUE = 0; // of `Frame.color`
 /** How much is drawn, from the best: with the grain of tissue; without; and with fewer pixels as well. */
 export const LEVELS = ['full', 'plain', 'coarse'];
 
+/** What a picture is drawn with; null where the browser has no WebGL 2. */
+export const contextOf = (canvas) => canvas.getContext('webgl2', { antialias: true, alpha: false, powerPreference: 'high-performance' });
+
 export class Picture {
-  constructor(canvas, look) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+  /** @param context  of WebGL 2, as `contextOf` makes it */
+  constructor(canvas, context, look) {
+    this.renderer = new WebGLRenderer({ canvas, context });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera();
     this.level = LEVELS[0];
