@@ -114,6 +114,7 @@ function step() {
     replayed = true;
     say('replayed', { verdict: session.log().at(-1) ?? '', hash: session.hash });
     session.takeOver();
+    if (isUnseen) isAwake = false; // its end is what is to be seen
   }
   if (session.refresh()) hasNewTriangles = true;
 }
@@ -178,7 +179,7 @@ function advance() {
   stillFrames = moves(positions) ? 0 : stillFrames + 1;
   last = positions.slice();
   hasMoved = true;
-  if (stillFrames > STILL_FRAMES || ++idleFrames > IDLE_FRAMES) isAwake = isKept = false;
+  if (isAwake && (stillFrames > STILL_FRAMES || ++idleFrames > IDLE_FRAMES)) isAwake = isKept = false;
   count(performance.now() - began);
 }
 

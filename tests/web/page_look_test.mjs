@@ -39,7 +39,7 @@ describe('the look of the page', { skip }, () => {
   const BARE = 'header, footer, aside { visibility: hidden }';
 
   async function see({ drags = [], ...options }) {
-    await openPage({ path: '?look=full', reducedMotion: 'reduce', ...options });
+    await openPage({ path: '?look=full', reducedMotion: 'reduce', colorScheme: 'dark', ...options });
     if (drags.length > 0) {
       await visit.page.setInputFiles('#file', { name: 'drags.jsonl', mimeType: 'text/plain', buffer: await recordingOf(...drags) });
       await until(() => window.incise.replayed && window.incise.state === 'ready');
