@@ -2,6 +2,7 @@
 // Takes what drawing.mjs sends, in a worker or in the page itself: one picture at a time, and as much in it as the machine draws in time.
 import { LEVELS, Picture, contextOf } from './picture.mjs';
 
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i; // processors that draw
 const SLOW_MS = 30; // a picture that takes longer
 const SLOW_PICTURES = 10; // of the last `OF_PICTURES`: less is drawn from then on
 const OF_PICTURES = 14;
@@ -42,11 +43,12 @@ export class Drawer {
     const context = contextOf(canvas);
     if (!context) return this.#tell({ type: 'unable' });
     this.#picture = new Picture(canvas, context, look);
-    this.#canFall = !level;
-    this.#picture.setLevel(level ?? LEVELS[0]);
-    this.#picture.resize(...size);
     const names = context.getExtension('WEBGL_debug_renderer_info');
-    this.#tell({ type: 'begun', renderer: names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : '', level: this.#picture.level });
+    const renderer = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+    this.#canFall = !level;
+    this.#picture.setLevel(level ?? LEVELS[SOFTWARE.test(renderer) ? 1 : 0]);
+    this.#picture.resize(...size);
+    this.#tell({ type: 'begun', renderer, level: this.#picture.level });
   }
 
   #take({ frame }) {
