@@ -36,7 +36,7 @@ describe('the page for everyone', { skip }, () => {
   /** Of two colours, by WCAG. */
   function contrast(one, other) {
     const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
-    const light = (rgb) => rgb.reduce((sum, c, i) => sum + [0.2126, 0.7152, 0.0722][i] * linear(c), 0);
+    const light = (rgb) => rgb.slice(0, 3).reduce((sum, c, i) => sum + [0.2126, 0.7152, 0.0722][i] * linear(c), 0);
     const [a, b] = [light(one), light(other)].sort((x, y) => y - x);
     return (a + 0.05) / (b + 0.05);
   }
@@ -79,14 +79,13 @@ describe('the page for everyone', { skip }, () => {
   test('Tab goes through everything once, in the order in which it is seen, and marks where it is', async () => {
     await openPage();
     const order = [];
-    for (let i = 0; i < 14; ++i) {
+    for (let i = 0; i < 13; ++i) {
       await press('Tab');
       const { id, isMarked } = await focused();
       assert.ok(isMarked, `${id} does not show that it has the focus`);
       order.push(id);
     }
-    assert.deepEqual(order, ['body', 'open', 'figures-button', 'share', 'shot', 'theme', 'help-button', 'picture', 'Scalpel', 'depth', 'undo', 'redo', 'reset', 'BODY']
-      .slice(0, order.length), order.join(' '));
+    assert.deepEqual(order, ['body', 'open', 'figures-button', 'share', 'shot', 'theme', 'help-button', 'picture', 'Scalpel', 'depth', 'undo', 'redo', 'reset'], order.join(' '));
     await press('Shift+Tab');
     assert.equal((await focused()).id, 'reset');
     const places = await visit.page.evaluate((ids) => ids.map((id) => document.getElementById(id)?.getBoundingClientRect()).map((box) => box && [box.top, box.left]), order.slice(0, 7));

@@ -84,7 +84,7 @@ describe('the page', { skip }, () => {
 
   test('one finger cuts, two turn the view and cut nothing', async () => {
     await openPage({ viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true });
-    const devtools = await visit.page.context().newCDPSession(page);
+    const devtools = await visit.page.context().newCDPSession(visit.page);
     const touch = (type, ...points) => devtools.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
     await touch('touchStart', [140, 330]);
     for (let i = 1; i <= 20; ++i) {
@@ -214,6 +214,7 @@ describe('the page', { skip }, () => {
   test('a body comes to rest, and nothing is computed or drawn then', async () => {
     await openPage();
     await isAtRest();
+    await visit.page.waitForTimeout(400); // the last picture may be under way
     const counts = () => visit.page.evaluate(() => [window.incise.figures.frames, window.incise.frames]);
     const before = await counts();
     await visit.page.waitForTimeout(500);
