@@ -64,7 +64,7 @@ Result<EGLDisplay> open_display() {
 
 Result<EGLContext> open_context(EGLDisplay display) {
   constexpr std::array<EGLint, 5> kConfig = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
-  constexpr std::array<EGLint, 7> kVersion = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+  constexpr std::array<EGLint, 7> kContextVersion = {EGL_CONTEXT_MAJOR_VERSION_KHR,
                                               3,
                                               EGL_CONTEXT_MINOR_VERSION_KHR,
                                               3,
@@ -77,7 +77,7 @@ Result<EGLContext> open_context(EGLDisplay display) {
   if (eglChooseConfig(display, kConfig.data(), &config, 1, &found) != EGL_TRUE || found < 1) {
     return unsupported("EGL offers no configuration for OpenGL");
   }
-  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, kVersion.data());
+  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, kContextVersion.data());
   if (context == EGL_NO_CONTEXT) return unsupported("there is no OpenGL 3.3 core");
   return context;
 }

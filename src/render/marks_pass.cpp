@@ -16,7 +16,7 @@ namespace render {
 namespace {
 
 constexpr float kFrontWidth = 1.6F, kContourWidth = 0.6F;  // pixels
-constexpr float kMostPixels = 1024;                        // of widths and radii
+constexpr float kMostMarkPixels = 1024;                        // of widths and radii
 
 /// How an array of instances (`divisor` 1) or vertices (0) is laid out.
 class Layout {
@@ -52,7 +52,7 @@ std::uint32_t style_of(app::Ink ink) {
 }
 
 float in_pixels(float size) {
-  return size > 0 ? std::min(size, kMostPixels) : 1.0F;
+  return size > 0 ? std::min(size, kMostMarkPixels) : 1.0F;
 }
 
 void set_styles(const GlObject& program, app::Theme theme) {
