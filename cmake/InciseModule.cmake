@@ -17,7 +17,9 @@ add_library(incise_warnings INTERFACE)
 target_compile_options(incise_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
                                                  $<$<BOOL:${INCISE_WERROR}>:-Werror>
   # GCC 12 sees overlaps in std::string operator+ that are not there (its bug 105651).
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # Where sources are compiled together (CMAKE_UNITY_BUILD), it takes a source's own types for those of a header.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
 if(INCISE_SANITIZE)
   target_compile_options(incise_flags INTERFACE
     $<BUILD_INTERFACE:-fsanitize=${INCISE_SANITIZE}> $<BUILD_INTERFACE:-fno-omit-frame-pointer>

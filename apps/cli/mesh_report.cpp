@@ -30,7 +30,7 @@ double relative_error(const image::LabelOutcome& label) {
   return label.image_volume > 0 ? label.volume / label.image_volume - 1 : 0;
 }
 
-Json input_of(const MeshReport& report) {
+Json input_json(const MeshReport& report) {
   const image::LabelImage& image = report.input->file.image;
   return {{"file", report.arguments->input},           {"format", report.input->file.format_name},
           {"placed_by", report.input->file.placed_by}, {"voxels", {image.size[0], image.size[1], image.size[2]}},
@@ -80,7 +80,7 @@ std::string to_json(const MeshReport& report) {
   Json json = {{"format", "incise-mesh-report"},
                {"version", 1},
                {"program", "incise " INCISE_VERSION},
-               {"input", input_of(report)},
+               {"input", input_json(report)},
                {"options",
                 {{"size", a.size},
                  {"smooth", a.smooth},

@@ -34,7 +34,7 @@ constexpr double kOverlap = 0.3;
 /// The end of a blade draws back by less than this share of its last segment.
 constexpr double kMostRetreat = 0.5;
 /// Older walls are looked for along the blade at places so many spacings apart, but at so many at most.
-constexpr double kWallShare = 0.5, kMostParts = 1024;
+constexpr double kWallShare = 0.5, kMostWallPlaces = 1024;
 /// Strips that fold back onto earlier ones within so many spacings meet them.
 constexpr double kMeetingShare = 1e-6;
 
@@ -428,7 +428,8 @@ std::vector<Vec3> BladeMotion::drawn_back(std::span<const Vec3> row, const Surro
 /// How far a segment of a row is to stay back on its way from another row, before an older wall that it comes to.
 double BladeMotion::retreat_of(std::span<const Vec3> from, std::span<const Vec3> row, std::size_t c,
                                const Surroundings& around) const {
-  const double parts = std::clamp(std::ceil((row[c + 1] - row[c]).norm() / (kWallShare * spacing_)), 1.0, kMostParts);
+  const double parts =
+      std::clamp(std::ceil((row[c + 1] - row[c]).norm() / (kWallShare * spacing_)), 1.0, kMostWallPlaces);
   double retreat = 0;
   for (double k = 0; k <= parts; ++k) {
     const double t = k / parts;

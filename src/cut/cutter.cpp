@@ -46,7 +46,7 @@ constexpr std::array kReachSamples = {1.0, 0.5, 0.1, 0.25, 0.75};
 /// What lies at most so many spacings beyond the rim of an older cut lies in it: rounding, no more.
 constexpr double kInside = 0.02;
 /// A step of a blade in a moving body is taken in parts of an element, at most so many.
-constexpr double kMostParts = 64;
+constexpr double kMostStepParts = 64;
 /// A blade that comes from far away is near the body within so many of its diagonals.
 constexpr double kNearBody = 0.1;
 /// A blade this many spacings ahead of the crack's tip cuts on even where that closes the cut behind it: else strong
@@ -289,7 +289,7 @@ void Cutter::divide_edge(std::span<const Vec3> row) {
 Status Cutter::step_in_material(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction) {
   double travel = 0;
   for (std::size_t c = 0; c < before.size(); ++c) travel = std::max(travel, (stroke_.last_row[c] - before[c]).norm());
-  if (travel > kMostParts * stroke_.spacing || stroke_.material.is_graded()) {
+  if (travel > kMostStepParts * stroke_.spacing || stroke_.material.is_graded()) {
     return step_from_far(context, before, direction);
   }
   // Where the blade was tells nothing in a body that has moved since: only what lies ahead of the front counts.
@@ -297,7 +297,7 @@ Status Cutter::step_in_material(const CutContext& context, const std::vector<Vec
       stroke_.material.front_of(context.mesh, stroke_cut_.complex(), before, stroke_.last_row);
   double way = 0;
   for (std::size_t c = 0; c < from.size(); ++c) way = std::max(way, (stroke_.last_row[c] - from[c]).norm());
-  const double parts = std::clamp(std::ceil(way / stroke_.spacing), 1.0, kMostParts);
+  const double parts = std::clamp(std::ceil(way / stroke_.spacing), 1.0, kMostStepParts);
   for (double part = 1; part <= parts; ++part) {
     std::vector<Vec3> row = stroke_.last_row;
     for (std::size_t c = 0; c < row.size() && part < parts; ++c) {
@@ -312,7 +312,7 @@ Status Cutter::step_in_material(const CutContext& context, const std::vector<Vec
 Status Cutter::step_from_far(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction) {
   const std::vector<Vec3> to = stroke_.last_row;
   const Box body = current_bounds(context.mesh), near = enlarged(body, kNearBody);
-  const double travel = std::max(stroke_.spacing, (body.hi - body.lo).norm() / kMostParts);
+  const double travel = std::max(stroke_.spacing, (body.hi - body.lo).norm() / kMostStepParts);
   std::vector<Vec3> row = before;
   for (const StepPart& part : divide_step(before, to, travel, near)) {
     const std::vector<Vec3> from = std::exchange(row, to);

@@ -17,7 +17,7 @@ constexpr unsigned kMostHalvings = 64;
 /// A step is halved at most so often, and has at most so many parts: a blade that slides through the body lengthwise
 /// by many of its sizes goes in longer ones.
 constexpr unsigned kMostDivisions = 40;
-constexpr std::size_t kMostParts = 256;
+constexpr std::size_t kMostFarParts = 256;
 
 /// Whether a triangle may meet a box; one that passes close by may count.
 bool may_meet(const std::array<Vec3, 3>& p, const Box& box, unsigned depth = 0) {
@@ -55,7 +55,7 @@ class StepDivider {
     for (std::size_t c = 0; c < from.size(); ++c) longest_ = std::max(longest_, (to[c] - from[c]).norm());
   }
   void divide(double begin, double end, unsigned depth, std::vector<StepPart>& parts) const {
-    if (parts.size() > kMostParts) return;
+    if (parts.size() > kMostFarParts) return;
     const bool is_near = meets(begin, end);
     if (is_near && (end - begin) * longest_ > travel_ && depth < kMostDivisions) {
       const double middle = 0.5 * (begin + end);
@@ -119,7 +119,7 @@ std::vector<StepPart> divide_step(std::span<const Vec3> from, std::span<const Ve
   std::vector<StepPart> parts;
   for (double greatest = travel;; greatest *= 2.0) {
     StepDivider(from, to, greatest, near).divide(0, 1, 0, parts);
-    if (parts.size() <= kMostParts) return parts;
+    if (parts.size() <= kMostFarParts) return parts;
     parts.clear();
   }
 }

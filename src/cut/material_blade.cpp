@@ -25,7 +25,7 @@ constexpr std::size_t kNearPoints = 4;
 /// diagonals.
 constexpr double kManyParts = 256, kSurroundings = 1.0;
 /// Segments within the surroundings have at most so many parts.
-constexpr double kMostParts = 4096;
+constexpr double kMostBladeParts = 4096;
 /// The front follows in steps of so many spacings of material; once the blade goes no further, of so many.
 constexpr double kLeastStep = 0.1, kLeastLastStep = 1e-3;
 /// A blade cuts on where it is ahead of the tip by this share of how far it is beside it.
@@ -159,7 +159,7 @@ void MaterialBlade::set_shares(const TetMesh& mesh, std::span<const Vec3> row) {
       is_graded_ = true;
       continue;
     }
-    const double count = std::clamp(parts, 1.0, kMostParts);
+    const double count = std::clamp(parts, 1.0, kMostBladeParts);
     std::vector<double>& shares = shares_.emplace_back();
     for (double k = 1; k <= count; ++k) shares.push_back(k / count);
   }

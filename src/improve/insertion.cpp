@@ -41,8 +41,8 @@ bool VertexInserter::improve_inside(Care& care, TetId tet) {
 }
 
 bool VertexInserter::improve_at_edge(Care& care, TetId tet, VertexId a, VertexId b) {
-  constexpr unsigned kBoundary = shape::kSkin | shape::kWall;
-  if ((care.mesh.shape_of(a) & care.mesh.shape_of(b) & kBoundary) == 0) {
+  constexpr unsigned kOnSurface = shape::kSkin | shape::kWall;
+  if ((care.mesh.shape_of(a) & care.mesh.shape_of(b) & kOnSurface) == 0) {
     return false;
   }
   find_edge_ring(care.mesh, a, b, tet, ring_);

@@ -36,7 +36,7 @@ void add_facet(const TetMesh& mesh, Side side, Piece& piece) {
   }
 }
 
-double longest_edge(const TetMesh& mesh, TetId tet) {
+double longest_length(const TetMesh& mesh, TetId tet) {
   double longest2 = 0;
   const TetVertices& v = mesh.vertices(tet);
   for (const auto& [a, b] : kEdgeCorners) {
@@ -152,7 +152,7 @@ bool Peeler::keeps_surface(const Care& care) {
     add_facet(care.mesh, {tet_, s}, after_);
   }
   const double tolerance =
-      surface_tolerance(care, tag_, care.mesh.vertices(tet_)[outer_[0]], longest_edge(care.mesh, tet_));
+      surface_tolerance(care, tag_, care.mesh.vertices(tet_)[outer_[0]], longest_length(care.mesh, tet_));
   Reach reach;
   return care.references.allows(tag_, before_, after_, tolerance, reach, skin_share(care));
 }
@@ -177,7 +177,7 @@ bool Peeler::ends_in_spike(const Care& care) {
   for (unsigned k = 0; k < 3; ++k) {
     longest2 = std::max(longest2, (mesh.rest(foot[k]) - mesh.rest(foot[(k + 1) % 3])).squaredNorm());
   }
-  const double edge = longest_edge(mesh, tet_), height2 = area2_of(inner_[0]) / longest2;
+  const double edge = longest_length(mesh, tet_), height2 = area2_of(inner_[0]) / longest2;
   return longest2 <= kShort * kShort * edge * edge &&
          height2 <= std::pow(2.0 * surface_tolerance(care, tag_, foot[0], edge), 2);
 }
@@ -209,7 +209,7 @@ bool Peeler::find_step_at_spike(const Care& care, VertexId vertex, Vec3& step) c
     return false;
   }
   step = (mesh.rest_volume6(tet_) / area2.squaredNorm()) * area2;
-  return step.norm() <= kSlack * surface_tolerance(care, tag_, vertex, longest_edge(mesh, tet_));
+  return step.norm() <= kSlack * surface_tolerance(care, tag_, vertex, longest_length(mesh, tet_));
 }
 
 bool Peeler::find_step_of_surface(const TetMesh& mesh, VertexId vertex, Vec3& step) const {
@@ -242,7 +242,7 @@ bool Peeler::find_step(Care& care, VertexId vertex, Vec3& place) {
   const double before = std::min(worst_of(care, star_), inradius_ratio(mesh, mesh.vertices(tet_)));
   const double bound = std::max(before * (1.0 + kLeastGain), kLeastRatio);
   care.spend(star_.size());
-  const double edge = longest_edge(mesh, tet_);
+  const double edge = longest_length(mesh, tet_);
   if ((mesh.shape_of(vertex) & shape::kSkin) != 0 &&
       !care.references.allows_apex(0, mesh.rest(vertex), place, skin_tolerance(care) * edge, edge, skin_share(care))) {
     return false;

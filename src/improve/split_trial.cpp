@@ -10,7 +10,7 @@ inline namespace v0 {
 
 namespace {
 
-unsigned longest_edge(const TetMesh& mesh, TetId tet) {
+unsigned longest_edge_of(const TetMesh& mesh, TetId tet) {
   const TetVertices& v = mesh.vertices(tet);
   const auto length2 = [&](const auto& edge) { return (mesh.rest(v[edge[0]]) - mesh.rest(v[edge[1]])).squaredNorm(); };
   const auto longest = std::max_element(kEdgeCorners.begin(), kEdgeCorners.end(),
@@ -34,7 +34,7 @@ bool SplitTrial::improve(Care& care, TetId tet, unsigned edge) {
       return true;
     }
     tet = worst.tet;
-    edge = longest_edge(care.mesh, tet);
+    edge = longest_edge_of(care.mesh, tet);
   }
   return false;
 }

@@ -15,7 +15,6 @@ inline namespace v0 {
 
 namespace {
 
-constexpr TetVertices kNoVertices{};
 constexpr std::uint32_t kMaxWidth = 64;
 /// Volumes that differ by less than this share are equal up to rounding.
 constexpr double kVolumeRounding = 1e-9;

@@ -58,8 +58,6 @@ std::size_t Journal::memory_bytes() const {
 
 namespace {
 
-constexpr TetVertices kNoVertices{};
-
 /// What stands above the first `common` entries of a free list.
 std::vector<std::uint32_t> tail(const GrowArray<std::uint32_t>& list, std::size_t common) {
   return {list.begin() + common, list.end()};

@@ -15,7 +15,7 @@ inline namespace v0 {
 namespace {
 
 /// Twice the area of a triangle below which it fills no gap, by its longest edge squared.
-constexpr double kLeastGap = 1e-6;
+constexpr double kLeastWidth = 1e-6;
 
 constexpr std::uint8_t kContour = shape::kSkin | shape::kWall;
 
@@ -33,7 +33,7 @@ std::size_t facing(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return !((b - a).cross(c - a).norm() > kLeastGap * longest);
+  return !((b - a).cross(c - a).norm() > kLeastWidth * longest);
 }
 
 /// The vertex of the wall's rim that a point of the fine rim is nearest to, by its tet.

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::uint32_t kTouched = 1;
 constexpr std::uint32_t kFirstNew = 2;
-constexpr TetVertices kNoVertices{};
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace {
 
 using Log = std::array<char, 2048>;
 
-constexpr const char* kVersion = "#version 330 core\n";
+constexpr const char* kShaderVersion = "#version 330 core\n";
 
 Error refused(std::string_view name, const char* what, const char* log) {
   return {ErrorCode::kUnsupported,
@@ -22,7 +22,7 @@ Error refused(std::string_view name, const char* what, const char* log) {
 
 Result<GlObject> make_shader(std::string_view name, GLenum kind, std::string_view prelude, std::string_view text) {
   GlObject shader(glCreateShader(kind), [](unsigned id) { glDeleteShader(id); });
-  const std::string all = kVersion + std::string(prelude) + std::string(text);
+  const std::string all = kShaderVersion + std::string(prelude) + std::string(text);
   const char* source = all.c_str();
   glShaderSource(shader.id(), 1, &source, nullptr);
   glCompileShader(shader.id());

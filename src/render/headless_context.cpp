@@ -64,20 +64,20 @@ Result<EGLDisplay> open_display() {
 
 Result<EGLContext> open_context(EGLDisplay display) {
   constexpr std::array<EGLint, 5> kConfig = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
-  constexpr std::array<EGLint, 7> kVersion = {EGL_CONTEXT_MAJOR_VERSION_KHR,
-                                              3,
-                                              EGL_CONTEXT_MINOR_VERSION_KHR,
-                                              3,
-                                              EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
-                                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
-                                              EGL_NONE};
+  constexpr std::array<EGLint, 7> kContextVersion = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+                                                     3,
+                                                     EGL_CONTEXT_MINOR_VERSION_KHR,
+                                                     3,
+                                                     EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                                                     EGL_NONE};
   EGLConfig config = nullptr;
   EGLint found = 0;
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return unsupported("EGL has no desktop OpenGL");
   if (eglChooseConfig(display, kConfig.data(), &config, 1, &found) != EGL_TRUE || found < 1) {
     return unsupported("EGL offers no configuration for OpenGL");
   }
-  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, kVersion.data());
+  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, kContextVersion.data());
   if (context == EGL_NO_CONTEXT) return unsupported("there is no OpenGL 3.3 core");
   return context;
 }

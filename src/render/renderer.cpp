@@ -24,7 +24,7 @@ namespace render {
 namespace {
 
 constexpr unsigned kMostSamples = 16;
-constexpr int kVersion = 33;           // of OpenGL
+constexpr int kLeastVersion = 33;      // of OpenGL
 constexpr float kShadowReach = 1.25F;  // of the body's half diagonal
 
 Error bad_argument(const std::string& what) {
@@ -179,7 +179,7 @@ Renderer::~Renderer() = default;
 
 Result<Renderer> Renderer::create(unsigned samples) {
   if (samples > kMostSamples) return bad_argument("samples per pixel must be at most 16");
-  if (epoxy_gl_version() < kVersion) {
+  if (epoxy_gl_version() < kLeastVersion) {
     return Error{ErrorCode::kUnsupported, "drawing needs OpenGL 3.3; update the graphics driver", {}};
   }
   auto background = BackgroundPass::create();

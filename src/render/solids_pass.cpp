@@ -13,7 +13,7 @@ inline namespace v0 {
 namespace render {
 namespace {
 
-constexpr int kShadowUnit = 3;  // beside those of the surface
+constexpr int kSolidsShadowUnit = 3;  // beside those of the surface
 
 void attach(unsigned place, int count, unsigned type, bool is_share, std::size_t offset) {
   glVertexAttribPointer(place, count, type, is_share ? GL_TRUE : GL_FALSE, sizeof(app::SolidCorner),
@@ -67,7 +67,7 @@ void SolidsPass::use(const GlObject& program, const ViewMatrices& view) const {
 void SolidsPass::draw_opaque(const ViewMatrices& view, const ShadowPass* shadows) const {
   if (rows_.opaque() == 0) return;
   use(shadows != nullptr ? shadowed_ : plain_, view);
-  if (shadows != nullptr) shadows->bind(shadowed_, kShadowUnit);
+  if (shadows != nullptr) shadows->bind(shadowed_, kSolidsShadowUnit);
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(rows_.opaque()));
 }
 

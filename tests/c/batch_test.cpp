@@ -10,6 +10,7 @@
 #include "incise/c/incise.h"
 #include "support/folder.h"
 
+namespace batch_test {
 namespace {
 
 constexpr const char* kPlan =
@@ -140,3 +141,5 @@ TEST(CBatch, WhatIsNoPlanOrNoShardIsSaid) {
 }
 
 }  // namespace
+
+}  // namespace batch_test

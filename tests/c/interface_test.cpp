@@ -10,6 +10,7 @@
 #include "handle.h"
 #include "support/folder.h"
 
+namespace interface_test {
 namespace {
 
 using incise_test::counts;
@@ -513,3 +514,5 @@ TEST(CInterface, attributes_follow_their_engine) {
 }
 
 }  // namespace
+
+}  // namespace interface_test

@@ -8,6 +8,7 @@
 
 #include "handle.h"
 
+namespace journal_test {
 namespace {
 
 using incise_test::cube;
@@ -166,3 +167,5 @@ TEST(CJournal, steps_that_are_not_kept_are_errors) {
 }
 
 }  // namespace
+
+}  // namespace journal_test

@@ -8,6 +8,7 @@
 #include "app/recording/engine_recording.h"
 #include "handle.h"
 
+namespace same_hash_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,3 +118,5 @@ TEST(CHash, of_the_recorded_corpus_is_that_of_cpp) {
 }
 
 }  // namespace
+
+}  // namespace same_hash_test

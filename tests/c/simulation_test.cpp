@@ -11,6 +11,7 @@
 #include "handle.h"
 #include "incise/mesh/shapes.h"
 
+namespace simulation_test {
 namespace {
 
 using namespace incise;
@@ -308,3 +309,5 @@ TEST(CHaptics, the_tool_pushes_back) {
 }
 
 }  // namespace
+
+}  // namespace simulation_test

@@ -12,6 +12,7 @@
 
 #include "cli/program.h"
 
+namespace batch_test {
 namespace {
 
 using namespace incise_test;
@@ -170,3 +171,5 @@ TEST_F(CliBatch, an_interrupt_leaves_whole_files_and_lines) {
 }
 
 }  // namespace
+
+}  // namespace batch_test

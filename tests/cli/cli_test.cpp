@@ -9,6 +9,7 @@
 #include "cli/program.h"
 #include "incise/io/mesh_file.h"
 
+namespace cli_test {
 namespace {
 
 using namespace incise_test;
@@ -388,3 +389,5 @@ TEST(Cli, an_interrupt_leaves_no_partial_file) {
 }
 
 }  // namespace
+
+}  // namespace cli_test

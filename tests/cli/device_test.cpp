@@ -10,6 +10,7 @@
 #include "app/hands/fake_haply.h"
 #include "cli/program.h"
 
+namespace device_test {
 namespace {
 
 using namespace incise_test;
@@ -84,3 +85,5 @@ TEST(CliDevice, WhatCannotBeIsSaid) {
 }
 
 }  // namespace
+
+}  // namespace device_test

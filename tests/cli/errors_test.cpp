@@ -8,6 +8,7 @@
 #include "incise/io/mesh_file.h"
 #include "support/bodies.h"
 
+namespace errors_test {
 namespace {
 
 using namespace incise;
@@ -250,3 +251,5 @@ TEST(Cli, a_cut_that_breaks_the_contract_is_taken_back_and_what_was_valid_is_wri
 }
 
 }  // namespace
+
+}  // namespace errors_test

@@ -7,6 +7,7 @@
 #include "cli/program.h"
 #include "incise/io/surface_file.h"
 
+namespace fine_test {
 namespace {
 
 using namespace incise_test;
@@ -90,3 +91,5 @@ TEST_F(CliFine, what_does_not_fit_together_is_said) {
 }
 
 }  // namespace
+
+}  // namespace fine_test

@@ -8,6 +8,7 @@
 #include "incise/io/mesh_file.h"
 #include "support/scene_cases.h"
 
+namespace habits_test {
 namespace {
 
 using namespace incise_test;
@@ -160,3 +161,5 @@ TEST_F(CliHabits, a_full_stdout_is_a_failure) {
 }
 
 }  // namespace
+
+}  // namespace habits_test

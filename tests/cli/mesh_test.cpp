@@ -7,6 +7,7 @@
 #include "cli/program.h"
 #include "incise/io/mesh_file.h"
 
+namespace mesh_test {
 namespace {
 
 using namespace incise_test;
@@ -191,3 +192,5 @@ TEST(CliMesh, says_what_is_wrong_and_writes_nothing) {
 }
 
 }  // namespace
+
+}  // namespace mesh_test

@@ -5,6 +5,7 @@
 
 #include "cli/program.h"
 
+namespace picture_test {
 namespace {
 
 using namespace incise_test;
@@ -54,3 +55,5 @@ TEST_F(CliPicture, of_a_blade_that_missed_is_a_picture_too) {
 }
 
 }  // namespace
+
+}  // namespace picture_test

@@ -11,6 +11,7 @@
 
 #include "cli/program.h"
 
+namespace record_test {
 namespace {
 
 using namespace incise_test;
@@ -180,3 +181,5 @@ TEST_F(CliRecord, killed_at_any_moment_leaves_a_log_that_replays_and_no_partial_
 }
 
 }  // namespace
+
+}  // namespace record_test

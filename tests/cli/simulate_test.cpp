@@ -8,6 +8,7 @@
 #include "incise/io/mesh_file.h"
 #include "support/scene_cases.h"
 
+namespace simulate_test {
 namespace {
 
 using namespace incise_test;
@@ -173,3 +174,5 @@ TEST_F(CliSimulate, killed_at_any_moment_leaves_a_recording_that_replays) {
 }
 
 }  // namespace
+
+}  // namespace simulate_test

@@ -9,6 +9,7 @@
 #include "shared/command_words.h"
 #include "shared/message_text.h"
 
+namespace words_test {
 namespace {
 
 using namespace incise_test;
@@ -124,3 +125,5 @@ TEST(Manual, is_sound_roff) {
 }
 
 }  // namespace
+
+}  // namespace words_test

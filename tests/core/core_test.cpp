@@ -15,7 +15,7 @@
 #include "incise/core/profile.h"
 #include "incise/core/result.h"
 
-namespace incise::test {
+namespace incise::test::core_test {
 namespace {
 
 TEST(Id, is_invalid_until_given_a_slot_and_compares_by_it) {
@@ -158,4 +158,4 @@ TEST(StageTimes, add_up) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::core_test

@@ -9,7 +9,7 @@
 
 #include "cut/strips.h"
 
-namespace incise::test {
+namespace incise::test::blade_motion_test {
 namespace {
 
 /// A blade that moves in a body that is everywhere, or nowhere.
@@ -418,4 +418,4 @@ TEST(BladeMotion, ends_where_all_that_it_swept_does) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::blade_motion_test

@@ -12,7 +12,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::closed_complex_test {
 namespace {
 
 using Indices = std::set<std::uint32_t>;
@@ -329,4 +329,4 @@ TEST(ClosedComplex, forgets_everything) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::closed_complex_test

@@ -10,7 +10,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::contact_walk_test {
 namespace {
 
 using Corners = std::array<SosPoint, 4>;
@@ -172,4 +172,4 @@ TEST(ContactWalk, looks_at_few_tets_beyond_those_met) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::contact_walk_test

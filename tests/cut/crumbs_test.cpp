@@ -9,7 +9,7 @@
 #include "incise/mesh/shapes.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::crumbs_test {
 namespace {
 
 /// All faces of two neighbours that lead to other tets, the one between them first: cut, both are crumbs.
@@ -127,4 +127,4 @@ TEST(Crumbs, are_smaller_than_the_limit) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::crumbs_test

@@ -8,7 +8,7 @@
 #include "support/engines.h"
 #include "support/mirror_checks.h"
 
-namespace incise::test {
+namespace incise::test::front_moves_test {
 namespace {
 
 /// What steps of a stroke did, by their reports and the journal.
@@ -57,4 +57,4 @@ TEST_P(FrontMoves, take_the_tets_of_a_front_along) {
 INSTANTIATE_TEST_SUITE_P(Snaps, FrontMoves, ::testing::Values(0.0, 0.2));
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::front_moves_test

@@ -13,7 +13,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::front_points_test {
 namespace {
 
 /// A blade in a body, strip by strip; nothing is snapped.
@@ -181,4 +181,4 @@ TEST(FrontPoints, make_a_valid_mesh_that_ends_where_the_blade_stands) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::front_points_test

@@ -16,7 +16,7 @@
 #include "support/engines.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::fuzz_test {
 namespace {
 
 unsigned runs() {
@@ -212,4 +212,4 @@ TEST(StrokeFuzz, does_not_make_overlapping_bodies_worse) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::fuzz_test

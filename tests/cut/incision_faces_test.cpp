@@ -8,7 +8,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::incision_faces_test {
 namespace {
 
 struct Row {
@@ -94,4 +94,4 @@ TEST(IncisionFaces, forget_all_when_a_run_begins) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::incision_faces_test

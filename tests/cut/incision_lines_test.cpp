@@ -10,7 +10,7 @@
 
 #include "cut/split_template.h"
 
-namespace incise::test {
+namespace incise::test::incision_lines_test {
 namespace {
 
 using Line = std::array<std::uint8_t, 2>;
@@ -87,4 +87,4 @@ TEST(IncisionLines, let_the_end_of_lower_rank_stand_for_an_edge_between_two_corn
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::incision_lines_test

@@ -13,7 +13,7 @@
 #include "cut/parity.h"
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::incision_table_test {
 namespace {
 
 /// A master of one tet, divided as its flags and pierced sides ask for.
@@ -120,4 +120,4 @@ TEST(IncisionTable, says_the_same_whatever_was_asked_before) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::incision_table_test

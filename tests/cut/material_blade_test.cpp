@@ -11,7 +11,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::material_blade_test {
 namespace {
 
 constexpr double kSpacing = 0.25;
@@ -102,4 +102,4 @@ TEST(MaterialBlade, keeps_its_front_even_in_a_body_that_flaps) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::material_blade_test

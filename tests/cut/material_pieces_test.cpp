@@ -8,7 +8,7 @@
 #include "incise/mesh/defects.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::material_pieces_test {
 namespace {
 
 /// Two tets side by side that share no face, and a third that shares one with the first.
@@ -61,4 +61,4 @@ TEST(MaterialPieces, knows_that_all_hangs_together) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::material_pieces_test

@@ -12,7 +12,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::never_heals_test {
 namespace {
 
 /// Tets and vertices that live on, from two pieces, are not in one now: no vertex goes over by its name either.
@@ -126,4 +126,4 @@ TEST(PieceFinder, finds_no_piece_of_nothing) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::never_heals_test

@@ -9,7 +9,7 @@
 #include "support/engines.h"
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::old_children_test {
 namespace {
 
 /// A cube that is stretched and sheared.
@@ -94,4 +94,4 @@ TEST(OldChildren, stay_as_they_were_when_the_mesh_changes) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::old_children_test

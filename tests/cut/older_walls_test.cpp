@@ -8,7 +8,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::older_walls_test {
 namespace {
 
 /// A cube with a slit at x = 0.45, from above down to z = 0.4.
@@ -76,4 +76,4 @@ TEST(OlderWalls, are_walls_still_where_a_new_stroke_has_met_their_tets) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::older_walls_test

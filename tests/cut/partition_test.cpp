@@ -11,7 +11,7 @@
 #include "support/random_strokes.h"
 #include "support/star_separation.h"
 
-namespace incise::test {
+namespace incise::test::partition_test {
 namespace {
 
 /// A cut body with its copies made one again, and the faces that were walls.
@@ -118,4 +118,4 @@ TEST(Partition, of_any_flags_is_the_oracles_round_after_round) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::partition_test

@@ -12,7 +12,7 @@
 #include "support/engines.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::planes_test {
 namespace {
 
 class BothProfiles : public testing::TestWithParam<Profile> {};
@@ -349,4 +349,4 @@ TEST(Planes, that_miss_the_body_change_nothing) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::planes_test

@@ -12,7 +12,7 @@
 #include "support/random_strokes.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::progressive_motion_test {
 namespace {
 
 constexpr double kLow = -0.2, kHigh = 1.2;  // beyond the unit cube
@@ -578,4 +578,4 @@ TEST_P(Motion, through_needles_and_shells_divides_them) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::progressive_motion_test

@@ -12,7 +12,7 @@
 #include "support/bodies.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::progressive_test {
 namespace {
 
 constexpr double kLow = -0.2, kHigh = 1.2;  // beyond the unit cube
@@ -398,4 +398,4 @@ TEST(Steps, that_are_refused_change_nothing_and_the_stroke_goes_on) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::progressive_test

@@ -12,7 +12,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::rebuild_test {
 namespace {
 
 /// A body as it stood before a rebuild.
@@ -306,4 +306,4 @@ TEST(Rebuild, changes_nothing_where_nothing_has_changed) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::rebuild_test

@@ -11,7 +11,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::split_template_test {
 namespace {
 
 using Order = std::vector<std::uint8_t>;
@@ -238,4 +238,4 @@ TEST(OneTet, cut_by_a_plane_opens_one_face_or_two) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::split_template_test

@@ -11,7 +11,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::star_parts_test {
 namespace {
 
 /// The middle of a Kuhn cube; faces of its star can be opened and closed.
@@ -156,4 +156,4 @@ TEST(StarParts, bury_a_copy_that_no_part_needs_and_keep_the_closed_vertex_alive)
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::star_parts_test

@@ -11,7 +11,7 @@
 #include "cut/strips.h"
 #include "support/bodies.h"
 
-namespace incise::test {
+namespace incise::test::strip_crossing_test {
 namespace {
 
 std::vector<std::uint32_t> all_masters(const FlaggedBody& body) {
@@ -138,4 +138,4 @@ TEST(DoublyCrossed, counts_an_end_on_the_sheet_as_crossed) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::strip_crossing_test

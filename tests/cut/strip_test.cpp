@@ -8,7 +8,7 @@
 
 #include "cut/strips.h"
 
-namespace incise::test {
+namespace incise::test::strip_test {
 namespace {
 
 TEST(Strip, ends_at_its_four_edges) {
@@ -86,4 +86,4 @@ TEST(OwnSheet, forgets_everything) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::strip_test

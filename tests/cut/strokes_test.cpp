@@ -10,7 +10,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::strokes_test {
 namespace {
 
 constexpr double kLow = -0.2, kHigh = 1.2;  // beyond the unit cube
@@ -359,4 +359,4 @@ TEST(FlatTets, stay_whole_where_a_blade_crosses_them_once_or_twice) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::strokes_test

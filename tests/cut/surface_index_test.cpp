@@ -13,7 +13,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::surface_index_test {
 namespace {
 
 Box box_of(const TetMesh& mesh, Side side) {
@@ -215,4 +215,4 @@ TEST(SurfaceIndex, walls_that_are_the_sheets_own_wait_until_they_are_let_go) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::surface_index_test

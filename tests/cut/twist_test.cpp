@@ -8,7 +8,7 @@
 
 #include "cut/sweep.h"
 
-namespace incise::test {
+namespace incise::test::twist_test {
 namespace {
 
 using Row = std::vector<Vec3>;
@@ -91,4 +91,4 @@ TEST(EdgeDivision, makes_a_screw_smooth_that_folds_however_short_its_steps_are) 
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::twist_test

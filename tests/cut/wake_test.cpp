@@ -14,7 +14,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::wake_test {
 namespace {
 
 /// A blade that is pushed along a box of unit cells, across all of its section, in steps of half a cell.
@@ -119,4 +119,4 @@ TEST(Wake, settles_all_when_the_sheet_is_finished) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::wake_test

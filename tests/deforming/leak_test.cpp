@@ -6,7 +6,7 @@
 
 #include "deforming/leak_run.h"
 
-namespace incise::test {
+namespace incise::test::leak_test {
 namespace {
 
 void expect_no_leak(const LeakSettings& settings) {
@@ -121,4 +121,4 @@ TEST(Leaks, a_vertex_that_snaps_into_an_open_wound_stretches_nothing_across) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::leak_test

@@ -5,7 +5,7 @@
 
 #include "deforming/leak_run.h"
 
-namespace incise::test {
+namespace incise::test::paper_leak_test {
 namespace {
 
 LeakResult run(LeakSettings settings, Profile profile) {
@@ -35,4 +35,4 @@ TEST(PaperLeaks, none_in_twenty_scenes_of_moving_bodies) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::paper_leak_test

@@ -13,7 +13,7 @@
 #include "support/random_strokes.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::soft_body_test {
 namespace {
 
 TetMesh beam_mesh(std::uint64_t seed = 3) {
@@ -173,4 +173,4 @@ TEST(SoftBody, goes_back_with_an_undo) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::soft_body_test

@@ -9,7 +9,7 @@
 
 #include "compose/compose_run.h"
 
-namespace incise::test {
+namespace incise::test::compose_table_test {
 namespace {
 
 enum class Body : std::uint8_t { kKuhn, kJittered };
@@ -142,4 +142,4 @@ TEST(ComposeTable, swaying) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::compose_table_test

@@ -10,7 +10,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::compose_test {
 namespace {
 
 using Row = std::vector<Vec3>;
@@ -253,4 +253,4 @@ TEST(Compose, undo_takes_the_second_stroke_back_and_it_can_be_made_again) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::compose_test

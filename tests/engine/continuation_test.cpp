@@ -16,7 +16,7 @@
 #include "support/mirror_checks.h"
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::continuation_test {
 namespace {
 
 /// A blade that goes through the unit cube along a random plane: its pose where it has gone `way` from its middle.
@@ -375,4 +375,4 @@ TEST(Continuation, of_half_planes_around_an_axis_parts_all_edges_that_they_pinch
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::continuation_test

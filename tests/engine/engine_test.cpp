@@ -14,7 +14,7 @@
 #include "support/random_strokes.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::engine_test {
 namespace {
 
 TEST(Engine, undo_and_redo_restore_every_state_bit_for_bit) {
@@ -525,4 +525,4 @@ TEST(EngineSizes, of_bodies_from_least_to_greatest_are_cut_and_maintained_alike)
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::engine_test

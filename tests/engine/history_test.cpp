@@ -12,7 +12,7 @@
 #include "support/mirror_checks.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::history_test {
 namespace {
 
 Engine new_engine(EngineOptions options = {}) {
@@ -220,4 +220,4 @@ TEST(EngineRollback, forgets_a_redo_that_the_broken_call_has_taken_the_place_of)
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::history_test

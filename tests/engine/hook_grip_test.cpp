@@ -14,7 +14,7 @@
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/validate.h"
 
-namespace incise {
+namespace incise::hook_grip_test {
 namespace {
 
 constexpr double kCut = 0.0203;    // where the slit is, along x
@@ -239,4 +239,4 @@ TEST(HookGrip, JawsThatAreClosedAltogetherAreRefused) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::hook_grip_test

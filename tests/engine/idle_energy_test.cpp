@@ -14,7 +14,7 @@
 #include "support/random.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::idle_energy_test {
 namespace {
 
 /// J: of the energies that the solver compares, 2e-7 of sums that do not start at 0.
@@ -105,4 +105,4 @@ TEST(IdleEnergy, FramesAfterStrokesGainNone) {
   }
 }
 
-}  // namespace incise::test
+}  // namespace incise::test::idle_energy_test

@@ -15,7 +15,7 @@
 #include "support/random_strokes.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::journal_replay_test {
 namespace {
 
 void follow(TetSoup soup, double snap, Profile profile, const std::vector<Stroke>& strokes) {
@@ -186,4 +186,4 @@ TEST(JournalReplay, brings_velocities_back_with_an_undo_and_a_redo) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::journal_replay_test

@@ -13,7 +13,7 @@
 #include "support/engines.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::maintenance_deformed_test {
 namespace {
 
 using Deformation = std::function<Vec3(const Vec3&)>;
@@ -135,4 +135,4 @@ TEST(DeformedMaintenance, is_taken_back_with_the_places_as_they_were) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::maintenance_deformed_test

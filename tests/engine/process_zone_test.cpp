@@ -6,7 +6,7 @@
 #include "incise/engine/engine.h"
 #include "incise/mesh/shapes.h"
 
-namespace incise {
+namespace incise::process_zone_test {
 namespace {
 
 using detail::FrontPoint;
@@ -77,4 +77,4 @@ TEST(ProcessZone, WhatACutHasPartedBearsNothing) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::process_zone_test

@@ -12,7 +12,7 @@
 #include "support/random.h"
 #include "support/random_strokes.h"
 
-namespace incise {
+namespace incise::region_guard_test {
 namespace {
 
 using namespace incise::test;
@@ -152,4 +152,4 @@ TEST(RegionGuard, random_strokes_never_cut_what_they_stop_at) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::region_guard_test

@@ -8,7 +8,7 @@
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/validate.h"
 
-namespace incise {
+namespace incise::short_stroke_test {
 namespace {
 
 constexpr double kStep = 0.01;  // a twentieth of an element
@@ -87,4 +87,4 @@ TEST(ShortStroke, that_starts_away_from_a_front_leaves_it_where_it_is) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::short_stroke_test

@@ -11,7 +11,7 @@
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/validate.h"
 
-namespace incise {
+namespace incise::simulation_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -304,4 +304,4 @@ TEST(Simulation, TheSnapshotForForceFeedbackIsSound) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::simulation_test

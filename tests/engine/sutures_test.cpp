@@ -17,7 +17,7 @@
 #include "support/random.h"
 #include "support/random_strokes.h"
 
-namespace incise {
+namespace incise::sutures_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -329,4 +329,4 @@ TEST(Sutures, TheyAreOfTheHash) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::sutures_test

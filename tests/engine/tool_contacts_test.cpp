@@ -8,7 +8,7 @@
 #include "incise/engine/simulation.h"
 #include "incise/mesh/shapes.h"
 
-namespace incise {
+namespace incise::tool_contacts_test {
 namespace {
 
 /// A slab of 60 × 40 × 16 mm and 10 kPa.
@@ -81,4 +81,4 @@ TEST(ToolContacts, AToolThatAppearsInTheTissueBeginsWithoutAForce) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::tool_contacts_test

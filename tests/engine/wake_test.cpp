@@ -9,7 +9,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::wake_test {
 namespace {
 
 /// A blade across the whole section of a box that is 4 high and 4 deep.
@@ -54,4 +54,4 @@ TEST(Wake, is_undone_with_the_stroke) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::wake_test

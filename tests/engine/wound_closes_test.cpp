@@ -11,7 +11,7 @@
 #include "incise/mesh/shapes.h"
 #include "sim/body/body_state.h"
 
-namespace incise {
+namespace incise::wound_closes_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -95,4 +95,4 @@ TEST(Wound, LipsThatWereDrawnApartMeetAgain) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::wound_closes_test

@@ -8,7 +8,7 @@
 
 #include "support/random.h"
 
-namespace incise {
+namespace incise::closest_test {
 namespace {
 
 const Vec3 kA(0, 0, 0), kB(4, 0, 0), kC(0, 4, 0);
@@ -98,4 +98,4 @@ TEST(ClosestOnTriangle, NeedlesOfAnyThicknessAreSafe) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::closest_test

@@ -5,7 +5,7 @@
 
 #include "support/random.h"
 
-namespace incise {
+namespace incise::intersect_test {
 namespace {
 
 using Triangle = std::array<SosPoint, 3>;
@@ -59,4 +59,4 @@ TEST(TrianglesCross, AgreesWithItsDefinitionOnDegenerateGrids) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::intersect_test

@@ -10,7 +10,7 @@
 
 #include "support/random.h"
 
-namespace incise {
+namespace incise::predicates_test {
 namespace {
 
 using test::Random;
@@ -446,4 +446,4 @@ TEST(SegmentCrossesTriangle, AFlatTriangleOrAPointSegmentIsNoSpecialCase) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::predicates_test

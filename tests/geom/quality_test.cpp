@@ -9,7 +9,7 @@
 
 #include "support/random.h"
 
-namespace incise {
+namespace incise::quality_test {
 namespace {
 
 using Tet = std::array<Vec3, 4>;
@@ -101,4 +101,4 @@ TEST(Quality, DihedralAnglesOfAWedgeAreThoseItWasBuiltWith) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::quality_test

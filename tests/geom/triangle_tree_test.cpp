@@ -9,7 +9,7 @@
 #include "incise/geom/closest.h"
 #include "support/random.h"
 
-namespace incise {
+namespace incise::triangle_tree_test {
 namespace {
 
 struct Soup {
@@ -156,4 +156,4 @@ TEST(Box, TouchingBoxesOverlap) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::triangle_tree_test

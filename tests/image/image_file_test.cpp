@@ -8,7 +8,7 @@
 #include "image/image_bytes.h"
 #include "io/gzip.h"
 
-namespace incise {
+namespace incise::image_file_test {
 namespace {
 
 using namespace incise_test;
@@ -238,4 +238,4 @@ TEST(ReadLabels, refuses_scans) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::image_file_test

@@ -5,7 +5,7 @@
 
 #include "image/made_images.h"
 
-namespace incise {
+namespace incise::label_field_test {
 namespace {
 
 using image::LabelField;
@@ -81,4 +81,4 @@ TEST(LabelField, a_bias_moves_the_interface_outwards) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::label_field_test

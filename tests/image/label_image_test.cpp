@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace incise {
+namespace incise::label_image_test {
 namespace {
 
 using image::LabelImage;
@@ -52,4 +52,4 @@ TEST(LabelImage, measures_voxels_of_slanted_axes) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::label_image_test

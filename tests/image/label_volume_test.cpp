@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace incise {
+namespace incise::label_volume_test {
 namespace {
 
 using image::kMixed;
@@ -75,4 +75,4 @@ TEST(LabelVolume, voxels_that_touch_in_an_edge_are_two_islands) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::label_volume_test

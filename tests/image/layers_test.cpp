@@ -13,7 +13,7 @@
 #include "incise/image/mesh_labels.h"
 #include "incise/io/mesh_export.h"
 
-namespace incise {
+namespace incise::layers_test {
 namespace {
 
 using namespace incise_test;
@@ -246,4 +246,4 @@ TEST(Layers, threads_do_not_change_bits) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::layers_test

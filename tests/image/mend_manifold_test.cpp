@@ -8,7 +8,7 @@
 #include "image/octree.h"
 #include "incise/mesh/defects.h"
 
-namespace incise {
+namespace incise::mend_manifold_test {
 namespace {
 
 using image::LabelIndex;
@@ -90,4 +90,4 @@ TEST(MendManifold, comes_to_an_end_on_noise) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::mend_manifold_test

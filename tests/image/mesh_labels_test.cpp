@@ -7,7 +7,7 @@
 #include "image/organ_judge.h"
 #include "incise/mesh/bounds.h"
 
-namespace incise {
+namespace incise::mesh_labels_test {
 namespace {
 
 using namespace incise_test;
@@ -157,4 +157,4 @@ TEST(MeshLabels, a_line_of_voxels_is_said_to_be_too_thin) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::mesh_labels_test

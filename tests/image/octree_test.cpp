@@ -6,7 +6,7 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/defects.h"
 
-namespace incise {
+namespace incise::octree_test {
 namespace {
 
 using image::LatticeTets;
@@ -90,4 +90,4 @@ TEST(Octree, nothing_is_filled_between_void_leaves) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::octree_test

@@ -23,7 +23,7 @@
 #include "support/random.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::organ_cut_test {
 namespace {
 
 TetMesh meshed(const image::LabelImage& labels, double size, int halvings) {
@@ -203,4 +203,4 @@ TEST(OrganCut, a_liver_of_a_scan_is_cut_and_simulated_with_its_labels_kept) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::organ_cut_test

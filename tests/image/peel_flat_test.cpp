@@ -7,7 +7,7 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/defects.h"
 
-namespace incise {
+namespace incise::peel_flat_test {
 namespace {
 
 using image::LabelledTets;
@@ -93,4 +93,4 @@ TEST(PeelFlat, tets_of_good_shape_stay) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::peel_flat_test

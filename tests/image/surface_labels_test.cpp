@@ -13,7 +13,7 @@
 #include "incise/image/mesh_labels.h"
 #include "incise/mesh/validate.h"
 
-namespace incise {
+namespace incise::surface_labels_test {
 namespace {
 
 using image::label_surface;
@@ -173,4 +173,4 @@ TEST(SurfaceLabels, says_what_is_wrong) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::surface_labels_test

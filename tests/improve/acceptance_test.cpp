@@ -5,7 +5,7 @@
 #include "improve/maintainer_cases.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::acceptance_test {
 namespace {
 
 /// The figures that a cut with its maintenance must reach at the incision; without snapping, which leaves far worse
@@ -196,4 +196,4 @@ TEST(MaintenanceOfAll, stops_where_it_is_told_to_and_goes_on) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::acceptance_test

@@ -6,7 +6,7 @@
 
 #include "improve/maintainer_cases.h"
 
-namespace incise::test {
+namespace incise::test::close_merge_test {
 namespace {
 
 /// Two walls that cross all over the body at a small angle: corners beside corners.
@@ -92,4 +92,4 @@ TEST(CloseMerge, does_nothing_to_tets_that_are_locked) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::close_merge_test

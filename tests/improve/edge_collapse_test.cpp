@@ -6,7 +6,7 @@
 
 #include "improve/maintainer_cases.h"
 
-namespace incise::test {
+namespace incise::test::edge_collapse_test {
 namespace {
 
 /// A cube of 2³ cells whose vertices are at multiples of a half, cut along x = 0.5 on faces of the mesh.
@@ -244,4 +244,4 @@ TEST(ThinningOut, of_a_cut_that_ends_inside_keeps_the_front) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::edge_collapse_test

@@ -6,7 +6,7 @@
 #include "incise/geom/quality.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::edge_removal_test {
 namespace {
 
 /// The tets around the edge from (0, 0, -1) to (0, 0, 1), vertices 0 and 1; the others follow in order.
@@ -269,4 +269,4 @@ TEST(SwapsAtFronts, of_random_patches_leave_a_valid_mesh_after_every_stroke) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::edge_removal_test

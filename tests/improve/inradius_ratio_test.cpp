@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace incise::test {
+namespace incise::test::inradius_ratio_test {
 namespace {
 
 const Vec3 kA(0, 0, 0);
@@ -34,4 +34,4 @@ TEST(InradiusRatio, is_nothing_for_a_needle_long_before_it_vanishes) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::inradius_ratio_test

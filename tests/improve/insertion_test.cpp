@@ -4,7 +4,7 @@
 
 #include "improve/support.h"
 
-namespace incise::test {
+namespace incise::test::insertion_test {
 namespace {
 
 /// One insertion around the worst tet; returns the vertex, invalid where none was put in.
@@ -113,4 +113,4 @@ TEST(Insertion, leaves_borders_between_regions) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::insertion_test

@@ -4,7 +4,7 @@
 
 #include "improve/maintainer_cases.h"
 
-namespace incise::test {
+namespace incise::test::maintainer_test {
 namespace {
 
 /// Tets and places, to compare a mesh with what it was.
@@ -273,4 +273,4 @@ TEST(Maintenance, leaves_what_lies_further_from_the_cut_alone) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::maintainer_test

@@ -8,7 +8,7 @@
 #include "incise/mesh/edge_length.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::original_sizes_test {
 namespace {
 
 TEST(OriginalSizes, are_unknown_before_anything_was_measured) {
@@ -49,4 +49,4 @@ TEST(OriginalSizes, grow_with_the_body) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::original_sizes_test

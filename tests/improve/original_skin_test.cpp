@@ -8,7 +8,7 @@
 #include "improve/skin_drift.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::original_skin_test {
 namespace {
 
 Stroke plane_through_ball(Random& random) {
@@ -136,4 +136,4 @@ TEST(OriginalSkin, lets_pieces_give_way_only_near_to_it) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::original_skin_test

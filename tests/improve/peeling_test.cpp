@@ -6,7 +6,7 @@
 
 #include "improve/support.h"
 
-namespace incise::test {
+namespace incise::test::peeling_test {
 namespace {
 
 /// The number of a point of a Kuhn cube of 4³ cells.
@@ -188,4 +188,4 @@ TEST(Peeling, of_cut_bodies_keeps_the_volume_of_every_piece) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::peeling_test

@@ -4,7 +4,7 @@
 
 #include "improve/support.h"
 
-namespace incise::test {
+namespace incise::test::reference_test {
 namespace {
 
 /// The references of a stroke that swept a square in the plane z = 0.
@@ -127,4 +127,4 @@ TEST(References, measure_nothing_without_fresh_walls) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::reference_test

@@ -8,7 +8,7 @@
 #include "improve/support.h"
 #include "incise/geom/quality.h"
 
-namespace incise::test {
+namespace incise::test::smooth_test {
 namespace {
 
 // --- the energy of a star
@@ -362,4 +362,4 @@ TEST(MaterialPoint, is_found_in_the_tet_that_holds_it) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::smooth_test

@@ -4,7 +4,7 @@
 
 #include "improve/support.h"
 
-namespace incise::test {
+namespace incise::test::split_trial_test {
 namespace {
 
 /// Tries the edges of a tet in turn; what does not help is rolled back. Returns the vertices put in.
@@ -71,4 +71,4 @@ TEST(SplitTrial, keeps_the_front_one_line_where_it_is_split) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::split_trial_test

@@ -4,7 +4,7 @@
 
 #include "improve/support.h"
 
-namespace incise::test {
+namespace incise::test::surfaces_test {
 namespace {
 
 VertexSurfaces surfaces_near(const TetMesh& mesh, const Vec3& place) {
@@ -314,4 +314,4 @@ TEST(VolumeStep, is_refused_without_surfaces_on_three_and_on_parallel_ones) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::surfaces_test

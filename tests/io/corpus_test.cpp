@@ -13,7 +13,7 @@
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/defects.h"
 
-namespace incise {
+namespace incise::corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,4 +162,4 @@ TEST_F(Corpus, every_writer_gives_a_real_mesh_back_bit_for_bit) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::corpus_test

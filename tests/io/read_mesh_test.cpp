@@ -8,7 +8,7 @@
 #include "io/fixtures.h"
 #include "io/gzip.h"
 
-namespace incise {
+namespace incise::read_mesh_test {
 namespace {
 
 using io::read_mesh_bytes;
@@ -466,4 +466,4 @@ TEST(ReadMsh, takes_triangles_for_walls_only_where_element_data_name_strokes) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::read_mesh_test

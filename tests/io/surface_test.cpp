@@ -6,7 +6,7 @@
 
 #include "incise/io/surface_file.h"
 
-namespace incise {
+namespace incise::surface_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST(Surface, surfaces_cut_at_any_byte_never_break_the_reader) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::surface_test

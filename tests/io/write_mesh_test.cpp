@@ -12,7 +12,7 @@
 #include "incise/io/mesh_file.h"
 #include "io/fixtures.h"
 
-namespace incise {
+namespace incise::write_mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -318,4 +318,4 @@ TEST(WriteMeshErrors, an_old_file_is_replaced_at_once) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::write_mesh_test

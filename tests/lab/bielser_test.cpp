@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/lab_support.h"
 
-namespace incise::test {
+namespace incise::test::bielser_test {
 namespace {
 
 const TetSoup kTet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}, {}};
@@ -60,4 +60,4 @@ TEST(Adaptive, leaves_tets_that_the_blade_ends_in_whole_and_divides_what_shares_
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::bielser_test

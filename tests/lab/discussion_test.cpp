@@ -5,7 +5,7 @@
 #include "lab/lab_support.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::discussion_test {
 namespace {
 
 /// What one way to cut left of the paper's cube.
@@ -100,4 +100,4 @@ TEST(Discussion, after_three_incisions_the_paper_has_a_fraction_of_the_tets_of_t
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::discussion_test

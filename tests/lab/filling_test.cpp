@@ -11,7 +11,7 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/tet_tables.h"
 
-namespace incise::test {
+namespace incise::test::filling_test {
 namespace {
 
 using lab::Child;
@@ -131,4 +131,4 @@ TEST(Filling, agrees_on_a_side_that_two_tets_share) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::filling_test

@@ -3,7 +3,7 @@
 #include "lab/lab_support.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::method_test {
 namespace {
 
 class EveryMethod : public testing::TestWithParam<LabMethod> {};
@@ -74,4 +74,4 @@ TEST(LabMethods, are_found_by_their_names) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::method_test

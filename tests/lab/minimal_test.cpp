@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/lab_support.h"
 
-namespace incise::test {
+namespace incise::test::minimal_test {
 namespace {
 
 TEST(Minimal, makes_four_children_of_a_tet_with_a_corner_cut_off_and_six_of_one_cut_in_half) {
@@ -21,4 +21,4 @@ TEST(Minimal, cuts_the_cube_into_1300_tets_without_losing_volume) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::minimal_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/lab_support.h"
 
-namespace incise::test {
+namespace incise::test::moving_test {
 namespace {
 
 TEST(Moving, moves_a_near_layer_onto_the_plane_and_divides_nothing) {
@@ -32,4 +32,4 @@ TEST(Moving, adds_fewer_tets_than_division_alone_and_has_walls_on_the_sheet) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::moving_test

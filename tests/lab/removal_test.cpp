@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/lab_support.h"
 
-namespace incise::test {
+namespace incise::test::removal_test {
 namespace {
 
 TEST(Removal, takes_the_layer_of_elements_that_the_plane_passes_through) {
@@ -28,4 +28,4 @@ TEST(Removal, parts_what_hangs_at_vertices_and_edges_alone) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::removal_test

@@ -2,7 +2,7 @@
 #include "lab/lab_support.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::snapping_test {
 namespace {
 
 TEST(Snapping, moves_a_layer_of_vertices_onto_the_plane_and_adds_no_tet) {
@@ -31,4 +31,4 @@ TEST(Snapping, turns_no_tet_over_and_leaves_walls_beside_the_plane_instead) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::snapping_test

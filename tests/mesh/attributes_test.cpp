@@ -17,7 +17,7 @@
 #include "incise/mesh/verbs.h"
 #include "support/random.h"
 
-namespace incise {
+namespace incise::attributes_test {
 namespace {
 
 AttributeSpec spec_of(const std::string& name, Domain domain, std::uint32_t width, Transfer transfer) {
@@ -513,4 +513,4 @@ TEST(Attributes, moved_vertices_sample_anew_and_keep_a_uniform_density) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::attributes_test

@@ -20,7 +20,7 @@
 #include "support/engines.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::collapse_test {
 namespace {
 
 using Simplex = std::array<std::uint32_t, 3>;  // slots, ascending; unused entries are kNone
@@ -453,4 +453,4 @@ TEST(Collapse, refuses_a_vertex_between_regions_but_not_one_beside) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::collapse_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace incise {
+namespace incise::defects_test {
 namespace {
 
 TetSoup one_tet() {
@@ -141,4 +141,4 @@ TEST(Normalise, turns_negative_tets_and_drops_duplicates) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::defects_test

@@ -24,7 +24,7 @@
 #include "support/random_strokes.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::drawn_surface_test {
 namespace {
 
 struct Body {
@@ -380,4 +380,4 @@ TEST(SurfaceDrawing, a_step_costs_what_it_touched) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::drawn_surface_test

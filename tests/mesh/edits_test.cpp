@@ -25,7 +25,7 @@
 #include "support/mirror_checks.h"
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::edits_test {
 namespace {
 
 constexpr double kLeastVolume = 1e-6;  // of a tet that an edit makes, of the unit cube's: rounding stays below 1e-12
@@ -595,4 +595,4 @@ TEST(EditStep, hands_the_mass_of_a_cavity_to_its_new_tets) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::edits_test

@@ -21,7 +21,7 @@
 #include "support/random_strokes.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::embedded_surface_test {
 namespace {
 
 using Place = std::tuple<double, double, double>;
@@ -519,4 +519,4 @@ TEST(EmbeddedSurface, history_that_was_trimmed_away_is_told) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::embedded_surface_test

@@ -7,7 +7,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::journal_cursor_test {
 namespace {
 
 using Way = JournalCursor::Way;
@@ -92,4 +92,4 @@ TEST(JournalCursor, sees_that_steps_it_has_not_seen_were_trimmed) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::journal_cursor_test

@@ -13,6 +13,7 @@
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
 
+namespace journal_mirror_test {
 namespace {
 
 using namespace incise;
@@ -156,3 +157,5 @@ TEST_F(Mirror, knows_the_tets_of_each_vertex) {
 }
 
 }  // namespace
+
+}  // namespace journal_mirror_test

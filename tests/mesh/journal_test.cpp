@@ -7,7 +7,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::journal_test {
 namespace {
 
 TEST(Journal, undoes_and_redoes_random_programs_bit_for_bit) {
@@ -146,4 +146,4 @@ TEST(Journal, trims_steps_and_gives_their_memory_back) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::journal_test

@@ -10,7 +10,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::journal_visitor_test {
 namespace {
 
 /// What is told, as words.
@@ -187,4 +187,4 @@ TEST(JournalVisitor, is_enough_to_follow_a_cut_and_its_maintenance) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::journal_visitor_test

@@ -10,7 +10,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::out_of_memory_test {
 namespace {
 
 void split_some_edge(Transaction& transaction, TetId tet, unsigned edge) {
@@ -125,4 +125,4 @@ TEST(OutOfMemory, taking_steps_back_asks_for_no_memory) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::out_of_memory_test

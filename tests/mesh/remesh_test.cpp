@@ -21,7 +21,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::remesh_test {
 namespace {
 
 /// The tets as a set of positive vertex quadruples, each turned so that its lowest slots come first.
@@ -315,4 +315,4 @@ TEST(EdgeRemoval, takes_the_first_triangles_tet_as_parent) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::remesh_test

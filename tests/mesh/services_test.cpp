@@ -12,6 +12,7 @@
 #include "incise/mesh/transaction.h"
 #include "incise/mesh/validate.h"
 
+namespace services_test {
 namespace {
 
 using namespace incise;
@@ -210,3 +211,5 @@ TEST(Validate, compares_the_volume_and_keeps_no_more_ids_than_asked) {
 }
 
 }  // namespace
+
+}  // namespace services_test

@@ -15,7 +15,7 @@
 #include "incise/mesh/verbs.h"
 #include "support/random.h"
 
-namespace incise {
+namespace incise::split_verbs_test {
 namespace {
 
 TetMesh cube(std::uint32_t n) {
@@ -371,4 +371,4 @@ TEST(VerbProgram, links_equal_those_of_a_rebuild_and_undo_returns_every_hash) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::split_verbs_test

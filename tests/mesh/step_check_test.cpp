@@ -11,7 +11,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::step_check_test {
 namespace {
 
 /// What the check says of one step that `edit` makes.
@@ -146,4 +146,4 @@ TEST(TouchedCheck, asks_nothing_of_what_no_step_touched) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::step_check_test

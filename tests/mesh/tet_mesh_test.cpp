@@ -13,7 +13,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::tet_mesh_test {
 namespace {
 
 TetSoup one_tet() {
@@ -317,4 +317,4 @@ TEST(EdgeRing, closes_around_inner_edges_only) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::tet_mesh_test

@@ -7,7 +7,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::transaction_test {
 namespace {
 
 SplitEdgeResult split_some_edge(Transaction& transaction, TetId tet, unsigned edge, double t = 0.5) {
@@ -163,4 +163,4 @@ TEST(Transaction, moves_a_vertex_to_a_place_in_a_tet_and_says_where) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::transaction_test

@@ -10,7 +10,7 @@
 #include "support/bodies.h"
 #include "support/engines.h"
 
-namespace incise::test {
+namespace incise::test::verbs_test {
 namespace {
 
 struct Edge {
@@ -191,4 +191,4 @@ TEST(DuplicateVertex, is_refused_where_nothing_would_come_apart) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::verbs_test

@@ -10,7 +10,7 @@
 
 #include "support/random.h"
 
-namespace incise::oracle {
+namespace incise::oracle::convex_arrangement_test {
 namespace {
 
 constexpr double kExact = 2e-14;
@@ -211,4 +211,4 @@ TEST(ConvexArrangement, RandomPlanesMakeAsManyPiecesAsTheirIntersectionsSay) {
 }
 
 }  // namespace
-}  // namespace incise::oracle
+}  // namespace incise::oracle::convex_arrangement_test

@@ -9,7 +9,7 @@
 #include "paper/paper_region.h"
 #include "paper/paper_support.h"
 
-namespace incise::test {
+namespace incise::test::face_swap_test {
 namespace {
 
 MaintainStatistics swap_all(TetMesh& mesh) {
@@ -204,4 +204,4 @@ TEST(FaceSwap, beside_a_cut_keeps_volumes_and_walls) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::face_swap_test

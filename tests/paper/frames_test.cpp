@@ -9,7 +9,7 @@
 #include "support/engines.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::frames_test {
 namespace {
 
 /// Where a point of the body stands at a share of the stroke's time, and where a blade must be to meet it there.
@@ -175,4 +175,4 @@ TEST(PaperFrames, give_the_same_pieces_in_a_body_that_moves) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::frames_test

@@ -8,7 +8,7 @@
 
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::least_squares_plane_test {
 namespace {
 
 using paper::fit_plane;
@@ -55,4 +55,4 @@ TEST(FitPlane, of_points_that_fix_none_has_a_unit_normal_all_the_same) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::least_squares_plane_test

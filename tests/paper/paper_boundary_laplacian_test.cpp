@@ -9,7 +9,7 @@
 #include "paper/paper_region.h"
 #include "paper/paper_support.h"
 
-namespace incise::test {
+namespace incise::test::paper_boundary_laplacian_test {
 namespace {
 
 using paper::smooth_on_contour;
@@ -131,4 +131,4 @@ TEST(BoundarySmoothing, makes_no_tet_bad_shaped) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::paper_boundary_laplacian_test

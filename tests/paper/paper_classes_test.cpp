@@ -7,7 +7,7 @@
 #include "paper/dividable.h"
 #include "paper/paper_support.h"
 
-namespace incise::test {
+namespace incise::test::paper_classes_test {
 namespace {
 
 using paper::ClassFinder;
@@ -136,4 +136,4 @@ TEST(PaperClasses, a_border_between_regions_stays) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::paper_classes_test

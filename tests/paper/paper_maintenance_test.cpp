@@ -20,7 +20,7 @@
 #include "paper/paper_support.h"
 #include "support/random_strokes.h"
 
-namespace incise::test {
+namespace incise::test::paper_maintenance_test {
 namespace {
 
 constexpr MaintainOptions kAll{};
@@ -474,4 +474,4 @@ TEST(PaperMaintenance, brings_the_distribution_considerably_closer_to_the_origin
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::paper_maintenance_test

@@ -12,7 +12,7 @@
 #include "paper/paper_region.h"
 #include "paper/paper_support.h"
 
-namespace incise::test {
+namespace incise::test::paper_merge_test {
 namespace {
 
 using paper::find_short_edges;
@@ -365,4 +365,4 @@ TEST(Merge, passes_over_dead_tets) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::paper_merge_test

@@ -19,7 +19,7 @@
 #include "support/star_separation.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::separate_test {
 namespace {
 
 using Faces = std::vector<IncisionFace>;
@@ -459,4 +459,4 @@ TEST(PaperSeparation, of_random_faces_never_copies_more_than_star_components_do)
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::separate_test

@@ -9,7 +9,7 @@
 #include "paper/paper_region.h"
 #include "paper/paper_support.h"
 
-namespace incise::test {
+namespace incise::test::smart_laplacian_test {
 namespace {
 
 struct StarQuality {
@@ -84,4 +84,4 @@ TEST(SmartLaplacian, leaves_boundaries_and_borders_between_regions) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::smart_laplacian_test

@@ -8,6 +8,7 @@
 using incise::ErrorCode;
 using incise::render::Image;
 
+namespace image_test {
 namespace {
 
 Image checks(int width, int height) {
@@ -93,3 +94,5 @@ TEST(Image, blank_has_one_colour) {
   EXPECT_FALSE(is_blank(image));
   EXPECT_TRUE(is_blank(Image{}));
 }
+
+}  // namespace image_test

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+namespace ink_style_test {
 namespace app = incise::app;
 using namespace incise::render;
 
@@ -46,3 +47,5 @@ TEST(InkStyle, lone_wires_stand_out_from_the_background) {
     EXPECT_GT(distance(grounds.lone_wire, grounds.bottom), 0.6F);
   }
 }
+
+}  // namespace ink_style_test

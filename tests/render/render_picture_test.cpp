@@ -9,6 +9,7 @@
 
 #include "pictures.h"
 
+namespace render_picture_test {
 namespace {
 
 namespace app = incise::app;
@@ -133,3 +134,5 @@ TEST(RenderPicture, errors_come_back) {
   ASSERT_FALSE(image.ok());
   EXPECT_EQ(image.error().code, incise::ErrorCode::kBadArgument);
 }
+
+}  // namespace render_picture_test

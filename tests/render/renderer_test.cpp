@@ -12,6 +12,7 @@
 
 using incise::ErrorCode;
 using incise_test::Drawing;
+namespace renderer_test {
 namespace app = incise::app;
 
 namespace {
@@ -287,3 +288,5 @@ TEST(Renderer, an_instrument_that_is_not_finite_is_left_out) {
   expect_drawn(drawing, picture);
   EXPECT_EQ(compare(drawing.read(), with).differing, 0);
 }
+
+}  // namespace renderer_test

@@ -13,7 +13,7 @@
 #include "incise/sim/reference.h"
 #include "support/beam.h"
 
-namespace incise::test {
+namespace incise::test::accuracy_test {
 namespace {
 
 constexpr double kG = 9.81;
@@ -202,4 +202,4 @@ TEST(Accuracy, ABodyLeftAloneNeverGainsEnergy) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::accuracy_test

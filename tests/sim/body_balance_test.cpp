@@ -12,7 +12,7 @@
 #include "moving_body.h"
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::body_balance_test {
 namespace {
 
 /// A body that is drawn out between two ends, and cut by random strokes as it moves.
@@ -89,4 +89,4 @@ TEST(BodyBalance, FollowingAddsNoEnergyToSpringsThatHold) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::body_balance_test

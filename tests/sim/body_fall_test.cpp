@@ -7,7 +7,7 @@
 
 #include "moving_body.h"
 
-namespace incise::test {
+namespace incise::test::body_fall_test {
 namespace {
 
 constexpr double kG = 9.81;         // m/s²
@@ -302,4 +302,4 @@ TEST(BodyFall, ALargeBodyIsCutAgainAndAgainWhileItFalls) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::body_fall_test

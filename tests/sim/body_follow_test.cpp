@@ -9,7 +9,7 @@
 #include "incise/mesh/star.h"
 #include "moving_body.h"
 
-namespace incise::test {
+namespace incise::test::body_follow_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -352,4 +352,4 @@ TEST(BodyFollow, AJournalFromBeforeTheBodyIsRefused) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::body_follow_test

@@ -13,7 +13,7 @@
 #include "moving_body.h"
 #include "support/beam.h"
 
-namespace incise::test {
+namespace incise::test::body_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -484,4 +484,4 @@ TEST(Body, ABeamInMillimetresBehavesAsOneInMetres) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::body_test

@@ -9,7 +9,7 @@
 
 #include "moving_body.h"
 
-namespace incise::test {
+namespace incise::test::body_ties_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -347,4 +347,4 @@ TEST(BodyTies, OneWhoseTetIsGoneActsNoMore) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::body_ties_test

@@ -11,7 +11,7 @@
 #include "incise/mesh/shapes.h"
 #include "moving_body.h"
 
-namespace incise {
+namespace incise::bones_test {
 namespace {
 
 using test::MovingBody;
@@ -275,4 +275,4 @@ INSTANTIATE_TEST_SUITE_P(Both, Pinned, testing::Bool(),
                          [](const auto& tears) { return tears.param ? "tearing" : "slipping"; });
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::bones_test

@@ -15,7 +15,7 @@
 #include "support/beam.h"
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::coarse_lattice_test {
 namespace {
 
 TEST(BandMatrix, SolvesWhatADenseMatrixSolves) {
@@ -119,4 +119,4 @@ TEST(CoarseLattice, PiecesThatCameOffMoveByThemselves) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::coarse_lattice_test

@@ -6,7 +6,7 @@
 #include "incise/sim/local_tissue.h"
 #include "sim/haptic_scenes.h"
 
-namespace incise {
+namespace incise::cutting_energy_test {
 namespace {
 
 TEST(CuttingEnergy, WorkIsWhatTheToolIsPushedAgainst) {
@@ -70,4 +70,4 @@ TEST(CuttingEnergy, TheLocalTissuePaysForTheAreaItsEdgeOpens) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::cutting_energy_test

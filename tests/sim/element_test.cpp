@@ -15,7 +15,7 @@
 #include "sim/body/body_state.h"
 #include "support/random.h"
 
-namespace incise {
+namespace incise::element_test {
 namespace {
 
 using detail::Element;
@@ -223,4 +223,4 @@ TEST(Element, RestIsStableForEveryPoissonRatio) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::element_test

@@ -12,7 +12,7 @@
 #include "sim/body/element.h"
 #include "support/random.h"
 
-namespace incise {
+namespace incise::fibres_test {
 namespace {
 
 using test::make_body;
@@ -309,4 +309,4 @@ TEST(Relaxing, follows_cuts_and_undo_and_gives_the_same_on_two_threads) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::fibres_test

@@ -7,7 +7,7 @@
 #include "incise/sim/simulated_operator.h"
 #include "sim/haptic_scenes.h"
 
-namespace incise {
+namespace incise::haptic_devices_test {
 namespace {
 
 TEST(NullDevice, RestsAtTheOrigin) {
@@ -115,4 +115,4 @@ TEST(SimulatedOperator, NumbersOutOfRangeAreNamed) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::haptic_devices_test

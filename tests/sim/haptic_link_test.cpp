@@ -9,7 +9,7 @@
 #include "sim/haptic_scenes.h"
 #include "support/random.h"
 
-namespace incise {
+namespace incise::haptic_link_test {
 namespace {
 
 using test::DelayedPress;
@@ -132,4 +132,4 @@ TEST(HapticLink, AToolOfADelayThatIsRefusedStaysFinite) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::haptic_link_test

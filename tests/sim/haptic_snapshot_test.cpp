@@ -7,7 +7,7 @@
 
 #include "sim/haptic_scenes.h"
 
-namespace incise {
+namespace incise::haptic_snapshot_test {
 namespace {
 
 using test::liver_at;
@@ -61,4 +61,4 @@ TEST(HapticSnapshot, EachBrokenPromiseIsNamed) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::haptic_snapshot_test

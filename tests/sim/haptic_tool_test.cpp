@@ -10,7 +10,7 @@
 #include "sim/haptic_scenes.h"
 #include "support/allocation.h"
 
-namespace incise {
+namespace incise::haptic_tool_test {
 namespace {
 
 using test::HapticRun;
@@ -192,4 +192,4 @@ TEST(HapticToolOptions, NumbersOutOfRangeAreNamed) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::haptic_tool_test

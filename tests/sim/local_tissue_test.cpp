@@ -7,7 +7,7 @@
 
 #include "sim/haptic_scenes.h"
 
-namespace incise {
+namespace incise::local_tissue_test {
 namespace {
 
 using test::liver_at;
@@ -146,4 +146,4 @@ TEST(LocalTissue, TissueWithoutToughnessAndFrictionLetsTheBladePass) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::local_tissue_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace incise {
+namespace incise::material_test {
 namespace {
 
 TEST(Material, LameParametersFollowFromYoungAndPoisson) {
@@ -51,4 +51,4 @@ TEST(Material, NumbersOutOfRangeAreNamed) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::material_test

@@ -16,7 +16,7 @@
 #include "support/beam.h"
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::nodal_volumes_test {
 namespace {
 
 BodyOptions averaging() {
@@ -203,4 +203,4 @@ TEST(NodalVolumes, ANeighbourStandsOnceInItsList) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::nodal_volumes_test

@@ -11,7 +11,7 @@
 #include "sim/haptic_scenes.h"
 #include "support/random.h"
 
-namespace incise {
+namespace incise::passivity_test {
 namespace {
 
 using test::HapticRun;
@@ -221,4 +221,4 @@ TEST(PassivityInScenesOfJitter, ADeviceThatShakesBeyondReachLeavesTheSampledEner
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::passivity_test

@@ -13,7 +13,7 @@
 #include "support/beam.h"
 #include "support/random.h"
 
-namespace incise {
+namespace incise::reference_test {
 namespace {
 
 using test::Beam;
@@ -477,4 +477,4 @@ TEST(ReferenceSolver, LoosePartsHaveNoEquilibrium) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::reference_test

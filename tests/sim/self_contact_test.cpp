@@ -11,7 +11,7 @@
 #include "sim/body/contact_surface.h"
 #include "sim/body/contact_terms.h"
 
-namespace incise::test {
+namespace incise::test::self_contact_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -419,4 +419,4 @@ TEST(SelfContact, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::self_contact_test

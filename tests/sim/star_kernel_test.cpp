@@ -20,7 +20,7 @@
 #include <hwy/targets.h>
 #endif
 
-namespace incise {
+namespace incise::star_kernel_test {
 namespace {
 
 using detail::Descent;
@@ -384,4 +384,4 @@ TEST(StarKernel, EveryInstructionSetGivesTheSameBits) {
 #endif
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::star_kernel_test

@@ -11,7 +11,7 @@
 
 #include "support/random.h"
 
-namespace incise {
+namespace incise::stars_test {
 namespace {
 
 using detail::kLanes;
@@ -185,4 +185,4 @@ TEST(Stars, UseThePlacesOfOutgrownStarsAgain) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::stars_test

@@ -13,7 +13,7 @@
 #include "support/bodies.h"
 #include "support/random.h"
 
-namespace incise::test {
+namespace incise::test::tissue_point_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -76,4 +76,4 @@ TEST(FindNearest, looks_at_the_shape_that_is_asked_for) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::tissue_point_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace incise {
+namespace incise::tissue_test {
 namespace {
 
 const char* name_of(const Tissue* tissue) {
@@ -97,4 +97,4 @@ TEST(Tissues, are_those_of_the_document) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::tissue_test

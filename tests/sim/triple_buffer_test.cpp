@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <thread>
 
-namespace incise {
+namespace incise::triple_buffer_test {
 namespace {
 
 TEST(TripleBuffer, HasTheInitialValueUntilOneIsTaken) {
@@ -77,4 +77,4 @@ TEST(TripleBuffer, TwoThreadsNeverSeeHalfAValueNorAnOlderOne) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::triple_buffer_test

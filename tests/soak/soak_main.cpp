@@ -106,7 +106,7 @@ State examine(const TetMesh& mesh) {
 enum class Upkeep { kNone, kWhole, kPortions };
 
 /// How a body is cut.
-struct Course {
+struct CutCourse {
   const char* name;
   CutOptions cut;
   Upkeep upkeep = Upkeep::kNone;
@@ -116,14 +116,14 @@ struct Course {
 };
 
 constexpr CutOptions kSnapped{Profile::kIncise, 0.2}, kUnsnapped{Profile::kIncise, 0}, kAsPaper{Profile::kPaper, 0};
-constexpr std::array<Course, 6> kCourses = {{{"cut", kSnapped, Upkeep::kNone},
-                                             {"cut, no snap", kUnsnapped, Upkeep::kNone, 4},
-                                             {"maintained", kSnapped, Upkeep::kWhole},
-                                             {"maintained, no snap", kUnsnapped, Upkeep::kWhole, 2},
-                                             {"in portions", kSnapped, Upkeep::kPortions, 2},
-                                             {"paper", kAsPaper, Upkeep::kWhole, 4}}};
+constexpr std::array<CutCourse, 6> kCourses = {{{"cut", kSnapped, Upkeep::kNone},
+                                                {"cut, no snap", kUnsnapped, Upkeep::kNone, 4},
+                                                {"maintained", kSnapped, Upkeep::kWhole},
+                                                {"maintained, no snap", kUnsnapped, Upkeep::kWhole, 2},
+                                                {"in portions", kSnapped, Upkeep::kPortions, 2},
+                                                {"paper", kAsPaper, Upkeep::kWhole, 4}}};
 
-EngineOptions options_of(const Course& course, Random& budget) {
+EngineOptions options_of(const CutCourse& course, Random& budget) {
   constexpr std::array<std::uint64_t, 4> kBudgets = {0, 100, 2000, 50000};
   EngineOptions options;
   options.check_step = TouchedCheck();
@@ -233,7 +233,7 @@ struct Tally {
 /// A body that is cut in one course.
 class Soak {
  public:
-  Soak(const TetMesh& mesh, std::string name, const Course& course, std::uint64_t seed, Tally& tally)
+  Soak(const TetMesh& mesh, std::string name, const CutCourse& course, std::uint64_t seed, Tally& tally)
       : name_(std::move(name)),
         course_(course),
         seed_(seed),
@@ -338,7 +338,7 @@ class Soak {
   [[nodiscard]] bool has_hash(std::size_t i) const { return engine_.mesh().hash() == hashes_[i]; }
 
   std::string name_;
-  Course course_;
+  CutCourse course_;
   std::uint64_t seed_;
   Tally& tally_;
   Random strokes_, budget_;
@@ -370,9 +370,9 @@ TetSoup random_body(Random& random) {
   }
 }
 
-Course random_course(Random& random) {
+CutCourse random_course(Random& random) {
   constexpr std::array<double, 5> kSnaps = {0.2, 0.2, 0.1, 0.3, 0.0};
-  Course course = kCourses[static_cast<std::size_t>(random.integer(0, 5))];
+  CutCourse course = kCourses[static_cast<std::size_t>(random.integer(0, 5))];
   if (!course.is_paper()) course.cut.snap = kSnaps[static_cast<std::size_t>(random.integer(0, 4))];
   return course;
 }
@@ -404,7 +404,7 @@ int soak_made_meshes(const Settings& settings) {
 /// Every course of one real mesh.
 void soak_real_mesh(const TetMesh& mesh, const std::string& name, const Settings& settings, std::uint64_t seed,
                     const Clock& clock, Tally& tally) {
-  for (const Course& course : kCourses) {
+  for (const CutCourse& course : kCourses) {
     // Cuts of the paper profile make bodies that touch themselves worse, maintained or not.
     if (course.is_paper() && mesh.touched_itself_at_load()) continue;
     Soak soak(mesh, name, course, seed, tally);

@@ -10,7 +10,7 @@
 #include "soak/sheet_pieces.h"
 #include "support/bodies.h"
 
-namespace incise::test {
+namespace incise::test::tet_review_test {
 namespace {
 
 /// A unit corner: right angles at point 0.
@@ -202,4 +202,4 @@ TEST(SheetPieces, of_a_tee_are_three_and_two_where_a_gap_stays) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::tet_review_test

@@ -57,6 +57,8 @@ struct Link {
 
 /// The corners of a tet, in the order of `tet_tables.h`; positive: (1-0)×(2-0)·(3-0) > 0.
 using TetVertices = std::array<VertexId, 4>;
+/// Those of a free slot.
+inline constexpr TetVertices kNoVertices{};
 /// What lies behind the sides of a tet; side s is opposite corner s.
 using TetLinks = std::array<Link, 4>;
 

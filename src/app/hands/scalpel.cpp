@@ -13,7 +13,7 @@ namespace {
 constexpr double kClearance = 0.5;       // of the edge above the surface: lips that bulge are still cut
 constexpr double kNormalReach = 1;       // of travel over which facets are smoothed
 constexpr double kDirectionReach = 0.5;  // of travel over which turns are smoothed, and the blade leans over
-constexpr double kLift = 0.25;           // of the tip above the surface before the blade goes in
+constexpr double kTipLift = 0.25;        // of the tip above the surface before the blade goes in
 constexpr double kLeastTravel = 0.02;    // that changes the pose: the hand trembles
 constexpr double kSlack = 0.5;           // that tissue may have risen or sunk under the pointer
 constexpr double kMostDrift = 2;         // that the surface may be off the plane after a blind stretch
@@ -25,7 +25,7 @@ constexpr double kMostOblique = 4;  // along the ray, per rise off the plane
 constexpr double kGrazing = 0.02;   // sine of the flattest angle at which a plane is met
 constexpr double kSettled = 1e-3;   // length of the smoothed direction below which it says nothing
 constexpr double kLeastPixels = 0.5;
-constexpr int kSegments = 4;  // of the edge
+constexpr int kTipSegments = 4;  // of the edge
 
 /// Where a ray meets a plane's front.
 std::optional<Vec3> meet(const Ray& ray, const Vec3& on_plane, const Vec3& normal) {
@@ -57,8 +57,8 @@ Vec3 blend(const Vec3& from, const Vec3& to, double travel, double reach) {
 
 BladePose pose_along(const Vec3& point, const Vec3& up, double above, double below, const Vec3& direction) {
   BladePose pose;
-  for (int i = 0; i <= kSegments; ++i) {
-    pose.edge.emplace_back(point + (above - (above + below) * i / kSegments) * up);
+  for (int i = 0; i <= kTipSegments; ++i) {
+    pose.edge.emplace_back(point + (above - (above + below) * i / kTipSegments) * up);
   }
   pose.direction = direction;
   return pose;
@@ -86,7 +86,7 @@ void Scalpel::begin(const PointerPlace& place, const ToolSettings& settings) {
   pixel_ = place.pixel;
   put(settings, place.pressure);
   // From outside, as blades do: one that stands in tissue which it has not cut has no way to go on from.
-  const Vec3 lift = (place.pressure + kLift) * settings.depth * normal_;
+  const Vec3 lift = (place.pressure + kTipLift) * settings.depth * normal_;
   for (Vec3& point : pose_->edge) point += lift;
 }
 

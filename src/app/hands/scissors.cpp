@@ -7,13 +7,13 @@ namespace app {
 namespace {
 
 constexpr double kSeconds = 0.4;
-constexpr int kSteps = 8;             // of the turn: between two the edge goes straight
-constexpr int kSegments = 4;          // of the edge
-constexpr double kLift = 0.3;         // of the hinge above the skin, in depths
-constexpr double kOpen = 0.6;         // rise of the upper blade per length, on skin
-constexpr double kUpright = 3.5;      // the same from a rim: it has to clear the skin beside the hinge
-constexpr double kSameSide = 0.7;     // cosine between the normals of the same skin, at least
-constexpr double kLeastLength = 0.2;  // in depths
+constexpr int kSteps = 8;              // of the turn: between two the edge goes straight
+constexpr int kBladeSegments = 4;      // of the edge
+constexpr double kHingeLift = 0.3;     // of the hinge above the skin, in depths
+constexpr double kOpen = 0.6;          // rise of the upper blade per length, on skin
+constexpr double kUpright = 3.5;       // the same from a rim: it has to clear the skin beside the hinge
+constexpr double kSameSide = 0.7;      // cosine between the normals of the same skin, at least
+constexpr double kShortestBite = 0.2;  // in depths
 
 /// Where the pointer is on the plane through a place of the skin.
 std::optional<Vec3> on_plane_of(const SurfaceHit& skin, const Ray& ray) {
@@ -41,9 +41,9 @@ std::optional<ScissorsPlace> place_scissors(const PointerPlace& from, const Poin
   const Vec3 normal =
       begins_on_skin && ends_on_skin ? Vec3((from.hit->normal + to.hit->normal).stableNormalized()) : skin.normal;
   const Vec3 way = *b - *a, flat = way - way.dot(normal) * normal;
-  if (!(flat.norm() >= kLeastLength * settings.depth)) return std::nullopt;
+  if (!(flat.norm() >= kShortestBite * settings.depth)) return std::nullopt;
   ScissorsPlace place;
-  place.hinge = *a + (begins_on_skin ? kLift : -1.0) * settings.depth * normal;
+  place.hinge = *a + (begins_on_skin ? kHingeLift : -1.0) * settings.depth * normal;
   place.lower_tip = *b - settings.depth * normal;
   const double length = (place.lower_tip - place.hinge).norm();
   const double rise = begins_on_skin ? kOpen : kUpright;
@@ -60,7 +60,8 @@ Stroke to_stroke(const ScissorsPlace& place) {
     const Vec3 blade = closed.norm() * ((1 - share) * open + share * closed).normalized();
     stroke.times.push_back(share * kSeconds);
     std::vector<Vec3>& edge = stroke.edges.emplace_back();
-    for (int i = 0; i <= kSegments; ++i) edge.emplace_back(place.hinge + static_cast<double>(i) / kSegments * blade);
+    for (int i = 0; i <= kBladeSegments; ++i)
+      edge.emplace_back(place.hinge + static_cast<double>(i) / kBladeSegments * blade);
   }
   return stroke;
 }

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxListed = 100;
+constexpr std::size_t kMaxListedNames = 100;
 constexpr const char* kResults = "results.jsonl";
 
 // --- one worker
@@ -210,7 +210,7 @@ Json head(const char* what, const std::string& plan, std::uint64_t items) {
 
 Json listed(const std::vector<std::string>& names) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < names.size() && i < kMaxListed; ++i) list.push_back(names[i]);
+  for (std::size_t i = 0; i < names.size() && i < kMaxListedNames; ++i) list.push_back(names[i]);
   return {{"count", names.size()}, {"first", std::move(list)}};
 }
 

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kPlanVersion = 1;
 constexpr double kMaxSnap = 0.4;        // as `CutOptions`
 constexpr double kMaxSeconds = 1000;    // of a random stroke
 constexpr double kLeastSeconds = 0.05;  // three frames of most scenes
@@ -128,7 +128,7 @@ class PlanReader {
 
  private:
   bool read_header(const JsonValue& root) {
-    return read_.is_format(root, "incise-plan", kVersion) &&
+    return read_.is_format(root, "incise-plan", kPlanVersion) &&
            read_.is_object(root, "", {"format", "version", "name", "output", "defaults", "items"}) &&
            read_.optional_text(root, "", "name", plan_.name);
   }

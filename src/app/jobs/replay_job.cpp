@@ -207,11 +207,11 @@ std::string to_text(const ReplayResult& result) {
 
 namespace {
 
-Json encode(const MeshCounts& counts) {
+Json counts_json(const MeshCounts& counts) {
   return {{"vertices", counts.vertices}, {"tets", counts.tets}, {"components", counts.components}};
 }
 
-Json encode(const ReplayDifference& d) {
+Json difference_json(const ReplayDifference& d) {
   return {{"line", d.line}, {"call", d.call}, {"expected", d.expected}, {"found", d.found}};
 }
 
@@ -224,11 +224,11 @@ std::string to_json(const ReplayResult& result) {
   root["input"] = {{"file", result.source.file}, {"format", result.source.format}};
   root["calls"] = result.calls;
   root["strokes"] = result.strokes;
-  root["mesh"] = {{"before", encode(result.before)}, {"after", encode(result.after)}};
+  root["mesh"] = {{"before", counts_json(result.before)}, {"after", counts_json(result.after)}};
   root["hash"] = hash_text(result.hash);
   root["is_cut_off"] = result.is_cut_off;
   root["is_in_stroke"] = result.is_in_stroke;
-  root["difference"] = result.difference ? encode(*result.difference) : Json();
+  root["difference"] = result.difference ? difference_json(*result.difference) : Json();
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -40,7 +40,7 @@ End make_call(Simulation& simulation, const SimulationCall& call) {
   return {};
 }
 
-std::string shown(const std::optional<ErrorCode>& error) {
+std::string ended(const std::optional<ErrorCode>& error) {
   return error ? std::string("error ") + name_of(*error) : "success";
 }
 
@@ -64,7 +64,7 @@ Result<std::optional<ReplayDifference>> replay_call(Simulation& simulation, cons
                  {}};
   }
   const std::optional<ErrorCode> found = end ? std::optional(end->code) : std::nullopt;
-  std::optional<ReplayDifference> difference = differ(call, shown(call.error), shown(found));
+  std::optional<ReplayDifference> difference = differ(call, ended(call.error), ended(found));
   if (verify && !difference) difference = compare_hashes(call, simulation);
   return difference;
 }

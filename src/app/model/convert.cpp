@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 #include <utility>
 
+#include "app/model/extension.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_loader.h"
 #include "incise/io/surface_file.h"
@@ -19,14 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> kSurfaces = {".obj", ".stl", ".ply", ".off"};
-
-std::string extension_of(const fs::path& path) {
-  std::string text = path.extension().string();
-  if (text == ".gz") text = path.stem().extension().string();
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 Result<Conversion> write_surface(const fs::path& out, const io::SurfaceSoup& surface, Conversion done) {
   if (const Status status = io::write_surface(out, surface); !status.ok()) return status.error();

@@ -2,10 +2,10 @@
 #include "app/model/organ.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
+#include "app/model/extension.h"
 #include "app/model/label_names.h"
 #include "incise/image/surface_labels.h"
 #include "incise/io/numbers.h"
@@ -20,15 +20,6 @@ namespace fs = std::filesystem;
 
 /// Voxels that a surface is sampled at, as a share of the tets' size, and of the thinnest layer.
 constexpr double kVoxelShare = 1.0 / 3, kVoxelShareOfLayer = 1.0 / 2;
-
-/// The extension in lower case, without `.gz`.
-std::string extension_of(const fs::path& file) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (name.size() > 3 && name.compare(name.size() - 3, 3, ".gz") == 0) name.resize(name.size() - 3);
-  return fs::path(name).extension().string();
-}
 
 bool is_among(const std::string& what, std::initializer_list<const char*> list) {
   return std::any_of(list.begin(), list.end(), [&](const char* item) { return what == item; });

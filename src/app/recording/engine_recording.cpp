@@ -15,7 +15,7 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kRecordingVersion = 1;
 constexpr std::size_t kMaxPoints = std::size_t{1} << 20U;  // of a pose, and times of a stroke
 constexpr std::size_t kBytesPerPoint = 24;
 
@@ -93,7 +93,7 @@ class HeaderReader : public LineReader {
 
   bool run(const JsonValue& root, RecordingHeader& header) {
     const std::string path = "the header";
-    if (!read_.is_format(root, "incise-recording", kVersion) ||
+    if (!read_.is_format(root, "incise-recording", kRecordingVersion) ||
         !read_.is_object(root, path, {"format", "version", "program", "mesh", "options"}) ||
         !read_text(root, path, "program", header.program)) {
       return false;
@@ -225,7 +225,7 @@ const char* name_of(CallKind kind) {
 std::string to_line(const RecordingHeader& header) {
   Json root;
   root["format"] = "incise-recording";
-  root["version"] = kVersion;
+  root["version"] = kRecordingVersion;
   root["program"] = header.program.empty() ? "incise " INCISE_VERSION : header.program;
   root["mesh"] = {{"file", header.mesh_file}, {"hash", hash_text(header.mesh_hash)}};
   root["options"] = {{"profile", kProfileNames[static_cast<std::size_t>(header.cut.profile)]},

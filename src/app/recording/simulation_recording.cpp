@@ -18,7 +18,7 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kSimulationVersion = 1;
 constexpr std::size_t kMaxItems = 1'000'000;  // hooks and tools of one frame
 constexpr std::array<const char*, 2> kReachNames = {"ball", "surface"};
 constexpr std::array<const char*, 6> kCallNames = {"settle", "frame", "undo", "redo", "suture", "unpick"};
@@ -70,7 +70,7 @@ class HeaderReader : public LineReader {
   Result<SimulationHeader> run(const JsonValue& root, const std::filesystem::path& folder) {
     const std::string path = "the header";
     SimulationHeader header;
-    if (!read_.is_format(root, "incise-simulation", kVersion) ||
+    if (!read_.is_format(root, "incise-simulation", kSimulationVersion) ||
         !read_.is_object(root, path, {"format", "version", "program", "mesh", "scene"}) ||
         !read_text(root, path, "program", header.program)) {
       return error();
@@ -246,7 +246,7 @@ const char* name_of(SimulationCallKind kind) {
 std::string to_line(const SimulationHeader& header) {
   Json root;
   root["format"] = "incise-simulation";
-  root["version"] = kVersion;
+  root["version"] = kSimulationVersion;
   root["program"] = header.program.empty() ? "incise " INCISE_VERSION : header.program;
   root["mesh"]["hash"] = hash_text(header.mesh_hash);
   root["scene"] = scene_tree(header.scene);

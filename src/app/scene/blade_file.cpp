@@ -14,7 +14,7 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kBladeVersion = 1;
 
 class BladeReader {
  public:
@@ -28,7 +28,7 @@ class BladeReader {
 
  private:
   bool read_header(const JsonValue& root) {
-    return read_.is_format(root, "incise-blade", kVersion) &&
+    return read_.is_format(root, "incise-blade", kBladeVersion) &&
            read_.is_object(root, "", {"format", "version", "strokes"}) && read_.member(root, "", "strokes") != nullptr;
   }
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kSceneVersion = 1;
 constexpr std::uint64_t kMaxRegion = std::numeric_limits<std::int32_t>::max();
 constexpr double kMaxBoxTets = 268435456;                  // as `kuhn_box`
 constexpr double kMaxPoisson = 0.499;                      // as `Material`
@@ -723,7 +723,7 @@ class SceneReader : public SceneViewReader {
 
  private:
   bool read_header(const JsonValue& root) {
-    return read_.is_format(root, "incise-scene", kVersion) &&
+    return read_.is_format(root, "incise-scene", kSceneVersion) &&
            read_.is_object(
                root, "", {"format",        "version",     "name",    "model",   "length_unit", "materials", "gravity",
                           "damping",       "attachments", "tools",   "hooks",   "strokes",     "frames",    "duration",

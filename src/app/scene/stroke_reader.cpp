@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kUnitTolerance = 1e-6;
 constexpr std::size_t kMaxStops = 1000;
-constexpr std::uint64_t kMaxRegion = std::numeric_limits<std::int32_t>::max();
+constexpr std::uint64_t kMaxStrokeRegion = std::numeric_limits<std::int32_t>::max();
 
 /// The columns of the rotation that a unit quaternion w + xi + yj + zk stands for.
 struct Pose {
@@ -144,7 +144,7 @@ bool read_stops(JsonReader& reader, const JsonValue& value, const std::string& p
     const JsonValue& item = list->items[i];
     if (item.kind == JsonValue::Kind::kString && !item.text.empty()) {
       names.push_back(item.text);
-    } else if (item.is_whole && item.whole <= kMaxRegion) {
+    } else if (item.is_whole && item.whole <= kMaxStrokeRegion) {
       numbers.push_back(static_cast<std::int32_t>(item.whole));
     } else {
       return reader.fail(item, at(path + ".stop_at", i), "must be a region's number or its name");

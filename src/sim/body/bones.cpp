@@ -20,7 +20,7 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr unsigned kTurnRounds = 12;  // of Higham's iteration with scaling: bones twenty times as long as wide need 8
-constexpr double kFarthest = 4;       // reaches, so one local edge: as far as a visit moves a vertex of a bone at most
+constexpr double kFarthestVisit = 4;  // reaches, so one local edge: as far as a visit moves a vertex of a bone at most
 
 /// The turning in a sum of products: its polar factor. None where it is flat or turned inside out.
 Mat3 turning_of(const Mat3& products) {
@@ -225,7 +225,7 @@ class BoneVisit {
     double farthest = 0;
     for (const Vec3& x : from_) farthest = std::max(farthest, move_of(step, x).norm());
     if (!std::isfinite(farthest) || !(farthest > 0)) return;
-    step *= std::min(1.0, kFarthest * reach_ / farthest);
+    step *= std::min(1.0, kFarthestVisit * reach_ / farthest);
     const double at_start = slope_.dot(step);
     if (!(at_start < 0)) return;
     go(step, 1);

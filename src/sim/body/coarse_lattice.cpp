@@ -19,11 +19,11 @@ constexpr double kLeastSpacing = 2.5;        // mean edges: sweeps see to what i
 constexpr std::size_t kLeastVertices = 64;   // of a piece: in smaller ones sweeps reach everywhere
 constexpr std::size_t kVerticesPerNode = 4;  // of the lattice, at least; at most kMostNodes in any case
 constexpr std::size_t kMostNodes = 400;
-constexpr double kHoldStiffness = 10;  // of the vertex' own: what is held hardly moves
-constexpr double kPoisson = 0.3;       // the lattice's own: linear cells lock near 1/2
-constexpr unsigned kTurnEvery = 4;     // steps
-constexpr double kFarthest = 0.5;      // of a cell: the most that one answer moves a vertex
-constexpr double kLongest = 2;         // how much further than it asks an answer may be taken
+constexpr double kHoldStiffness = 10;    // of the vertex' own: what is held hardly moves
+constexpr double kPoisson = 0.3;         // the lattice's own: linear cells lock near 1/2
+constexpr unsigned kTurnEvery = 4;       // steps
+constexpr double kFarthestAnswer = 0.5;  // of a cell: the most that one answer moves a vertex
+constexpr double kLongest = 2;           // how much further than it asks an answer may be taken
 
 using Mat24 = Eigen::Matrix<double, 24, 24>;
 
@@ -57,7 +57,7 @@ Mat24 cell_stiffness(const Vec3& spacing) {
 }
 
 /// The turning in a deformation, by Higham's iteration; none where it is flattened or turned inside out.
-Mat3 turning_of(const Mat3& deformation) {
+Mat3 cell_turning(const Mat3& deformation) {
   const double size = deformation.norm();
   if (!(size > 0) || !std::isfinite(size)) return Mat3::Identity();
   Mat3 turn = deformation / size;
@@ -310,7 +310,7 @@ void CoarseLattice::turn(const DeformableBody::State& state) {
   }
   for (std::uint32_t i = 0; i < node_count_; ++i) {
     const Sums& s = sums[i];
-    turns_[i] = s.mass > 0 ? turning_of(s.product - s.place * s.rest.transpose() / s.mass) : Mat3(Mat3::Identity());
+    turns_[i] = s.mass > 0 ? cell_turning(s.product - s.place * s.rest.transpose() / s.mass) : Mat3(Mat3::Identity());
   }
 }
 
@@ -391,7 +391,7 @@ void CoarseLattice::correct(DeformableBody::State& state) {
     before_[v] = {x[0], x[1], x[2], 0};
     at_start += dot(slopes_[v], steps_[v]);
   });
-  const double first = std::min(1.0, kFarthest * spacing_.minCoeff() / longest);
+  const double first = std::min(1.0, kFarthestAnswer * spacing_.minCoeff() / longest);
   go(state, first);
   const double at_end = slope_along(state);
   // The slope is as good as linear: to where it is 0, or on as far as may be.

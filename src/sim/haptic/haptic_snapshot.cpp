@@ -3,10 +3,14 @@
 
 #include <cmath>
 
+#include "sim/haptic/amounts.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
+
+using detail::is_amount;
 
 /// No negative eigenvalue, by the principal minors; rounding of a part in 10⁹ is let pass.
 bool is_semidefinite(const Eigen::Matrix3d& m) {
@@ -24,10 +28,6 @@ bool is_symmetric(const Eigen::Matrix3d& m) {
 
 bool is_unit(const Vec3& direction) {
   return std::abs(direction.squaredNorm() - 1) <= 2e-6;
-}
-
-bool is_amount(double number) {
-  return number >= 0 && std::isfinite(number);
 }
 
 /// What is wrong with a snapshot, in static words; null where nothing is.

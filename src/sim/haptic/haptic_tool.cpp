@@ -6,22 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/haptic/amounts.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
+using detail::is_amount;
+using detail::is_positive;
+
 Vec3 shortened(const Vec3& v, double longest) {
   const double length = v.norm();
   return length > longest ? Vec3(v * (longest / length)) : v;
-}
-
-bool is_positive(double number) {
-  return number > 0 && std::isfinite(number);
-}
-
-bool is_amount(double number) {
-  return number >= 0 && std::isfinite(number);
 }
 
 /// The lightest grip, kg, for which a coupling over a link with a delay is to settle, and the share of it by the delay

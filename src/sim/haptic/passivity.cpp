@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/haptic/amounts.h"
+
 namespace incise {
 inline namespace v0 {
 
@@ -26,7 +28,7 @@ void PassivityObserver::add(const Vec3& force, const Vec3& displacement) {
 }
 
 Status check(const PassivityOptions& options) {
-  const auto is_amount = [](double number) { return number >= 0 && std::isfinite(number); };
+  using detail::is_amount;
   const auto bad = [](const char* what) { return Error{ErrorCode::kBadArgument, what, {}}; };
   if (!is_amount(options.initial_energy)) return bad("the initial energy must be at least 0 J");
   if (!is_amount(options.max_acceleration)) return bad("the largest acceleration must be at least 0 m/s²");

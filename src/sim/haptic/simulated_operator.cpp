@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "incise/sim/time_steps.h"
+#include "sim/haptic/amounts.h"
 
 namespace incise {
 inline namespace v0 {
 
 Status check(const HandOptions& options) {
-  const auto is_amount = [](double number) { return number >= 0 && std::isfinite(number); };
+  using detail::is_amount;
   const auto bad = [](const char* what) { return Error{ErrorCode::kBadArgument, what, {}}; };
   if (!is_amount(options.mass) || options.mass == 0) return bad("the hand's mass must be above 0 kg");
   if (!is_amount(options.stiffness)) return bad("the hand's stiffness must be at least 0 N/m");

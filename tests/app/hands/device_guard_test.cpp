@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+namespace device_guard_test {
 namespace {
 
 using namespace incise;
@@ -87,3 +88,5 @@ TEST(DeviceGuard, BadOptionsAreNamed) {
 }
 
 }  // namespace
+
+}  // namespace device_guard_test

@@ -12,6 +12,7 @@
 #include "app/jobs/simulate_job.h"
 #include "app/session/session_thread.h"
 
+namespace device_hand_test {
 namespace {
 
 using namespace incise;
@@ -223,3 +224,5 @@ TEST(DeviceHand, HasTheBladeOfASession) {
 }
 
 }  // namespace
+
+}  // namespace device_hand_test

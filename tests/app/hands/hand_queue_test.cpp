@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace incise::app {
+namespace incise::app::hand_queue_test {
 namespace {
 
 /// A blade that can be told from others by where it is.
@@ -187,4 +187,4 @@ TEST(HandQueue, IsBehindTheHandByAFewFramesPerStrokeAtMost) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::hand_queue_test

@@ -14,6 +14,7 @@
 #include "app/hands/fake_haply.h"
 #include "app/hands/haptic_loop.h"
 
+namespace haply_device_test {
 namespace {
 
 using namespace incise;
@@ -284,3 +285,5 @@ TEST(HaplyDevice, KeepsThePaceWhileAHandPressesOnTissue) {
 }
 
 }  // namespace
+
+}  // namespace haply_device_test

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+namespace haply_messages_test {
 namespace {
 
 using namespace incise;
@@ -91,3 +92,5 @@ TEST(HaplyMessages, ForcesAreNumbersAlways) {
 }
 
 }  // namespace
+
+}  // namespace haply_messages_test

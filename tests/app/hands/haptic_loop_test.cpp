@@ -9,6 +9,7 @@
 
 #include "incise/sim/simulated_operator.h"
 
+namespace haptic_loop_test {
 namespace {
 
 using namespace incise;
@@ -227,3 +228,5 @@ TEST(HapticLoop, ASimulatedHandGivesEnergyToTheWallAndNeverGetsMoreBack) {
 }
 
 }  // namespace
+
+}  // namespace haptic_loop_test

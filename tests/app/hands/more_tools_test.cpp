@@ -13,7 +13,7 @@
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
 
-namespace incise::app {
+namespace incise::app::more_tools_test {
 namespace {
 
 using Kind = PointerEvent::Kind;
@@ -219,4 +219,4 @@ TEST(Tools, SayWhyTheyDidNothing) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::more_tools_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace incise::app {
+namespace incise::app::mouse_device_test {
 namespace {
 
 Vec3 read_until(HapticDevice& device, double from, double to) {
@@ -60,4 +60,4 @@ TEST(MouseDevice, RemembersTheForce) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::mouse_device_test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+namespace placed_device_test {
 namespace {
 
 using namespace incise;
@@ -91,3 +92,5 @@ TEST(PlacedDevice, AxesAreRotations) {
 }
 
 }  // namespace
+
+}  // namespace placed_device_test

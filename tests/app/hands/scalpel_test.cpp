@@ -10,7 +10,7 @@
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
 
-namespace incise::app {
+namespace incise::app::scalpel_test {
 namespace {
 
 using Kind = PointerEvent::Kind;
@@ -196,4 +196,4 @@ TEST(PinOnTissue, HoldsItAgainstAPull) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::scalpel_test

@@ -10,7 +10,7 @@
 
 #include "app/view/viewed_body.h"
 
-namespace incise::app {
+namespace incise::app::tools_test {
 namespace {
 
 using Kind = PointerEvent::Kind;
@@ -480,4 +480,4 @@ TEST(Tools, RandomEventsNeverLeadToUnsoundHands) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::tools_test

@@ -15,6 +15,7 @@
 #include "app/text/text_file.h"
 #include "support/folder.h"
 
+namespace batch_plan_test {
 namespace {
 
 using namespace incise;
@@ -375,3 +376,5 @@ TEST_F(Plan, with_values_of_other_kinds_is_read_or_refused) {
 }
 
 }  // namespace
+
+}  // namespace batch_plan_test

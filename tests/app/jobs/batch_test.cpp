@@ -13,6 +13,7 @@
 #include "incise/mesh/bounds.h"
 #include "support/folder.h"
 
+namespace batch_test {
 namespace {
 
 using namespace incise;
@@ -454,3 +455,5 @@ TEST(RandomStrokes, planes_go_through_the_whole_body) {
 }
 
 }  // namespace
+
+}  // namespace batch_test

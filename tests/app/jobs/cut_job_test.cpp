@@ -12,6 +12,7 @@
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/shapes.h"
 
+namespace cut_job_test {
 namespace {
 
 using namespace incise;
@@ -205,3 +206,5 @@ TEST(MeshExport, surface_of_a_cube_is_closed) {
 }
 
 }  // namespace
+
+}  // namespace cut_job_test

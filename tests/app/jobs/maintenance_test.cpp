@@ -11,6 +11,7 @@
 #include "incise/mesh/shapes.h"
 #include "paper/paper_cut.h"
 
+namespace maintenance_test {
 namespace {
 
 using namespace incise;
@@ -255,3 +256,5 @@ TEST(Improve, report_has_the_keys_of_a_report_and_none_about_cutting) {
 }
 
 }  // namespace
+
+}  // namespace maintenance_test

@@ -13,6 +13,7 @@
 #include "incise/mesh/bounds.h"
 #include "support/folder.h"
 
+namespace replay_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -336,3 +337,5 @@ TEST(Recordings, replay_as_they_were_made) {
 }
 
 }  // namespace
+
+}  // namespace replay_test

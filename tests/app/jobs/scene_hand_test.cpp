@@ -6,7 +6,7 @@
 #include "app/jobs/simulate_job.h"
 #include "incise/sim/haptic_snapshot.h"
 
-namespace incise::app {
+namespace incise::app::scene_hand_test {
 namespace {
 
 /// A blade that moves for ten frames of a scene of twelve.
@@ -52,4 +52,4 @@ TEST(SceneHand, FeelsTissueAndNeverGetsEnergyFromIt) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::scene_hand_test

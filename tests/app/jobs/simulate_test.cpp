@@ -18,6 +18,7 @@
 #include "support/folder.h"
 #include "support/scene_cases.h"
 
+namespace simulate_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -435,3 +436,5 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace
+
+}  // namespace simulate_test

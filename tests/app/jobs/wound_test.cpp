@@ -11,7 +11,7 @@
 #include "support/bodies.h"
 #include "support/strokes.h"
 
-namespace incise::test {
+namespace incise::test::wound_test {
 namespace {
 
 constexpr std::array<const char*, 4> kFormats = {".mesh", ".msh", ".vtk", ".vtu"};
@@ -261,4 +261,4 @@ TEST(Walls, of_strokes_beyond_the_highest_number_name_the_file) {
 }
 
 }  // namespace
-}  // namespace incise::test
+}  // namespace incise::test::wound_test

@@ -14,6 +14,7 @@
 #include "app/recording/engine_recording.h"
 #include "support/folder.h"
 
+namespace recording_test {
 namespace {
 
 using namespace incise;
@@ -359,3 +360,5 @@ TEST(RecordingReader, forgives_only_the_last_line) {
 }
 
 }  // namespace
+
+}  // namespace recording_test

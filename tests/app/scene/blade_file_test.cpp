@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+namespace blade_file_test {
 namespace {
 
 using namespace incise;
@@ -149,3 +150,5 @@ TEST(BladeFile, strokes_may_stop_at_regions) {
 }
 
 }  // namespace
+
+}  // namespace blade_file_test

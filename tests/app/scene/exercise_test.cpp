@@ -12,6 +12,7 @@
 #include "app/scene/scene_simulation.h"
 #include "support/scene_cases.h"
 
+namespace exercise_test {
 namespace {
 
 using namespace incise;
@@ -284,3 +285,5 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedExercise, testing::Values("train_skin", "tr
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace
+
+}  // namespace exercise_test

@@ -11,7 +11,7 @@
 #include "app/scene/scene_simulation.h"
 #include "incise/sim/tissue.h"
 
-namespace incise {
+namespace incise::region_names_test {
 namespace {
 
 /// A box of two named regions, with materials and more keys put in.
@@ -129,4 +129,4 @@ TEST(Layers, are_felt_by_the_blade_one_after_the_other) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::region_names_test

@@ -18,6 +18,7 @@
 #include "support/folder.h"
 #include "support/scene_cases.h"
 
+namespace scene_test {
 namespace {
 
 using namespace incise;
@@ -625,3 +626,5 @@ TEST(SceneSchema, has_the_same_defaults_as_the_reader) {
 }
 
 }  // namespace
+
+}  // namespace scene_test

@@ -17,7 +17,7 @@
 #include "app/view/surface_view.h"
 #include "incise/mesh/validate.h"
 
-namespace incise::app {
+namespace incise::app::hand_exercise_test {
 namespace {
 
 using Kind = PointerEvent::Kind;
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(All, HandOnExercise,
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::hand_exercise_test

@@ -7,7 +7,7 @@
 #include "incise/engine/engine.h"
 #include "incise/geom/quality.h"
 
-namespace incise::app {
+namespace incise::app::probe_test {
 namespace {
 
 Engine cut_cube() {
@@ -83,4 +83,4 @@ TEST(Probe, OfADeadTetIsNothing) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::probe_test

@@ -13,7 +13,7 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/quality_stats.h"
 
-namespace incise::app {
+namespace incise::app::quality_monitor_test {
 namespace {
 
 float ratio_of(const TetMesh& mesh, TetId tet) {
@@ -161,4 +161,4 @@ TEST(QualityMonitorOf, FlatTetsAreBadAndStayOutOfTheMean) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::quality_monitor_test

@@ -11,7 +11,7 @@
 #include "incise/sim/tissue.h"
 #include "support/folder.h"
 
-namespace incise {
+namespace incise::scan_scene_test {
 namespace {
 
 /// A MetaImage of 24³ voxels of 1 mm: a ball of label 1 with a ball of label 2 in it.
@@ -69,4 +69,4 @@ TEST(ScanScene, says_what_is_wrong_with_the_scan) {
 }
 
 }  // namespace
-}  // namespace incise
+}  // namespace incise::scan_scene_test

@@ -10,7 +10,7 @@
 #include "support/folder.h"
 #include "support/strokes.h"
 
-namespace incise::app {
+namespace incise::app::session_spare_test {
 namespace {
 
 /// A block of 8 cm, region 2 below 3 cm and region 1 above, held at its bottom.
@@ -133,4 +133,4 @@ TEST(SessionSpare, scenes_are_written_with_it_and_say_what_is_wrong) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::session_spare_test

@@ -9,6 +9,7 @@
 #include "app/session/session_cases.h"
 #include "app/session/session_thread.h"
 
+namespace session_sutures_test {
 namespace {
 
 using namespace incise;
@@ -180,3 +181,5 @@ TEST(SessionThreadHands, AStrokeDuringAPlaneCutComesAfterIt) {
 }
 
 }  // namespace
+
+}  // namespace session_sutures_test

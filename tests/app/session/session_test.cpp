@@ -14,6 +14,7 @@
 #include "incise/io/mesh_loader.h"
 #include "incise/mesh/bounds.h"
 
+namespace session_test {
 namespace {
 
 using namespace incise;
@@ -769,3 +770,5 @@ TEST(OperationLog, keeps_the_newest) {
 }
 
 }  // namespace
+
+}  // namespace session_test

@@ -10,6 +10,7 @@
 #include "app/jobs/replay_job.h"
 #include "app/session/session_cases.h"
 
+namespace session_thread_test {
 namespace {
 
 using namespace incise;
@@ -383,3 +384,5 @@ TEST_F(SessionThreadTest, ends_at_once_whatever_is_waiting) {
 }
 
 }  // namespace
+
+}  // namespace session_thread_test

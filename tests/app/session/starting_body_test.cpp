@@ -7,6 +7,7 @@
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
 
+namespace starting_body_test {
 namespace {
 
 using namespace incise;
@@ -71,3 +72,5 @@ TEST(StartingBody, organs_are_one_sound_piece_of_a_size_that_runs_while_it_is_cu
     ASSERT_TRUE(session->frame().ok()) << name;
   }
 }
+
+}  // namespace starting_body_test

@@ -10,7 +10,7 @@
 #include "app/view/viewed_body.h"
 #include "incise/engine/engine.h"
 
-namespace incise::app {
+namespace incise::app::validity_monitor_test {
 namespace {
 
 constexpr double kTolerance = 1e-12;
@@ -102,4 +102,4 @@ TEST(ValidityMonitor, EndsWithinACheckAndMoves) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::validity_monitor_test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+namespace json_tree_test {
 namespace {
 
 using namespace incise;
@@ -48,3 +49,5 @@ TEST(JsonTree, keeps_its_limits) {
 }
 
 }  // namespace
+
+}  // namespace json_tree_test

@@ -7,7 +7,7 @@
 
 #include "app/view/viewed_body.h"
 
-namespace incise::app {
+namespace incise::app::camera_test {
 namespace {
 
 Vec3 in_clip(const Camera& camera, const Viewport& viewport, const Box& box, const Vec3& p) {
@@ -140,4 +140,4 @@ TEST(Camera, AnEmptyBoxLeavesTheCameraWhereItIs) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::camera_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-namespace incise::app {
+namespace incise::app::color_map_test {
 namespace {
 
 /// As a grey picture has it.
@@ -39,4 +39,4 @@ TEST(LabelColor, EightThatDifferThenAgainFromTheFirst) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::color_map_test

@@ -9,7 +9,7 @@
 #include "app/view/viewed_body.h"
 #include "incise/engine/engine.h"
 
-namespace incise::app {
+namespace incise::app::cut_marks_test {
 namespace {
 
 using Place = std::tuple<float, float, float>;
@@ -101,4 +101,4 @@ TEST(CutMarks, NothingIsMarkedWhereNothingIsSeen) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::cut_marks_test

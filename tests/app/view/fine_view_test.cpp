@@ -16,7 +16,7 @@
 #include "support/folder.h"
 #include "support/strokes.h"
 
-namespace incise::app {
+namespace incise::app::fine_view_test {
 namespace {
 
 constexpr std::uint32_t kFine = 16;  // squares along an edge of the surface of the unit cube
@@ -260,4 +260,4 @@ TEST_F(FineViewOfScene, says_what_is_wrong_with_it) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::fine_view_test

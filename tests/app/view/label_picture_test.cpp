@@ -8,6 +8,7 @@
 
 #include "incise/mesh/shapes.h"
 
+namespace label_picture_test {
 namespace {
 
 using namespace incise;
@@ -54,3 +55,5 @@ TEST(LabelPicture, LeavesABodyOfOneRegionWhole) {
 }
 
 }  // namespace
+
+}  // namespace label_picture_test

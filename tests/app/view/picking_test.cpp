@@ -10,7 +10,7 @@
 #include "app/view/viewed_body.h"
 #include "incise/engine/engine.h"
 
-namespace incise::app {
+namespace incise::app::picking_test {
 namespace {
 
 Vec3 random_point(std::mt19937& random, double low, double high) {
@@ -94,4 +94,4 @@ TEST(Pick, FreeSlotsAreIgnored) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::picking_test

@@ -11,6 +11,7 @@
 #include "app/view/drapes.h"
 #include "app/view/instrument.h"
 
+namespace solid_test {
 namespace {
 
 using namespace incise;
@@ -129,3 +130,5 @@ TEST(Solid, drapes_leave_the_body_free_whatever_is_up) {
   }
   EXPECT_TRUE(app::drapes_around(Box{}, Vec3::UnitZ()).empty());
 }
+
+}  // namespace solid_test

@@ -9,7 +9,7 @@
 #include "incise/engine/engine.h"
 #include "incise/mesh/bounds.h"
 
-namespace incise::app {
+namespace incise::app::spread_pieces_test {
 namespace {
 
 /// A block from the origin to (2, 1, 1), cut by planes across axes.
@@ -94,4 +94,4 @@ TEST(SpreadPieces, AcceptsAFrameWithoutTopology) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::spread_pieces_test

@@ -13,7 +13,7 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/components.h"
 
-namespace incise::app {
+namespace incise::app::surface_view_test {
 namespace {
 
 /// What is to be seen, found without any journal.
@@ -427,4 +427,4 @@ TEST(QualityByte, GrowsWithBadnessAndComesBack) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::surface_view_test

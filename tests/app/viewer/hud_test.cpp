@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace incise::app {
+namespace incise::app::hud_test {
 namespace {
 
 SessionFigures figures(std::uint64_t frames, double collision, double relax, double cut) {
@@ -149,4 +149,4 @@ TEST(HudRows, TellTheForceOnTheBlade) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::hud_test

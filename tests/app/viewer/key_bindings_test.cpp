@@ -9,7 +9,7 @@
 
 #include "app/hands/tools.h"
 
-namespace incise::app {
+namespace incise::app::key_bindings_test {
 namespace {
 
 constexpr std::size_t kActions = static_cast<std::size_t>(Action::kCount);
@@ -80,4 +80,4 @@ TEST(KeyBindings, GroupsAreTogetherInTheList) {
 }
 
 }  // namespace
-}  // namespace incise::app
+}  // namespace incise::app::key_bindings_test

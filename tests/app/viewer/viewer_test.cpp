@@ -9,6 +9,7 @@
 
 #include "app/session/session_cases.h"
 
+namespace viewer_test {
 namespace {
 
 using namespace incise;
@@ -641,3 +642,5 @@ TEST_F(ViewerTest, a_sequence_names_one_picture_per_new_frame) {
 }
 
 }  // namespace
+
+}  // namespace viewer_test
