@@ -13,7 +13,7 @@ namespace render {
 namespace {
 
 constexpr float kFrontWidth = 1.6F, kContourWidth = 0.6F;  // pixels
-constexpr float kMostPixels = 1024;                        // of widths and radii
+constexpr float kMostMarkPixels = 1024;                    // of widths and radii
 constexpr std::uint32_t kOnTop = 1, kBeforeSurface = 2, kBehind = 3;
 
 std::uint32_t style_of(app::Ink ink) {
@@ -21,7 +21,7 @@ std::uint32_t style_of(app::Ink ink) {
 }
 
 float in_pixels(float size) {
-  return size > 0 ? std::min(size, kMostPixels) : 1.0F;
+  return size > 0 ? std::min(size, kMostMarkPixels) : 1.0F;
 }
 
 }  // namespace
