@@ -56,7 +56,8 @@ def _library(settings: Settings) -> Path:
     options = ["-DINCISE_BUILD_%s=OFF" % name for name in off]
     jobs = os.environ.get("INCISE_JOBS", str(os.cpu_count() or 1))
     environment = dict(os.environ, CCACHE_BASEDIR=str(ROOT), CCACHE_NOHASHDIR="1")
-    for command in (["cmake", "-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DINCISE_BUILD_C=ON",
+    for command in (["cmake", "-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release",
+                     "-DCMAKE_UNITY_BUILD=ON", "-DINCISE_BUILD_C=ON",
                      "-DINCISE_WITH_TBB=OFF", "-DINCISE_INSTALL=OFF", "-DINCISE_WERROR=OFF"] + options + arguments,
                     ["cmake", "--build", str(build), "-j", jobs, "--target", "incise_c"]):
         subprocess.run(command, check=True, env=environment)
