@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures that the page measures of itself, printed and written to build/web-pictures/figures.json. What it must reach is asked for in
-// full with INCISE_WEB_ALL=1, on a machine that does nothing else; without it a third of that, so that a busy one does not fail.
+// full with INCISE_WEB_ALL=1, on a machine that does nothing else; without it times are printed alone, so that a busy one does not fail.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { after, describe, test } from 'node:test';
 import { Visit, pictures, skip } from './page_support.mjs';
 import { read } from './support.mjs';
 
-const slack = process.env.INCISE_WEB_ALL ? 1 : 3;
+const slack = process.env.INCISE_WEB_ALL ? 1 : Infinity;
 const MUST = { cuttableMs: 4000, framesAt5000: 60, framesAt10668: 30, blockMs: 50, gzippedBytes: 1.5e6 };
 const ROUNDS = process.env.INCISE_WEB_ALL ? 200 : 20;
 const found = {};
