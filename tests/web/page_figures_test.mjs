@@ -9,10 +9,14 @@ import { after, describe, test } from 'node:test';
 import { Visit, pictures, skip } from './page_support.mjs';
 import { read } from './support.mjs';
 
-const slack = process.env.INCISE_WEB_ALL ? 1 : Infinity;
+const asksTimes = Boolean(process.env.INCISE_WEB_ALL);
 const MUST = { cuttableMs: 4000, framesAt5000: 60, framesAt10668: 30, blockMs: 50, gzippedBytes: 1.5e6 };
 const ROUNDS = process.env.INCISE_WEB_ALL ? 200 : 20;
 const found = {};
+
+function askTime(holds, message) {
+  if (asksTimes) assert.ok(holds, message);
+}
 
 describe('figures of the page', { skip }, () => {
   const visit = new Visit();
@@ -49,8 +53,8 @@ describe('figures of the page', { skip }, () => {
       note(context, body, figures);
       assert.ok(figures.cutTets > 0);
       assert.ok(visit.fetched.size >= 6 && figures.gzippedBytes <= MUST.gzippedBytes, `${figures.gzippedBytes} bytes`);
-      assert.ok(figures.simulatedPerSecond >= (0.95 * least) / slack, `${figures.simulatedPerSecond} frames a second`); // a timer's whole ms
-      assert.ok(Math.max(figures.longestBlockMs, figures.longestBlockLoadingMs) <= MUST.blockMs * slack, 'the page was blocked');
+      askTime(figures.simulatedPerSecond >= 0.95 * least, `${figures.simulatedPerSecond} frames a second`); // a timer's whole ms
+      askTime(Math.max(figures.longestBlockMs, figures.longestBlockLoadingMs) <= MUST.blockMs, 'the page was blocked');
       assert.ok(figures.mostWaiting <= 4, `${figures.mostWaiting} questions waited`);
     });
   }
@@ -79,7 +83,7 @@ describe('figures of the page', { skip }, () => {
     await visit.isReady();
     const { cuttableMs, loadedMs, longestBlockLoadingMs } = await now();
     note(context, 'oneCore', { cuttableMs: Math.round(cuttableMs), loadedMs: Math.round(loadedMs), longestBlockLoadingMs });
-    assert.ok(cuttableMs <= MUST.cuttableMs * slack, `${cuttableMs} ms`);
+    askTime(cuttableMs <= MUST.cuttableMs, `${cuttableMs} ms`);
     pin('0-63');
     visit.complaints = visit.complaints.filter((text) => !/404/.test(text)); // a file that is shown asks for an icon
   });
