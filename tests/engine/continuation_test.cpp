@@ -245,7 +245,7 @@ TEST(Continuation, of_one_stroke_back_to_its_start_cuts_a_core_out) {
         const double share = i / 20.0, angle = 6.2831853071795862 * share;
         const Vec3 outwards = std::cos(angle) * plane.along + std::sin(angle) * plane.forwards;
         const Vec3 x = middle + (0.31 + off * share) * outwards;
-        const BladePose pose{{x - 1.5 * axis, x + 1.5 * axis}, {}};
+        const BladePose pose{{x - 1.5 * axis, x + 1.5 * axis}};
         ASSERT_TRUE(i == 0 ? engine.begin_stroke(pose).ok() : engine.step(pose).ok());
       }
       ASSERT_TRUE(engine.end_stroke().ok());
