@@ -44,13 +44,28 @@ bool CloseMerger::improve(Care& care, TetId tet) {
 }
 
 bool CloseMerger::try_merge(Care& care, VertexId from, VertexId into) {
-  planner_.plan(care.mesh, from, into, plan_);
+  planner_.plan(care.mesh, from, into, plan_, Flaps::kTakenAway);
   if (!plan_ || !begin(care)) return false;
   const Vec3 p = care.mesh.rest(from), q = care.mesh.rest(into);
-  const bool is_front = ((care.mesh.shape_of(from) | care.mesh.shape_of(into)) & shape::kFront) != 0;
-  const double length = (p - q).norm();
-  if (length > (is_front ? kFrontReach : kShort) * edge_) return false;
+  if ((p - q).norm() > kShort * edge_ || !are_flaps_thin(care)) return false;
   return try_place(care, q) || try_place(care, p) || try_place(care, 0.5 * (p + q));
+}
+
+/// Whether what stands out between two walls is so thin that these may give way to each other.
+bool CloseMerger::are_flaps_thin(const Care& care) const {
+  if (plan_.flaps.empty()) return true;
+  const double length = (care.mesh.rest(plan_.from) - care.mesh.rest(plan_.into)).norm();
+  return std::all_of(tags_.begin(), tags_.end(), [&](std::uint32_t tag) {
+    return length <= 2.0 * surface_tolerance(care, tag, plan_.from, edge_);
+  });
+}
+
+/// Whether neither end moves too far where it is part of a front.
+bool CloseMerger::keeps_front(const Care& care, const Vec3& place) const {
+  const auto keeps = [&](VertexId v) {
+    return (care.mesh.shape_of(v) & shape::kFront) == 0 || (care.mesh.rest(v) - place).norm() <= kFrontReach * edge_;
+  };
+  return keeps(plan_.from) && keeps(plan_.into);
 }
 
 /// Looks at both stars; false where they may not change.
@@ -88,15 +103,16 @@ void CloseMerger::collect_sides(const Care& care) {
       const std::size_t first = std::min(from, into);
       if (first == 3) continue;
       const Facet before = {mesh.rest(v[first]), mesh.rest(v[(first + 1) % 3]), mesh.rest(v[(first + 2) % 3])};
-      sides_.push_back({link.tag(), before, before, from == 3 || into == 3});
+      const bool is_flap = std::find(plan_.flaps.begin(), plan_.flaps.end(), tet) != plan_.flaps.end();
+      sides_.push_back({link.tag(), before, before, (from == 3 || into == 3) && !is_flap});
       if (std::find(tags_.begin(), tags_.end(), link.tag()) == tags_.end()) tags_.push_back(link.tag());
     }
   }
 }
 
 bool CloseMerger::try_place(Care& care, Vec3 place) {
-  return restore_volume(place) && improves(care, place) && keeps_current(care, place) && keeps_surfaces(care, place) &&
-         carry_out(care, place);
+  return restore_volume(place) && keeps_front(care, place) && improves(care, place) && keeps_current(care, place) &&
+         keeps_surfaces(care, place) && carry_out(care, place);
 }
 
 /// Moves the merged vertex to where both stars have the volume that they had: it is linear in the vertex, with the sum

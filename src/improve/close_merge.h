@@ -39,6 +39,8 @@ class CloseMerger {
   [[nodiscard]] bool begin(Care& care);
   void collect_sides(const Care& care);
   bool try_place(Care& care, Vec3 place);
+  [[nodiscard]] bool are_flaps_thin(const Care& care) const;
+  [[nodiscard]] bool keeps_front(const Care& care, const Vec3& place) const;
   bool restore_volume(Vec3& place);
   [[nodiscard]] bool improves(Care& care, const Vec3& place) const;
   [[nodiscard]] bool keeps_surfaces(Care& care, const Vec3& place);

@@ -23,11 +23,11 @@ bool is_wall(const TetMesh& mesh, Side side, std::uint32_t tag) {
 
 void Maintainer::take_up(const TetMesh& mesh, const Journal& journal, std::size_t first_step,
                          const IsLocked& is_locked) {
-  if (!has_work()) {
+  if (!has_work() && taken_.empty()) {  // a stroke begins
     ++epoch_;
     hopeless_.clear();  // none of them is in care any more
-    trial_work_ = other_work_ = 0;
   }
+  trial_work_ = other_work_ = 0;
   for (std::size_t i = first_step; i < journal.position(); ++i) {
     const Step& step = journal.step(i);
     opened_.insert(opened_.end(), step.opened.begin(), step.opened.end());
@@ -50,6 +50,7 @@ void Maintainer::take_up(const TetMesh& mesh, const Journal& journal, std::size_
   if (!opened.empty()) tag_ = opened.front().tag;
   for (const VertexId v : ring) taken_.push_back({v, mesh.generation(v)});
   if (!is_locked) look_for_seam(mesh, ring);
+  for (const VertexId v : ring) is_in_ring_[v.value] = 0;
   push_stars(mesh, ring);
   for (const VertexId v : ring) {
     if (!mesh.origin(v).is_valid()) crowd_.add(mesh, v);
@@ -179,23 +180,26 @@ unsigned Maintainer::nearness(VertexId v) const {
   return is_known ? in_care_[v.value] % 4 : 0;
 }
 
-void Maintainer::add_to_care(VertexId v, unsigned near, std::vector<VertexId>& added) {
+/// What is in care already is looked at again where it is touched again: the blade has made other tets there.
+void Maintainer::add_to_care(VertexId v, unsigned near, std::vector<VertexId>& ring) {
   in_care_.ensure(std::size_t{v.value} + 1);
-  const unsigned known = nearness(v);
-  if (known == 0) {
-    added.push_back(v);
-  }
-  in_care_[v.value] = epoch_ * 4 + std::max(known, near);
+  in_care_[v.value] = epoch_ * 4 + std::max(nearness(v), near);
+  add_to_ring(v, ring);
+}
+
+void Maintainer::add_to_ring(VertexId v, std::vector<VertexId>& ring) {
+  is_in_ring_.ensure(std::size_t{v.value} + 1);
+  if (std::exchange(is_in_ring_[v.value], std::uint8_t{1}) == 0) ring.push_back(v);
 }
 
 /// Takes a touched vertex and its neighbours into care.
-void Maintainer::add_with_neighbours(const TetMesh& mesh, VertexId touched, std::vector<VertexId>& added) {
+void Maintainer::add_with_neighbours(const TetMesh& mesh, VertexId touched, std::vector<VertexId>& ring) {
   if (!mesh.is_live(touched)) {
     return;
   }
-  add_to_care(touched, 2, added);
+  add_to_care(touched, 2, ring);
   for (const TetId tet : walker_.star(mesh, touched)) {
-    for (const VertexId v : mesh.vertices(tet)) add_to_care(v, 1, added);
+    for (const VertexId v : mesh.vertices(tet)) add_to_care(v, 1, ring);
   }
 }
 
@@ -207,8 +211,10 @@ void Maintainer::look_for_seam(const TetMesh& mesh, std::vector<VertexId>& ring)
   }
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
+  for (const VertexId v : all) is_in_ring_[v.value] = 1;
   is_at_seam_ = tag_ != 0 && add_older_seam(mesh, tag_, all);
   tag_ = 0;
+  for (const VertexId v : all) is_in_ring_[v.value] = 0;
   if (is_at_seam_) ring = all;
 }
 

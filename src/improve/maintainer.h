@@ -82,8 +82,9 @@ class Maintainer {
   void hold(TetId tet);
   [[nodiscard]] bool is_locked(TetId tet) const { return *is_locked_ && (*is_locked_)(tet); }
   [[nodiscard]] unsigned nearness(VertexId v) const;
-  void add_to_care(VertexId v, unsigned near, std::vector<VertexId>& added);
-  void add_with_neighbours(const TetMesh& mesh, VertexId touched, std::vector<VertexId>& added);
+  void add_to_care(VertexId v, unsigned near, std::vector<VertexId>& ring);
+  void add_to_ring(VertexId v, std::vector<VertexId>& ring);
+  void add_with_neighbours(const TetMesh& mesh, VertexId touched, std::vector<VertexId>& ring);
   void look_for_seam(const TetMesh& mesh, std::vector<VertexId>& ring);
   bool add_older_seam(const TetMesh& mesh, std::uint32_t tag, std::vector<VertexId>& ring);
   void push_stars(const TetMesh& mesh, const std::vector<VertexId>& centres);
@@ -122,9 +123,10 @@ class Maintainer {
   bool is_at_seam_ = false;
   std::uint64_t work_units_ = 0;  // of the run in progress
   const ShouldStop* should_stop_ = nullptr;
-  ZeroedArray<std::uint32_t> in_care_;   // per vertex slot: 4 · the epoch that took it up + nearness
-  ZeroedArray<std::uint32_t> splits_;    // likewise: 8 · epoch + the trials in turn that led to it
-  ZeroedArray<std::uint8_t> is_pushed_;  // scratch of `push_stars`, zero between calls
+  ZeroedArray<std::uint32_t> in_care_;    // per vertex slot: 4 · the epoch that took it up + nearness
+  ZeroedArray<std::uint32_t> splits_;     // likewise: 8 · epoch + the trials in turn that led to it
+  ZeroedArray<std::uint8_t> is_in_ring_;  // scratch of `take_up`, zero between calls
+  ZeroedArray<std::uint8_t> is_pushed_;   // scratch of `push_stars`, zero between calls
   std::uint32_t epoch_ = 1;
   StarWalker walker_;
   Remedies remedies_;

@@ -12,20 +12,6 @@ inline namespace v0 {
 
 namespace {
 
-/// The boundary bits that a vertex has by its faces; the others stay.
-std::uint8_t bits_of(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star) {
-  unsigned bits = mesh.shape_of(vertex) & ~unsigned{shape::kSkin | shape::kWall};
-  for (const TetId tet : star) {
-    for (unsigned s = 0; s < 4; ++s) {
-      const Link link = mesh.links(tet)[s];
-      if (mesh.vertices(tet)[s] != vertex && link.is_boundary()) {
-        bits |= link.tag() == 0 ? shape::kSkin : shape::kWall;
-      }
-    }
-  }
-  return static_cast<std::uint8_t>(bits);
-}
-
 void add_facet(const TetMesh& mesh, Side side, Piece& piece) {
   const auto v = mesh.vertices(side);
   const Facet f = {mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])};
@@ -274,7 +260,7 @@ void Peeler::take_away(Care& care) {
       care.transaction.remove_vertex(v);
       continue;
     }
-    const std::uint8_t bits = bits_of(mesh, v, care.walker.star(mesh, v));
+    const std::uint8_t bits = shape_by_faces(mesh, v, care.walker.star(mesh, v));
     if (bits != mesh.shape_of(v)) {
       care.transaction.set_shape(v, bits);
     }

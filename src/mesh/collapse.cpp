@@ -24,6 +24,21 @@ bool is_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec
   return orient3d(p[0], p[1], p[2], p[3]) > 0;
 }
 
+bool stands_out(const TetMesh& mesh, TetId tet, VertexId from, VertexId into) {
+  const TetLinks& links = mesh.links(tet);
+  return links[mesh.corner_of(tet, from)].is_boundary() && links[mesh.corner_of(tet, into)].is_boundary();
+}
+
+bool is_flap(const CollapsePlan& plan, TetId tet) {
+  return std::find(plan.flaps.begin(), plan.flaps.end(), tet) != plan.flaps.end();
+}
+
+/// Whether nothing lies behind a side once the flaps are gone.
+bool is_open(const TetMesh& mesh, const CollapsePlan& plan, TetId tet, unsigned side) {
+  const Link link = mesh.links(tet)[side];
+  return link.is_boundary() || (!plan.flaps.empty() && is_flap(plan, link.side().tet()));
+}
+
 /// Whether the tets have one region, or the vertex may vanish because the border does not pass through it.
 bool has_one_region(const TetMesh& mesh, const CollapsePlan& plan) {
   const std::int32_t region = mesh.region(plan.ring.front());
@@ -34,10 +49,11 @@ bool has_one_region(const TetMesh& mesh, const CollapsePlan& plan) {
 
 }  // namespace
 
-void CollapsePlanner::plan(const TetMesh& mesh, VertexId from, VertexId into, CollapsePlan& plan) {
+void CollapsePlanner::plan(const TetMesh& mesh, VertexId from, VertexId into, CollapsePlan& plan, Flaps flaps) {
   plan.from = from;
   plan.into = into;
   plan.ring.clear();
+  plan.flaps.clear();
   plan.fan.clear();
   plan.around.clear();
   if (!mesh.is_live(from) || !mesh.is_live(into) || from == into) {
@@ -60,26 +76,53 @@ void CollapsePlanner::plan(const TetMesh& mesh, VertexId from, VertexId into, Co
     return;
   }
   plan.around = walker_.star(mesh, into);
+  if (flaps == Flaps::kTakenAway) {
+    for (const TetId tet : plan.ring) {
+      if (stands_out(mesh, tet, from, into)) plan.flaps.push_back(tet);
+    }
+    if (!may_take_flaps(mesh, plan)) {
+      plan.refusal = Refusal::kLinkCondition;
+      return;
+    }
+  }
   mark_link(mesh, plan);
   plan.refusal = keeps_topology(mesh, plan) ? Refusal::kNone : Refusal::kLinkCondition;
   clear_marks(mesh, plan);
 }
 
+/// Whether no corner of a flap is pinched, and what remains around the edge is one fan.
+bool CollapsePlanner::may_take_flaps(const TetMesh& mesh, const CollapsePlan& plan) const {
+  if (plan.flaps.empty()) return true;
+  unsigned ends = 0;
+  for (const TetId tet : plan.ring) {
+    const TetVertices& v = mesh.vertices(tet);
+    const bool is_gone = is_flap(plan, tet);
+    for (unsigned s = 0; s < 4; ++s) {
+      if (is_gone && (mesh.shape_of(v[s]) & shape::kPinched) != 0) return false;
+      const bool is_at_edge = v[s] != plan.from && v[s] != plan.into;
+      if (!is_gone && is_at_edge && is_open(mesh, plan, tet, s)) ++ends;
+    }
+  }
+  return ends == 2;
+}
+
 void CollapsePlanner::mark_link(const TetMesh& mesh, const CollapsePlan& plan) {
   marks_.ensure(mesh.vertex_slots());
   for (const TetId tet : plan.around) {
+    if (is_flap(plan, tet)) continue;
     mark(mesh.vertices(tet), kInLink);
     for (unsigned s = 0; s < 4; ++s) {
-      if (mesh.links(tet)[s].is_boundary() && mesh.vertices(tet)[s] != plan.into) {
+      if (is_open(mesh, plan, tet, s) && mesh.vertices(tet)[s] != plan.into) {
         mark(mesh.vertices(Side(tet, s)), kOnRim);
       }
     }
   }
   for (const TetId tet : plan.ring) {
+    if (is_flap(plan, tet)) continue;
     mark(mesh.vertices(tet), kInRing);
     for (unsigned s = 0; s < 4; ++s) {
       const VertexId apex = mesh.vertices(tet)[s];
-      if (mesh.links(tet)[s].is_boundary() && apex != plan.from && apex != plan.into) {
+      if (is_open(mesh, plan, tet, s) && apex != plan.from && apex != plan.into) {
         mark(mesh.vertices(Side(tet, s)), kRingEnd);
       }
     }
@@ -97,12 +140,12 @@ bool CollapsePlanner::keeps_topology(const TetMesh& mesh, const CollapsePlan& pl
   constexpr unsigned kBoundary = shape::kSkin | shape::kWall;
   bool is_boundary_edge = false;
   for (const TetId tet : plan.ring) {
+    if (is_flap(plan, tet)) continue;
     for (unsigned s = 0; s < 4; ++s) {
       const VertexId apex = mesh.vertices(tet)[s];
-      is_boundary_edge |= mesh.links(tet)[s].is_boundary() && apex != plan.from && apex != plan.into;
+      is_boundary_edge |= is_open(mesh, plan, tet, s) && apex != plan.from && apex != plan.into;
     }
-    const Link a = mesh.links(tet)[mesh.corner_of(tet, plan.from)], b = mesh.links(tet)[mesh.corner_of(tet, plan.into)];
-    if ((a.is_boundary() && b.is_boundary()) || touches_rim(mesh, plan, tet)) {
+    if (stands_out(mesh, tet, plan.from, plan.into) || touches_rim(mesh, plan, tet)) {
       return false;  // two faces would become one with nothing between them, or two fans meet
     }
   }
@@ -117,7 +160,7 @@ bool CollapsePlanner::keeps_topology(const TetMesh& mesh, const CollapsePlan& pl
 /// edge.
 bool CollapsePlanner::touches_rim(const TetMesh& mesh, const CollapsePlan& plan, TetId tet) const {
   for (unsigned s = 0; s < 4; ++s) {
-    if (!mesh.links(tet)[s].is_boundary() || mesh.vertices(tet)[s] == plan.from) {
+    if (!is_open(mesh, plan, tet, s) || mesh.vertices(tet)[s] == plan.from) {
       continue;
     }
     for (const VertexId v : mesh.vertices(Side(tet, s))) {
@@ -130,8 +173,9 @@ bool CollapsePlanner::touches_rim(const TetMesh& mesh, const CollapsePlan& plan,
 }
 
 bool CollapsePlanner::ring_has(const TetMesh& mesh, const CollapsePlan& plan, VertexId x, VertexId y) const {
-  return std::any_of(plan.ring.begin(), plan.ring.end(),
-                     [&](TetId tet) { return mesh.corner_of(tet, x) < 4 && mesh.corner_of(tet, y) < 4; });
+  return std::any_of(plan.ring.begin(), plan.ring.end(), [&](TetId tet) {
+    return mesh.corner_of(tet, x) < 4 && mesh.corner_of(tet, y) < 4 && !is_flap(plan, tet);
+  });
 }
 
 /// One tet of the fan: its vertices, and the edges of its face opposite `from`, may be in both links only where they
@@ -140,8 +184,9 @@ bool CollapsePlanner::shares_only_ring(const TetMesh& mesh, const CollapsePlan& 
   const TetVertices& v = mesh.vertices(tet);
   const unsigned apex = mesh.corner_of(tet, plan.from);
   const auto is_edge_of_into = [&](VertexId x, VertexId y) {
-    return std::any_of(plan.around.begin(), plan.around.end(),
-                       [&](TetId other) { return mesh.corner_of(other, x) < 4 && mesh.corner_of(other, y) < 4; });
+    return std::any_of(plan.around.begin(), plan.around.end(), [&](TetId other) {
+      return mesh.corner_of(other, x) < 4 && mesh.corner_of(other, y) < 4 && !is_flap(plan, other);
+    });
   };
   for (unsigned c = 0; c < 4; ++c) {
     if (c != apex && (marks_[v[c].value] & (kInLink | kInRing)) == kInLink) {
@@ -177,8 +222,9 @@ class Collapser {
 
   void run() {
     note_consumed();
+    for (const TetId tet : plan_.flaps) let_go(tet);
     for (const TetId tet : plan_.ring) {
-      close(tet);
+      if (!is_flap(plan_, tet)) close(tet);
     }
     for (const TetId tet : plan_.fan) {
       transaction_.set_corner(tet, mesh_.corner_of(tet, plan_.from), plan_.into);
@@ -190,6 +236,9 @@ class Collapser {
     }
     anchor(plan_.into, plan_.fan.front());
     transaction_.remove_vertex(plan_.from);
+    for (const VertexId v : lost_) transaction_.remove_vertex(v);
+    for (const VertexId v : bared_) set_bits(v);
+    if (!plan_.flaps.empty()) set_bits(plan_.into);
     transaction_.note_produced(plan_.fan, plan_.fan);
   }
 
@@ -197,6 +246,21 @@ class Collapser {
   void note_consumed() {
     transaction_.note_consumed(plan_.ring);
     transaction_.note_consumed(plan_.fan);
+  }
+  /// The other corners of a flap live on in the tets around the edge that are none, or not at all.
+  void let_go(TetId flap) {
+    for (const VertexId v : mesh_.vertices(flap)) {
+      if (v == plan_.from || v == plan_.into) continue;
+      const auto heir = std::find_if(plan_.ring.begin(), plan_.ring.end(),
+                                     [&](TetId tet) { return mesh_.corner_of(tet, v) < 4 && !is_flap(plan_, tet); });
+      std::vector<VertexId>& kind = heir == plan_.ring.end() ? lost_ : bared_;
+      if (std::find(kind.begin(), kind.end(), v) == kind.end()) kind.push_back(v);
+      if (heir != plan_.ring.end()) anchor(v, flap, *heir);
+    }
+  }
+  void set_bits(VertexId vertex) {
+    const std::uint8_t bits = shape_by_faces(mesh_, vertex, walker_.star(mesh_, vertex));
+    if (bits != mesh_.shape_of(vertex)) transaction_.set_shape(vertex, bits);
   }
   /// The two faces of a ring tet that the edge joins become one.
   void close(TetId tet) {
@@ -228,6 +292,8 @@ class Collapser {
   Transaction& transaction_;
   const TetMesh& mesh_;
   const CollapsePlan& plan_;
+  StarWalker walker_;
+  std::vector<VertexId> lost_, bared_;  // corners of flaps
 };
 
 }  // namespace

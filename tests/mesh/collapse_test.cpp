@@ -18,6 +18,7 @@
 #include "incise/mesh/validate.h"
 #include "support/bodies.h"
 #include "support/engines.h"
+#include "support/random.h"
 #include "support/strokes.h"
 
 namespace incise::test::collapse_test {
@@ -48,9 +49,11 @@ void make_set(std::vector<Simplex>& complex) {
 /// A mesh's complex, closed by a vertex at infinity: every boundary face spans a tet with it. Knows the tets alone.
 class ClosedComplex {
  public:
-  explicit ClosedComplex(const TetMesh& mesh) : stars_(mesh.vertex_slots()) {
+  explicit ClosedComplex(const TetMesh& mesh, const std::vector<TetId>& without_these = {})
+      : stars_(mesh.vertex_slots()) {
     std::map<Simplex, unsigned> faces;
     mesh.for_each_tet([&](TetId tet) {
+      if (std::find(without_these.begin(), without_these.end(), tet) != without_these.end()) return;
       std::array<std::uint32_t, 4> v{};
       for (unsigned c = 0; c < 4; ++c) v[c] = mesh.vertices(tet)[c].value;
       std::sort(v.begin(), v.end());
@@ -162,14 +165,15 @@ std::vector<std::pair<VertexId, VertexId>> directed_edges(const TetMesh& mesh) {
 }
 
 struct Tally {
-  unsigned accepted = 0, positive = 0, refused = 0;
+  unsigned accepted = 0, positive = 0, refused = 0, with_flaps = 0;
 };
 
 /// Plans every collapse, carries the accepted ones out one at a time and takes them back.
 class EveryEdge {
  public:
-  explicit EveryEdge(TetMesh& mesh)
+  EveryEdge(TetMesh& mesh, Flaps flaps)
       : mesh_(mesh),
+        flaps_(flaps),
         complex_(mesh),
         before_(characteristics(mesh)),
         report_(validate(mesh, ValidateLevel::kGeometry)),
@@ -177,10 +181,8 @@ class EveryEdge {
 
   Tally run() {
     for (const auto& [from, into] : directed_edges(mesh_)) {
-      planner_.plan(mesh_, from, into, plan_);
-      const bool is_sound =
-          complex_.meets_link_condition(from.value, into.value) && complex_.has_fan(from.value, into.value);
-      EXPECT_EQ(static_cast<bool>(plan_), is_sound) << from.value << " into " << into.value;
+      planner_.plan(mesh_, from, into, plan_, flaps_);
+      EXPECT_EQ(static_cast<bool>(plan_), is_sound(from, into)) << from.value << " into " << into.value;
       if (plan_) {
         try_out();
       } else {
@@ -193,9 +195,46 @@ class EveryEdge {
   }
 
  private:
+  /// By the link condition spelled out, where there are flaps in the complex without them.
+  [[nodiscard]] bool is_sound(VertexId from, VertexId into) const {
+    const std::vector<TetId> flaps = flaps_ == Flaps::kTakenAway ? flaps_at(from, into) : std::vector<TetId>();
+    const auto may_vanish = [&](const ClosedComplex& complex) {
+      return complex.meets_link_condition(from.value, into.value) && complex.has_fan(from.value, into.value);
+    };
+    return flaps.empty() ? may_vanish(complex_)
+                         : leaves_one_fan(from, into, flaps) && may_vanish(ClosedComplex(mesh_, flaps));
+  }
+  [[nodiscard]] std::vector<TetId> flaps_at(VertexId from, VertexId into) const {
+    std::vector<TetId> flaps;
+    mesh_.for_each_tet([&](TetId tet) {
+      const unsigned a = mesh_.corner_of(tet, from), b = mesh_.corner_of(tet, into);
+      const bool is_flap = a < 4 && b < 4 && mesh_.links(tet)[a].is_boundary() && mesh_.links(tet)[b].is_boundary();
+      if (is_flap) flaps.push_back(tet);
+    });
+    return flaps;
+  }
+  /// Whether the tets at an edge, but for some, hang together by faces, and are any.
+  [[nodiscard]] bool leaves_one_fan(VertexId from, VertexId into, const std::vector<TetId>& flaps) const {
+    std::vector<TetId> ring;
+    mesh_.for_each_tet([&](TetId tet) {
+      const bool is_at_edge = mesh_.corner_of(tet, from) < 4 && mesh_.corner_of(tet, into) < 4;
+      if (is_at_edge && std::find(flaps.begin(), flaps.end(), tet) == flaps.end()) ring.push_back(tet);
+    });
+    std::vector<TetId> reached(ring.begin(), ring.begin() + (ring.empty() ? 0 : 1));
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      for (const Link link : mesh_.links(reached[i])) {
+        const bool is_new = !link.is_boundary() &&
+                            std::find(ring.begin(), ring.end(), link.side().tet()) != ring.end() &&
+                            std::find(reached.begin(), reached.end(), link.side().tet()) == reached.end();
+        if (is_new) reached.push_back(link.side().tet());
+      }
+    }
+    return !ring.empty() && reached.size() == ring.size();
+  }
   void try_out() {
     const bool is_positive = stays_positive(mesh_, plan_, mesh_.rest(plan_.into));
     ++tally_.accepted;
+    tally_.with_flaps += plan_.flaps.empty() ? 0U : 1U;
     tally_.positive += is_positive ? 1 : 0;
     Transaction transaction(mesh_);
     apply(transaction, plan_);
@@ -209,6 +248,7 @@ class EveryEdge {
   }
 
   TetMesh& mesh_;
+  Flaps flaps_;
   ClosedComplex complex_;
   std::vector<std::array<int, 2>> before_;
   ValidityReport report_;
@@ -218,8 +258,8 @@ class EveryEdge {
   Tally tally_;
 };
 
-Tally try_every_edge(TetMesh mesh) {
-  const Tally tally = EveryEdge(mesh).run();
+Tally try_every_edge(TetMesh mesh, Flaps flaps = Flaps::kRefused) {
+  const Tally tally = EveryEdge(mesh, flaps).run();
   testing::Test::RecordProperty("accepted", static_cast<int>(tally.accepted));
   testing::Test::RecordProperty("positive", static_cast<int>(tally.positive));
   testing::Test::RecordProperty("refused", static_cast<int>(tally.refused));
@@ -321,6 +361,46 @@ TEST(CollapseEveryEdge, around_cavities_that_touch_along_an_edge) {
 }
 TEST(CollapseEveryEdge, of_a_wall_one_cell_thick) {
   expect_both_answers(try_every_edge(build(kuhn_box(Vec3(0, 0, 0), Vec3(4, 4, 1), {4, 4, 1}))));
+}
+
+/// A cube of 3³ cells from which tets were taken away one by one, as long as it stays a ball that nowhere touches
+/// itself: what is left has flaps and spikes all over.
+TetMesh ragged_cube(std::uint64_t seed, std::size_t tets) {
+  TetSoup soup = kuhn_cube(3);
+  Random random(seed);
+  while (soup.tets.size() > tets) {
+    TetSoup less = soup;
+    less.tets.erase(less.tets.begin() + static_cast<std::ptrdiff_t>(random.bits() % less.tets.size()));
+    const TetMesh mesh = build(less);
+    const bool is_ball =
+        characteristics(mesh) == std::vector<std::array<int, 2>>{{1, 2}} && !mesh.touched_itself_at_load();
+    if (is_ball) soup = std::move(less);
+  }
+  return build(std::move(soup));
+}
+
+TEST(CollapseWithFlaps, keeps_the_topology_of_ragged_bodies) {
+  unsigned with_flaps = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    with_flaps += try_every_edge(ragged_cube(seed, 30 + 10 * seed), Flaps::kTakenAway).with_flaps;
+  }
+  EXPECT_GT(with_flaps, 100U);
+}
+TEST(CollapseWithFlaps, keeps_the_topology_near_cuts) {
+  const Stroke half =
+      quad_stroke(Vec3(0.45, -0.2, 1.2), Vec3(0.45, 1.2, 1.2), Vec3(0.52, -0.2, 0.4), Vec3(0.52, 0.7, 0.4));
+  expect_both_answers(try_every_edge(cut_body(jittered_cube(3, 2), 0.1, {half}), Flaps::kTakenAway));
+  const Tally tally = try_every_edge(
+      cut_body(kuhn_cube(2), 0.0, {plane({0.3, 1, 0.17}, 0.71), plane({1, -0.2, 0.31}, 0.52)}), Flaps::kTakenAway);
+  EXPECT_GT(tally.with_flaps, 0U);
+}
+TEST(CollapseWithFlaps, leaves_something_of_a_body_of_few_tets) {
+  for (std::uint32_t count = 1; count <= 6; ++count) {
+    SCOPED_TRACE(count);
+    try_every_edge(build(needle(count)), Flaps::kTakenAway);
+  }
+  try_every_edge(build(kuhn_cube(1)), Flaps::kTakenAway);
 }
 
 /// Merges whatever can be merged, until nothing can.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "incise/mesh/star.h"
@@ -14,10 +15,18 @@ struct CollapsePlan {
   Refusal refusal = Refusal::kNone;  ///< why not; kNone: it may be applied
   VertexId from, into;               ///< the vertex that vanishes, and the one that it merges into
   std::vector<TetId> ring;           ///< the tets around the edge: they vanish
+  std::vector<TetId> flaps;          ///< those of them that stand out alone: see `Flaps`
   std::vector<TetId> fan;            ///< the other tets of `from`: they get `into` in its place
   std::vector<TetId> around;         ///< the star of `into`, the ring included
 
   explicit operator bool() const { return refusal == Refusal::kNone; }
+};
+
+/// A flap is a tet around the edge whose two faces opposite the edge's ends are both boundary: nothing lies on either
+/// side. With the edge it becomes a face with nothing behind it, and must vanish altogether.
+enum class Flaps : std::uint8_t {
+  kRefused,    ///< no edge vanishes that has one
+  kTakenAway,  ///< they vanish, with the vertices that they alone have
 };
 
 /// Decides whether edges may vanish without a change of topology. Keeps scratch memory between calls.
@@ -32,8 +41,10 @@ class CollapsePlanner {
   /// pinched vertices (kNoStar) and edges that do not exist (kNotAnEdge). The plan's vectors are reused. Cost: O(both
   /// stars), about 1 µs.
   /// **Source:** T. Dey, H. Edelsbrunner, S. Guha, D. Nekhayev, "Topology preserving edge contraction", 1999; the
-  /// conditions of Paper §2.5 are necessary for it, but not sufficient.
-  void plan(const TetMesh& mesh, VertexId from, VertexId into, CollapsePlan& plan);
+  /// conditions of Paper §2.5 are necessary for it, but not sufficient. Flaps are ears of the stars of all their
+  /// corners, so that to take them away first changes no topology: the condition is asked of what remains, which must
+  /// be one fan of tets at the edge.
+  void plan(const TetMesh& mesh, VertexId from, VertexId into, CollapsePlan& plan, Flaps flaps = Flaps::kRefused);
 
  private:
   template <class Vertices>
@@ -42,6 +53,7 @@ class CollapsePlanner {
       marks_[v.value] = static_cast<std::uint8_t>(marks_[v.value] | bit);
     }
   }
+  [[nodiscard]] bool may_take_flaps(const TetMesh& mesh, const CollapsePlan& plan) const;
   [[nodiscard]] bool keeps_topology(const TetMesh& mesh, const CollapsePlan& plan) const;
   [[nodiscard]] bool touches_rim(const TetMesh& mesh, const CollapsePlan& plan, TetId tet) const;
   void mark_link(const TetMesh& mesh, const CollapsePlan& plan);
@@ -58,7 +70,8 @@ class CollapsePlanner {
 bool stays_positive(const TetMesh& mesh, const CollapsePlan& plan, const Vec3& place);
 
 /// Carries a plan out; cannot fail. `into` stays where it is (move it first, if it shall move) and takes over the shape
-/// bits of `from`. Cost: O(star).
+/// bits of `from`; behind flaps the boundary bits of `into` and of their other corners are those of their faces.
+/// Cost: O(star).
 void apply(Transaction& transaction, const CollapsePlan& plan);
 
 }  // namespace v0

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "incise/mesh/tet_mesh.h"
@@ -61,6 +62,20 @@ class StarWalker {
   ZeroedArray<std::uint32_t> marks_;
   std::uint32_t epoch_ = 0;
 };
+
+/// The shape bits of a vertex, with those for skin and walls as the faces in its star tell. Cost: O(star).
+inline std::uint8_t shape_by_faces(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star) {
+  unsigned bits = mesh.shape_of(vertex) & ~unsigned{shape::kSkin | shape::kWall};
+  for (const TetId tet : star) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Link link = mesh.links(tet)[s];
+      if (mesh.vertices(tet)[s] != vertex && link.is_boundary()) {
+        bits |= link.tag() == 0 ? shape::kSkin : shape::kWall;
+      }
+    }
+  }
+  return static_cast<std::uint8_t>(bits);
+}
 
 /// Calls `visit(tet, side_in, side_out)` for the tets around the edge (a, b), starting at `seed` (which contains both)
 /// and turning one way until the ring closes or `is_blocked(Side)` or the boundary stops it; then, where it did not
