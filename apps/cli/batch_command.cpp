@@ -18,7 +18,8 @@ using namespace incise;
 constexpr std::size_t kMaxTold = 5;  // of a list, to people
 
 struct BatchArguments {
-  std::string plan, folder, shard;
+  std::string plan, folder;
+  std::optional<std::string> shard;
   bool merge = false, retry = false, as_json = false;
   std::uint64_t verify = 0;  // items; 0: none
   std::uint64_t seed = 0;
@@ -27,7 +28,7 @@ struct BatchArguments {
 
 std::string usage_problem(const BatchArguments& a) {
   const bool runs = !a.merge && a.verify == 0;
-  if (!runs && !a.shard.empty()) return "--shard says what to compute; leave it out beside --merge and --verify";
+  if (!runs && a.shard) return "--shard says what to compute; leave it out beside --merge and --verify";
   if (!runs && a.retry) return "--retry goes with computing; leave it out beside --merge and --verify";
   if (a.merge && a.verify > 0 && a.as_json)
     return "--merge and --verify would both print JSON; run one after the other";
@@ -41,7 +42,7 @@ std::optional<std::string> environment(const char* name) {
 
 /// As asked for, else that of the task of a Slurm array job, else all.
 Result<app::Shard> shard_of(const BatchArguments& a) {
-  if (!a.shard.empty()) return app::parse_shard(a.shard);
+  if (a.shard) return app::parse_shard(*a.shard);
   const auto task = app::slurm_shard(environment);
   if (!task.ok()) return task.error();
   return task->value_or(app::Shard());

@@ -88,6 +88,7 @@ incise_status run(const app::BatchPlan& plan, const char* folder, const incise_b
 
 incise_status verify(const app::BatchPlan& plan, const char* folder, const incise_batch_options& options,
                      incise_told tell, void* user) {
+  if (options.verify_items == 0) return refuse("verify_items is 0; the number of items to compute again is wanted");
   Callbacks callbacks{options};
   app::VerifyJob job{folder,          options.verify_items, options.verify_seed,    options.threads,
                      callbacks.log(), callbacks.progress(), callbacks.should_stop()};

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Engines: made, read, written, freed.
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 
 #include "handles.h"
+#include "incise/geom/predicates.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
 #include "incise/io/mesh_loader.h"
@@ -55,6 +58,13 @@ Result<TetMesh> box_of(const double* low, const double* high, const std::uint32_
     return Error{
         ErrorCode::kBadArgument, "a box needs finite corners, low < high on every axis, and 1 to 2^28 / 6 cells", {}};
   }
+  const auto& p = soup.points;
+  const bool is_wide = std::all_of(soup.tets.begin(), soup.tets.end(),
+                                   [&](const auto& t) { return orient3d(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) > 0; });
+  if (!is_wide) {
+    return Error{
+        ErrorCode::kBadArgument, "the box's cells are too small for so far from the origin: move it there", {}};
+  }
   return TetMesh::build(std::move(soup));
 }
 
@@ -106,6 +116,7 @@ incise_status incise_engine_read_bytes(const void* bytes, uint64_t n_bytes, cons
                                        const incise_engine_options* options, incise_engine** engine) {
   return c::create(engine, [&]() -> incise_status {
     if (bytes == nullptr && n_bytes > 0) return c::refuse("the bytes of the file are null");
+    if (n_bytes > PTRDIFF_MAX) return c::refuse("the number of bytes is above what memory can hold; was it negative?");
     const std::string file = name == nullptr ? "mesh" : name;
     Result<io::MeshFile> read = io::read_mesh_bytes({static_cast<const char*>(bytes), n_bytes}, file);
     if (!read.ok()) return c::fail(read.error());

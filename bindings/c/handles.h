@@ -14,6 +14,9 @@
 #include <string>
 #include <utility>
 #include <vector>
+#ifdef __GLIBCXX__
+#include <cxxabi.h>
+#endif
 
 #include "incise/c/incise.h"
 #include "incise/core/result.h"
@@ -45,7 +48,8 @@ class Turn {
   bool lets_look_ = false;
 };
 
-/// Nothing leaves by exception: bad_alloc is the one that the library's containers may throw.
+/// Nothing leaves by exception: bad_alloc is the one that the library's containers may throw. But a thread that is
+/// ended within a callback (pthread_exit, as Python ends those of daemons) unwinds by something that looks like one.
 template <class Call>
 incise_status guarded(const Call& call) {
   try {
@@ -56,6 +60,10 @@ incise_status guarded(const Call& call) {
     return refuse("a number of elements is above what memory can hold; was it negative?");
   } catch (const std::exception& thrown) {
     return fail({ErrorCode::kInternal, thrown.what(), {}});
+#ifdef __GLIBCXX__
+  } catch (const abi::__forced_unwind&) {
+    throw;
+#endif
   } catch (...) {
     return fail({ErrorCode::kInternal, "an exception of an unknown kind", {}});
   }
@@ -65,9 +73,11 @@ incise_status guarded(const Call& call) {
 template <class Call>
 incise_status in_turn(Turn& turn, bool only_looks, const Call& call) {
   if (!turn.begin(only_looks)) return busy();
-  const incise_status status = guarded(call);
-  turn.end();
-  return status;
+  struct End {
+    Turn& turn;
+    ~End() { turn.end(); }
+  } const end{turn};
+  return guarded(call);
 }
 
 /// Whether the `size` that a program set in a struct is one that this library can serve; `name` is the struct's.

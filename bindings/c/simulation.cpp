@@ -2,6 +2,7 @@
 // A body that is cut while it deforms.
 #include "incise/engine/simulation.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -60,6 +61,8 @@ Result<Materials> materials_of(const incise_material* given, std::uint32_t n) {
   Materials materials;
   if (given == nullptr && n > 0)
     return Error{ErrorCode::kBadArgument, "materials are null, and n_materials is not 0", {}};
+  if (std::count_if(given, given + n, [](const incise_material& c) { return c.is_fallback != 0; }) > 1)
+    return Error{ErrorCode::kBadArgument, "more than one material is for all regions without their own", {}};
   for (std::uint32_t i = 0; i < n; ++i) {
     const incise_material& c = given[i];
     Material material{c.density, c.young, c.poisson, c.toughness, c.cut_friction, c.stiffening, c.rupture};

@@ -442,7 +442,7 @@ Status Engine::Conductor::set_positions(std::span<const Vec3> positions) {
     const VertexId v(static_cast<std::uint32_t>(i));
     if (!mesh_.is_live(v)) continue;
     if (!positions[i].allFinite()) {
-      return Error{ErrorCode::kBadArgument, "the position of vertex " + std::to_string(i) + " is not finite", {}};
+      return Error{ErrorCode::kBadArgument, "the position of vertex " + std::to_string(i) + " is not finite", {i}};
     }
     has_moved = has_moved || positions[i] != mesh_.rest(v);
     if (mesh_.tet_of(v).is_valid()) box.extend(positions[i]);

@@ -297,3 +297,37 @@ def test_every_call_survives_nulls():
     run = subprocess.run([sys.executable, "-c", EVERY_CALL, *calls], capture_output=True, text=True, check=False, timeout=120)
     assert run.returncode == 0, run.stdout[-200:] + run.stderr[-500:]
     assert run.stdout.count("\n") >= 2 * len(calls)
+
+
+def test_holds_move_all_or_none():
+    simulation = body()
+    simulation.hold([5], stiffness=100.0)
+    before = simulation.hash
+    with pytest.raises(incise.BadArgument, match="vertex 9 is not held") as error:
+        simulation.move_hold([5, 9], [(0, 0, 0), (1, 1, 1)])
+    assert list(error.value.ids) == [9] and simulation.hash == before
+
+
+def test_errors_name_the_vertex():
+    engine = incise.box((2, 2, 2))
+    places = engine.rest.copy()
+    places[7] = math.nan
+    with pytest.raises(incise.BadArgument) as error:
+        engine.set_positions(places)
+    assert list(error.value.ids) == [7]
+
+
+def test_boxes_have_cells():
+    with pytest.raises(incise.BadArgument, match="too small"):
+        incise.box((3, 3, 3), (1e16, 0, 0), (1e16 + 2, 1, 1))
+
+
+@pytest.mark.parametrize("shard", [(1.7, 2), (0.5, 2), (True, 2), "1_0/20", " 1 / 2 ", "", "1"])
+def test_shards_are_whole_numbers(shard, tmp_path):
+    with pytest.raises(incise.BadArgument):
+        incise.batch.run({"format": "incise-plan"}, tmp_path, shard=shard)
+
+
+def test_one_material_is_for_all_other_regions():
+    with pytest.raises(incise.BadArgument, match="more than one material"):
+        body(materials=[incise.Material(young=1e3), incise.Material(young=1e6)])

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+import weakref
 
 import numpy as np
 import pytest
@@ -254,3 +255,47 @@ def test_meshio_reads_our_msh(tmp_path):
     assert sorted(labels.tolist()) == sorted(engine.compact().regions.tolist())
     assert incise.read(tmp_path / "cut.msh").tet_count == engine.tet_count
     assert incise.Engine.from_meshio(mesh).tet_count == engine.tet_count
+
+
+def test_an_engine_that_tells_its_owner_goes_with_it():
+    class Owner:
+        def __init__(self):
+            self.engine = incise.box((2, 2, 2), log=self.on_log)
+
+        def on_log(self, level, text):
+            pass
+
+    owners = []
+    for _ in range(20):
+        owner = Owner()
+        owners.append(weakref.ref(owner))
+        del owner
+    gc.collect()
+    assert sum(owner() is not None for owner in owners) == 0
+
+
+def test_a_stroke_under_way_outlives_a_stroke_that_was_refused():
+    engine = incise.box((4, 4, 4))
+    engine.begin_stroke([(0.55, -1, 1.2), (0.55, 2, 1.2)])
+    engine.step([(0.55, -1, 0.5), (0.55, 2, 0.5)])
+    cut = engine.hash
+    with pytest.raises(incise.BadArgument, match="under way"):
+        engine.cut_along([[(0.3, -1, 1.2), (0.3, 2, 1.2)], [(0.3, -1, 0.5), (0.3, 2, 0.5)]])
+    assert engine.is_in_stroke and engine.hash == cut
+
+
+def test_a_program_may_end_while_a_daemon_is_called_back():
+    program = """
+import sys, threading, time, incise
+engine = incise.box((30, 30, 30))
+engine.cut_plane((1, 0.2, 0.1), 0.6)
+def work():
+    while True:
+        engine.improve(lambda: False)
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)
+sys.exit(3)
+"""
+    for _ in range(3):
+        ended = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=120)
+        assert ended.returncode == 3, ended.stderr.decode()

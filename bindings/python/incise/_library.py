@@ -92,9 +92,10 @@ class Handle:
 
     pointer = ctypes.c_void_p()
 
-    def __init__(self, pointer: ctypes.c_void_p, free: Any) -> None:
+    def __init__(self, pointer: ctypes.c_void_p, free: Any, keeps: Any = None) -> None:
         self.pointer = pointer
         self._free = free
+        self._keeps = keeps  # what the library calls back: as long as it may, and in reach of the collector of cycles
 
     def __del__(self) -> None:
         if self.pointer:

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import operator
 import os
 from ctypes import byref
 from dataclasses import dataclass
@@ -151,7 +152,11 @@ def _shard(shard: Optional[Shard]) -> Tuple[int, int]:
         return 0, 1
     try:
         parts: list[Any] = list(shard.split("/") if isinstance(shard, str) else shard)
-        index, count = (int(part) for part in parts)
+        if isinstance(shard, str) and not all(part.isascii() and part.isdigit() for part in parts):
+            raise ValueError
+        if not isinstance(shard, str) and any(isinstance(part, bool) for part in parts):
+            raise TypeError
+        index, count = (int(part) if isinstance(part, str) else operator.index(part) for part in parts)
     except (TypeError, ValueError):
         raise BadArgument(f"shard is {shard!r}; \"I/N\" or (I, N) is wanted") from None
     if not (1 <= count < 100_000 and 0 <= index <= count):

@@ -162,9 +162,7 @@ class Engine(Mesh):
         self._listens = bool(options.log)
         with waiting(self._listens):
             check(call(byref(options), byref(pointer)))
-        self._handle = Handle(pointer, lib.incise_engine_free)
-        self._options = options  # keeps its log alive
-        weakref.finalize(self._handle, _forget, options)
+        self._handle = Handle(pointer, lib.incise_engine_free, keeps=options)
 
     @classmethod
     def read(cls, path: Path, **options: Any) -> "Engine":
@@ -282,7 +280,7 @@ class Engine(Mesh):
                 raise BadArgument("a stroke without an edge")
             return self.end_stroke()
         except BaseException:
-            if self.is_in_stroke:
+            if began and self.is_in_stroke:
                 self.undo()
             raise
 
@@ -337,10 +335,6 @@ class Engine(Mesh):
         """Maintains the whole mesh, cut or not; an operation of its own for undo. Stops as `maintain` does."""
         with Asking(should_stop) as callback:
             return self._reported(lambda out: lib.incise_engine_improve(self._engine(), callback, None, out))
-
-
-def _forget(_options: Any) -> None:
-    """What an engine's options point to lives as long as the engine, views of it included."""
 
 
 def read(path: Path, **options: Any) -> Engine:

@@ -321,6 +321,9 @@ class Simulation:
         places = points(np.atleast_2d(np.asarray(targets, np.float64)), "targets")
         if len(places) != len(slots):
             raise BadArgument(f"{len(slots)} vertices and {len(places)} targets")
+        for vertex in slots:  # before any is moved
+            if not self.is_held(vertex):
+                raise BadArgument(f"vertex {vertex} is not held", (vertex,))
         for vertex, place in zip(slots, places):
             check(lib.incise_simulation_move_hold(self._handle.pointer, vertex, address(place)))
 

@@ -115,7 +115,9 @@ Status DeformableBody::hold(VertexId vertex, double stiffness) {
 Status DeformableBody::move_hold(VertexId vertex, const Vec3& target) {
   State& s = *state_;
   const auto hold = s.holds.find(vertex.value);
-  if (hold == s.holds.end()) return bad("vertex " + std::to_string(vertex.value) + " is not held");
+  if (hold == s.holds.end()) {
+    return Error{ErrorCode::kBadArgument, "vertex " + std::to_string(vertex.value) + " is not held", {vertex.value}};
+  }
   if (!(target.array().abs() <= kGreatestExtent).all()) {  // beyond it energies overflow
     return bad("the target of a hold is not finite, or beyond 1e+30");
   }
