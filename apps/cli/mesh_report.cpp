@@ -124,6 +124,10 @@ std::string to_text(const MeshReport& report) {
                      report.input->is_scan ? ", in RAS mm" : "", q.dihedral_min_deg, q.dihedral_max_deg, q.lr_max);
   for (const image::LabelOutcome& l : made.labels) {
     const std::string name = name_of(report, l.label);
+    if (l.tets == 0) {
+      out += fmt::format("  {}{}{}: no tets, too thin for their size\n", l.label, name.empty() ? "" : " ", name);
+      continue;
+    }
     out += fmt::format("  {}{}{}: {} tets, volume {:.5g}{}, {:+.2f} % off\n", l.label, name.empty() ? "" : " ", name,
                        l.tets, l.volume, report.input->is_scan ? " mm3" : "", 100 * relative_error(l));
   }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -27,6 +29,15 @@ constexpr double kMostIsland = 1e15;  // voxels; more than there are
 /// Rounds of moving points: those that spread them, in each pass between which flat tets are peeled off the skin, and
 /// at the end those that only bring them nearer.
 constexpr int kPasses = 6, kSpreadRounds = 4, kFinalRounds = 6;
+
+/// Tets need not be smaller than this share of the least spacing of the voxels: they would show these, and no more.
+constexpr double kLeastSize = 0.4999;
+
+std::string fmt_length(double length) {
+  std::ostringstream out;
+  out << std::setprecision(4) << length;
+  return out.str();
+}
 
 Error bad_option(const std::string& what) {
   return {ErrorCode::kBadArgument, what};
@@ -57,6 +68,10 @@ Status check_amount(const LabelVolume& volume, const MeshLabelsOptions& options)
         "the image has no voxel of a label other than 0 that could be meshed; choose other labels, or a smaller size");
   }
   const Vec3& s = volume.spacing();
+  if (const double least = kLeastSize * s.minCoeff(); options.size < least) {
+    return bad_option("tets of size " + fmt_length(options.size) + " mm are smaller than half a voxel; give " +
+                      fmt_length(least) + " or more, or an image in the right unit");
+  }
   const double cubes = voxels * s.x() * s.y() * s.z() / (options.size * options.size * options.size);
   if (options.grade == 0 && kTetsPerCube * cubes > kMostTets) {
     return bad_option("tets of size " + std::to_string(options.size) +

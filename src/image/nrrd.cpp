@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // NRRD, versions 1 to 5. Source: "Definition of NRRD File Format", the Teem project.
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -139,6 +142,50 @@ std::string find_axes(const NrrdFields& fields, const std::vector<std::optional<
   return find_three_axes(in_space, axes.keep) ? "" : "has more than three axes; save one volume alone";
 }
 
+/// "spacings", one per axis: those of axes that are none of space may be no numbers. Empty where one cannot be read.
+std::vector<double> spacings_of(const std::string& text) {
+  std::vector<double> out;
+  for (std::size_t at = 0; (at = text.find_first_not_of(" \t", at)) != std::string::npos;) {
+    const std::size_t end = std::min(text.find_first_of(" \t", at), text.size());
+    const std::string word = lower_case(text.substr(at, end - at));
+    const std::vector<double> number = numbers_of(word);
+    if (word != "nan" && number.size() != 1) return {};
+    out.push_back(word == "nan" ? std::numeric_limits<double>::quiet_NaN() : number[0]);
+    at = end;
+  }
+  return out;
+}
+
+/// What of where the voxels lie is there and cannot be read.
+std::string find_place_problem(const NrrdFields& fields, const std::vector<std::optional<Vec3>>& directions,
+                               const Axes& axes) {
+  const auto unreadable = [](const std::string& what) {
+    return "has '" + what + "' that cannot be read; mend that line of its header";
+  };
+  if (!field(fields, "space directions").empty() && directions.size() != axes.sizes.size())
+    return unreadable("space directions");
+  if (!field(fields, "space origin").empty() && numbers_of(field(fields, "space origin")).size() != 3)
+    return unreadable("space origin");
+  const std::string spacings = field(fields, "spacings");
+  if (spacings.empty()) return {};
+  const std::vector<double> steps = spacings_of(spacings);
+  const bool is_sound =
+      steps.size() == axes.sizes.size() && std::all_of(axes.keep.begin(), axes.keep.end(), [&](auto a) {
+        return a >= steps.size() || (std::isfinite(steps[a]) && steps[a] != 0);
+      });
+  return is_sound ? std::string() : unreadable("spacings");
+}
+
+/// Lengths are taken for millimetres: a file that says that they are not is told of.
+void note_units(const NrrdFields& fields, ImageHeader& header) {
+  const std::string units = lower_case(field(fields, "space units"));
+  std::string rest = units;
+  for (std::size_t at; (at = rest.find("\"mm\"")) != std::string::npos;) rest.erase(at, 4);
+  if (rest.find_first_not_of(" \t\"") != std::string::npos) {
+    header.notes.push_back("says that its lengths are in " + units.substr(0, 40) + ": they are taken for millimetres");
+  }
+}
+
 void place_by_directions(const NrrdFields& fields, const std::vector<std::optional<Vec3>>& directions, const Axes& axes,
                          ImageHeader& header) {
   const std::string space = field(fields, "space");
@@ -162,7 +209,7 @@ void place(const NrrdFields& fields, const std::vector<std::optional<Vec3>>& dir
     has_all = axes.keep[a] < directions.size() && directions[axes.keep[a]].has_value();
   }
   if (has_all) return place_by_directions(fields, directions, axes, header);
-  const std::vector<double> spacings = numbers_of(field(fields, "spacings"));
+  const std::vector<double> spacings = spacings_of(field(fields, "spacings"));
   for (std::size_t a = 0; a < 3; ++a) {
     if (axes.keep[a] < spacings.size()) header.layout.step[a] *= spacings[axes.keep[a]];
   }
@@ -221,6 +268,9 @@ Result<ImageHeader> read_nrrd_header(std::string_view bytes, const std::string& 
     if (axes.keep[a] < axes.sizes.size()) header.layout.size[a] = axes.sizes[axes.keep[a]];
   }
   if (const std::string problem = find_voxels(fields, header); !problem.empty()) return bad(name, problem);
+  if (const std::string problem = find_place_problem(fields, directions, axes); !problem.empty())
+    return bad(name, problem);
+  note_units(fields, header);
   place(fields, directions, axes, header);
   return header;
 }

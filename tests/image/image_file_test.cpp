@@ -213,6 +213,14 @@ TEST(ReadLabels, says_what_is_wrong) {
   EXPECT_SAYS(nrrd_header(shorts(), false, "bzip2"), "encoding 'bzip2'");
   EXPECT_SAYS(nrrd_header(shorts(), false, "raw", "v.raw"), "give both files");
   EXPECT_SAYS(replaced(nrrd_header(shorts(), false), "sizes: 4 3 2", "sizes: 4 3"), "sizes");
+  for (const char* directions : {"(2,0,0) (0,-3,0) (0,0,4", "(2,0,0) (0,-3,0)", "(nan,0,0) (0,-3,0) (0,0,4)"}) {
+    EXPECT_SAYS(replaced(nrrd_header(shorts(), false), "(2,0,0) (0,-3,0) (0,0,4)", directions), "space directions");
+  }
+  EXPECT_SAYS(replaced(nrrd_header(shorts(), false), "(-10,-20,30)", "(-10,nan,30)"), "space origin");
+  const std::string spaced =
+      replaced(nrrd_header(shorts(), false), "space directions: (2,0,0) (0,-3,0) (0,0,4)", "spacings: 2 3 4");
+  EXPECT_SAYS(replaced(spaced, "2 3 4", "2 nan 4"), "spacings");
+  EXPECT_SAYS(replaced(spaced, "2 3 4", "2 3"), "spacings");
   EXPECT_SAYS(replaced(meta_header(shorts(), false), "ElementDataFile", "Other"), "no ElementDataFile");
   EXPECT_SAYS(replaced(meta_header(shorts(), false), "MET_SHORT", "MET_RGB"), "type 'MET_RGB'");
 }

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <string_view>
 
 #include "app/text/text_file.h"
 
@@ -29,7 +30,9 @@ Result<io::RegionNames> read_label_names(const std::filesystem::path& file) {
   const Result<std::string> text = read_text_file(file, kMostBytes);
   if (!text.ok()) return text.error();
   io::RegionNames names;
-  std::istringstream lines(*text);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // editors on Windows begin files with it
+  const bool is_marked = std::string_view(*text).substr(0, kByteOrderMark.size()) == kByteOrderMark;
+  std::istringstream lines(is_marked ? text->substr(kByteOrderMark.size()) : *text);
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
