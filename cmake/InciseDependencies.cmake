@@ -24,7 +24,6 @@ if(NOT EMSCRIPTEN)
 endif()
 if(INCISE_BUILD_APPS)
   find_package(CLI11 REQUIRED)
-  find_package(spdlog REQUIRED)
 endif()
 # Of haptic devices; programs do without where it is not there, and say so.
 set(INCISE_BEAST_INCLUDE)
@@ -69,12 +68,10 @@ set(incise_package_of_pugixml::pugixml pugixml)
 set(incise_package_of_pugixml pugixml)
 set(incise_package_of_ZLIB::ZLIB ZLIB)
 set(incise_package_of_fmt::fmt fmt)
-set(incise_package_of_spdlog::spdlog spdlog)
 set(incise_package_of_hwy::hwy hwy)
 set(incise_package_of_Threads::Threads Threads)
 # Nothing of these is left to link once the library is built.
-set(incise_header_only Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt-header-only CLI11::CLI11
-                       spdlog::spdlog_header_only)
+set(incise_header_only Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt-header-only CLI11::CLI11)
 
 # A compiler cache, where there is one. Emscripten brings its own wrapper.
 if(PROJECT_IS_TOP_LEVEL AND NOT EMSCRIPTEN AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)

@@ -143,7 +143,7 @@ use_corpus() {
 # shellcheck disable=SC2034  # read by the scripts
 build_packages=(
   cmake ninja-build g++ ccache git ca-certificates
-  libeigen3-dev libtbb-dev libhwy-dev libpugixml-dev zlib1g-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
+  libeigen3-dev libtbb-dev libhwy-dev libpugixml-dev zlib1g-dev libfmt-dev nlohmann-json3-dev libcli11-dev
   libboost-dev
   libgtest-dev libgmock-dev librapidcheck-dev
   libepoxy-dev libegl-dev libstb-dev libegl1 libgl1-mesa-dri libglfw3-dev libimgui-dev fonts-dejavu-core

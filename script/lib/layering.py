@@ -46,7 +46,6 @@ PRIVATE_HEADERS = {
     "zlib.h": ("io", "image", "render"),
     "nlohmann/": ("io", "app"),
     "fmt/": ("io", "app"),
-    "spdlog/": ("app",),
     "CLI/": (),
     "epoxy/": ("render",),
     "EGL/": ("render",),

@@ -7,8 +7,8 @@
 #include <vector>
 
 #if INCISE_WITH_HIGHWAY
-// 8 lanes are all that a star fills: wider sets would only compile longer.
-#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
+// 8 lanes are all that a star fills: wider sets would only compile longer. Machines that stop at SSSE3 are of 2008.
+#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/body/star_kernel.cpp"  // NOLINT(readability-identifier-naming): Highway's name
 #include <hwy/foreach_target.h>                        // NOLINT(misc-header-include-cycle): it includes this file
@@ -73,10 +73,10 @@ struct FibreLanes {
 
   // The other corners lie at a, b and c. The corner's own part is what theirs lack to 0.
   [[gnu::always_inline]] inline FibreLanes(const FibreBlock& block, const Lanes& ax, const Lanes& ay, const Lanes& az,
-                                           const Lanes& bx, const Lanes& by_, const Lanes& bz, const Lanes& cx,
+                                           const Lanes& bx, const Lanes& b_y, const Lanes& bz, const Lanes& cx,
                                            const Lanes& cy, const Lanes& cz)
       : x(load(block.a.data()) * ax + (load(block.b.data()) * bx + load(block.c.data()) * cx)),
-        y(load(block.a.data()) * ay + (load(block.b.data()) * by_ + load(block.c.data()) * cy)),
+        y(load(block.a.data()) * ay + (load(block.b.data()) * b_y + load(block.c.data()) * cy)),
         z(load(block.a.data()) * az + (load(block.b.data()) * bz + load(block.c.data()) * cz)),
         own(all(0) - (load(block.a.data()) + (load(block.b.data()) + load(block.c.data())))),
         stiffness(load(block.stiffness.data())),
