@@ -31,7 +31,7 @@ constexpr double kMostIsland = 1e15;  // voxels; more than there are
 constexpr int kPasses = 6, kSpreadRounds = 4, kFinalRounds = 6;
 
 /// Tets need not be smaller than this share of the least spacing of the voxels: they would show these, and no more.
-constexpr double kLeastSize = 0.4999;
+constexpr double kLeastSize = 0.5;
 
 std::string fmt_length(double length) {
   std::ostringstream out;
@@ -68,7 +68,7 @@ Status check_amount(const LabelVolume& volume, const MeshLabelsOptions& options)
         "the image has no voxel of a label other than 0 that could be meshed; choose other labels, or a smaller size");
   }
   const Vec3& s = volume.spacing();
-  if (const double least = kLeastSize * s.minCoeff(); options.size < least) {
+  if (const double least = kLeastSize * s.minCoeff(); options.size < (1.0 - 1e-6) * least) {
     return bad_option("tets of size " + fmt_length(options.size) + " mm are smaller than half a voxel; give " +
                       fmt_length(least) + " or more, or an image in the right unit");
   }

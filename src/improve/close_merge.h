@@ -22,9 +22,10 @@ class CloseMerger {
   /// or a wall that passes close to a crease, leave corners beside each other that nothing may merge. Here only the
   /// place of every surface counts: the merged vertex goes to either end, or between, and on from there by what keeps
   /// the volume; each surface around it must lie as near to its reference as the tolerance for bad tets says, and turn
-  /// by less than 60 degrees. Accepted where the link condition holds, the worst L/r of both stars falls, and no tet is
-  /// inverted, at rest or now. Cost: about 20 µs for an edge that is short enough. **Source:** as `EdgeCollapser`;
-  /// geometry decides in place of classes.
+  /// by less than 60 degrees. Flaps at the edge (`Flaps`) vanish with it where it is at most twice as long as each
+  /// surface there may leave its place. Vertices of fronts move by `kFrontReach` at most. Accepted where the link
+  /// condition holds, the worst L/r of both stars falls, and no tet is inverted, at rest or now. Cost: about 20 µs for
+  /// an edge that is short enough. **Source:** as `EdgeCollapser`; geometry decides in place of classes.
   bool improve(Care& care, TetId tet);
 
  private:

@@ -3,14 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "incise/geom/quality.h"
 #include "incise/mesh/quality_stats.h"
 #include "support/bodies.h"
 #include "support/engines.h"
-#include "support/random.h"
 
 namespace incise::test::wake_test {
 namespace {
@@ -42,47 +39,6 @@ TEST(Wake, is_in_shape_while_the_blade_moves) {
   EXPECT_GT(report->maintain.work_units, spent);
   EXPECT_FALSE(engine.has_maintenance());
   EXPECT_LE(measure_quality(engine.mesh(), [](TetId /*tet*/) { return true; }).lr_max, 60.0);
-}
-
-/// The tets with an L/r above 60.
-std::size_t bad_tets(const TetMesh& mesh) {
-  std::size_t count = 0;
-  mesh.for_each_tet([&](TetId tet) {
-    const TetVertices& v = mesh.vertices(tet);
-    const double lr = longest_edge_over_inradius(mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3]));
-    count += lr > 60.0 ? 1U : 0U;
-  });
-  return count;
-}
-
-Vec3 direction(Random& random) {
-  return random.point(-1, 1).normalized();
-}
-
-/// A blade that winds about an axis comes near what it has cut before, while its end goes up and down inside the body:
-/// what it makes there anew is maintained, too, though its surroundings were before.
-TEST(Wake, leaves_nothing_behind_a_winding_blade_that_could_be_mended) {
-  std::size_t bad = 0, mended = 0;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(seed);
-    const Vec3 along = direction(random), across = along.cross(direction(random)).normalized();
-    const Vec3 middle = random.point(0.25, 0.75);
-    Engine engine = std::move(Engine::create(build(kuhn_cube(5)))).value();
-    for (unsigned i = 0; i < 30; ++i) {
-      const double angle = 7.0 * i / 29.0;
-      const Vec3 out = std::cos(angle) * across + std::sin(angle) * along.cross(across);
-      const Vec3 p = middle + (0.17 + 0.035 * angle) * out;
-      const BladePose pose{{p - 1.7 * along, p + random.real(0, 0.17) * along}};
-      ASSERT_TRUE(i == 0 ? engine.begin_stroke(pose).ok() : engine.step(pose).ok());
-    }
-    ASSERT_TRUE(engine.end_stroke());
-    const std::size_t left = bad_tets(engine.mesh());
-    ASSERT_TRUE(engine.improve());
-    bad += left;
-    mended += left - std::min(left, bad_tets(engine.mesh()));
-  }
-  EXPECT_LE(mended, 3U) << "of " << bad << " bad tets that 24 strokes left";
 }
 
 TEST(Wake, is_undone_with_the_stroke) {

@@ -72,16 +72,17 @@ class DrawnBody {
   Random random_;
 };
 
-void expect_no_gain(std::uint64_t seed, double stiffness) {
+void expect_no_gain(std::uint64_t seed, double stiffness, double most = 0.03) {
   SCOPED_TRACE(seed);
   DrawnBody drawn(seed, stiffness);
   for (unsigned i = 0; i < 6 && !testing::Test::HasFatalFailure(); ++i) drawn.cut();
-  EXPECT_LE(drawn.rise, 0.03 * drawn.peak);
+  EXPECT_LE(drawn.rise, most * drawn.peak);
 }
 
 TEST(BodyBalance, FollowingAddsNoEnergy) {
   for (const std::uint64_t seed : {1U, 2U, 5U, 8U, 10U, 11U})
     expect_no_gain(seed, std::numeric_limits<double>::infinity());
+  expect_no_gain(6U, std::numeric_limits<double>::infinity(), 0.034);  // falls short, and is to get no worse
 }
 
 TEST(BodyBalance, FollowingAddsNoEnergyToSpringsThatHold) {
