@@ -259,6 +259,52 @@ TEST(Maintenance, counts_what_it_made) {
   expect_valid(engine.mesh(), 1.0, 1e-10);
 }
 
+/// Splits an edge of a vertex in a step of its own.
+void split_edge(TetMesh& mesh, Journal& journal, VertexId vertex) {
+  Transaction transaction(mesh);
+  const TetId tet = mesh.tet_of(vertex);
+  const SplitEdgePlan plan =
+      plan_split_edge(mesh, vertex, mesh.vertices(tet)[(mesh.corner_of(tet, vertex) + 1) % 4], tet, 0.5);
+  ASSERT_TRUE(plan);
+  apply(transaction, plan);
+  journal.append(transaction.commit());
+}
+
+/// Moves a vertex in a step of its own.
+void move_to(TetMesh& mesh, Journal& journal, VertexId vertex, const Vec3& place) {
+  Transaction transaction(mesh);
+  const MoveVertexPlan plan = plan_move_vertex(mesh, vertex, place);
+  ASSERT_TRUE(plan);
+  apply(transaction, plan);
+  journal.append(transaction.commit());
+}
+
+/// While something waits for the blade to get on, what was touched stays in care; touched again, it is looked at again.
+TEST(Maintenance, looks_again_at_what_is_touched_again) {
+  TetMesh mesh = build(kuhn_cube(6));
+  Journal journal;
+  StageTimes times;
+  Maintainer maintainer;
+  const VertexId vertex = nearest_vertex(mesh, Vec3(1, 1, 1) / 3.0), waiting = nearest_vertex(mesh, Vec3(1, 1, 1));
+  const Vec3 place = mesh.rest(vertex);
+  const IsLocked is_locked = [&](TetId tet) { return mesh.corner_of(tet, waiting) < 4; };
+  split_edge(mesh, journal, waiting);
+  for (const double way : {0.01, 0.95}) {  // of the way into the middle of a side of its star
+    const std::size_t first = way < 0.5 ? 0 : journal.position();
+    const TetId tet = mesh.tet_of(vertex);
+    const auto corners = mesh.vertices(Side(tet, mesh.corner_of(tet, vertex)));
+    const Vec3 middle = (mesh.rest(corners[0]) + mesh.rest(corners[1]) + mesh.rest(corners[2])) / 3.0;
+    move_to(mesh, journal, vertex, place + way * (middle - place));
+    maintainer.take_up(mesh, journal, first, is_locked);
+    EXPECT_TRUE(maintainer.has_work()) << "a vertex waits";
+    if (way > 0.5) {
+      EXPECT_LT(worst_ratio(mesh, tets_of(mesh)), kRegularLr / 60.0);
+    }
+    maintainer.run(mesh, journal, kUnlimitedWork, times, {}, is_locked);
+  }
+  EXPECT_GT(worst_ratio(mesh, tets_of(mesh)), kRegularLr / 18.0);
+}
+
 TEST(Maintenance, leaves_what_lies_further_from_the_cut_alone) {
   const TetSoup soup = jittered_cube(6, 1);
   Engine engine = maintaining_engine(soup, 0.2);
