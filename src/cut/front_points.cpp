@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cut/division.h"
+#include "cut/spacing.h"
 #include "cut/weights.h"
 #include "incise/geom/box.h"
 #include "incise/geom/quality.h"
@@ -203,7 +204,7 @@ class PointUpdate {
   [[nodiscard]] bool lies_in_older_cut(const Master& master, unsigned side, const Face& face,
                                        const std::array<double, 3>& weights) const {
     if (rules_.older == nullptr || !rules_.older->exist()) return false;
-    const double edge = std::max(mean_edge(mesh_, face), kLeastScale * rules_.spacing);
+    const double edge = uncut_length(mean_edge(mesh_, face), rules_.spacing);
     return rules_.older->pass(blend(mesh_, face, weights), crossing_normal(master, side), rules_.beside * edge,
                               kBeyondRim * edge);
   }

@@ -43,10 +43,8 @@ void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, const Wake& 
                         ClosedComplex& complex);
 
 /// How far an older wall may pass beside a place of the sheet that counts as open already, as a share of the local
-/// edge, with snapping and without; and how far short of that place its rim may end.
-inline constexpr double kBesideWall = 0.2, kBesideExactly = 0.02, kBeyondRim = 0.2;
-/// However short the edges around a place have become by cuts, it is judged by this share of a typical edge at least.
-inline constexpr double kLeastScale = 0.5;
+/// edge before it was cut (`uncut_length`), with snapping and without; and how far short of that place its rim may end.
+inline constexpr double kBesideWall = 0.2, kBesideExactly = 0.02, kBeyondRim = 0.3;
 
 }  // namespace v0
 }  // namespace incise

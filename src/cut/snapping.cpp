@@ -7,6 +7,7 @@
 #include "cut/constants.h"
 #include "cut/old_children.h"
 #include "cut/parity.h"
+#include "cut/spacing.h"
 #include "incise/geom/quality.h"
 
 namespace incise {
@@ -240,8 +241,6 @@ constexpr double kAlong = 0.9, kAlongOlder = 0.8;
 /// Older walls attract within this share of the spacing at least, whatever the snapping distance: without snapping
 /// those that the sheet goes on from, at less than 8 degrees, since where planes cross the pieces are to be exact.
 constexpr double kLeastOlderReach = 0.02, kAlongExactly = 0.99;
-/// Cuts make the edges around their walls shorter by this factor at most, for what counts as near an older wall.
-constexpr double kOlderScale = 4.0;
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
 bool is_on_same_part(const OnVertex& on, const Vec3& place, const Vec3& normal) {
   return on.normal.dot(normal) > 0.3 && std::abs(on.normal.dot(place - on.target)) <= 0.3 * on.spacing;
@@ -316,13 +315,15 @@ class CloseVertices {
     const VertexId v = noted.vertex;
     const double snap = noted.has_odd_face ? 0.0 : snap_;
     const bool is_on_wall = (mesh_.shape_of(v) & shape::kWall) != 0;
-    const double share = std::max(kCoincident, is_on_wall ? kOlderScale * older_reach() : snap);
-    const SheetPlace hit = sheet_.closest(mesh_.rest(v), share * std::sqrt(noted.longest2));
+    const double longest = std::sqrt(noted.longest2);
+    const double reach =
+        is_on_wall ? older_reach() * uncut_length(longest, rules_.spacing) : std::max(kCoincident, snap) * longest;
+    const SheetPlace hit = sheet_.closest(mesh_.rest(v), reach);
     if (!hit.is_valid()) return;
     const std::vector<std::uint32_t>& star = complex_.star(mesh_, noted.master, v);
     const double spacing = mean_edge_length(mesh_, complex_, v, star, neighbours_);
     const OnVertex on{v, spacing, std::sqrt(hit.distance2), hit.point, hit.normal};
-    const bool is_older_cut = is_on_wall && on.distance <= older_reach() * uncut_spacing(spacing) &&
+    const bool is_older_cut = is_on_wall && on.distance <= older_reach() * uncut_length(spacing, rules_.spacing) &&
                               lies_along(on, star, 1, snap_ > 0 ? kAlongOlder : kAlongExactly);
     const bool is_coincident = is_older_cut || on.distance <= kCoincident * spacing;
     const bool may_take_part =
@@ -332,13 +333,9 @@ class CloseVertices {
     close_.push_back({on, noted.master, is_coincident});
     noted_[i].close = static_cast<std::uint32_t>(close_.size());
   }
-  /// How far older walls attract, as a share of that spacing: also where nothing else snaps, as far as one cut may miss
-  /// itself.
+  /// How far older walls attract, as a share of the length of edges before they were cut, for the wall has bent by as
+  /// much: also where nothing else snaps, as far as one cut may miss itself.
   [[nodiscard]] double older_reach() const { return std::max(snap_, kLeastOlderReach); }
-  /// What the spacing at a vertex may have been before cuts made its edges shorter: an older wall has bent by as much.
-  [[nodiscard]] double uncut_spacing(double spacing) const {
-    return std::max(spacing, std::min(rules_.spacing, kOlderScale * spacing));
-  }
   [[nodiscard]] bool passed_around(std::span<const std::uint32_t> star) const {
     return std::none_of(star.begin(), star.end(), [&](std::uint32_t m) { return has_odd_face(complex_[m].flagged); });
   }

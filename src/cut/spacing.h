@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise {
@@ -13,6 +15,13 @@ double typical_spacing(const TetMesh& mesh);
 /// The same before the body was cut, as far as the mesh still tells: of tets without a vertex on a wall, where an
 /// eighth of those that are looked at are such; else of all.
 double uncut_spacing(const TetMesh& mesh);
+
+/// How long edges around a place may have been before cuts made them `length` long, in a mesh whose typical edge before
+/// it was cut is `spacing` long: that, but by a factor of 8 longer at most, for a mesh may be finer in places.
+[[nodiscard]] inline double uncut_length(double length, double spacing) {
+  constexpr double kMostShortened = 8.0;
+  return std::max(length, std::min(spacing, kMostShortened * length));
+}
 
 }  // namespace v0
 }  // namespace incise

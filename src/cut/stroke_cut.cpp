@@ -8,6 +8,7 @@
 
 #include "cut/parity.h"
 #include "cut/pinched_edges.h"
+#include "cut/spacing.h"
 #include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
 #include "incise/mesh/verbs.h"
@@ -27,12 +28,16 @@ constexpr double kFinalMargin = 0.04;
 /// What lies further behind the front than so many spacings is settled, at rest and in a body that moves: less than
 /// that, and a blade that trembles would come back to it.
 constexpr double kBand = 0.5, kMovingBand = 1.0;
-/// What lies beyond the rim of an older cut is measured by edges up to so many times as long as those that cuts left.
-constexpr double kMostShortened = 8.0;
 /// Two crossings of an edge within so many spacings of travel are a corner of the blade's way: the cut passes it by.
 constexpr double kCorner = 1.5;
 /// An edge crossed twice is bisected at most so often.
 constexpr unsigned kMaxBisectionRounds = 8;
+
+/// Whether an edge of the complex is one of a side of a master.
+bool has_edge(const Master& master, unsigned side, std::uint32_t edge) {
+  return std::any_of(kSideEdges[side].begin(), kSideEdges[side].end(),
+                     [&](unsigned e) { return master.edges[e] == edge; });
+}
 
 }  // namespace
 
@@ -520,12 +525,8 @@ void StrokeCut::let_go_of_older_cut(const TetMesh& mesh) {
   }
   for (std::size_t i = 0; i < waiting.size(); ++i) {
     const ClosedEdge& edge = complex_.edges()[waiting[i]];
-    const double length = (mesh.rest(edge.b) - mesh.rest(edge.a)).norm();
-    const double scale = std::max({length, kLeastScale * spacing_, std::min(spacing_, kMostShortened * length)});
-    if (!edge.is_flagged() || !may_let_go(waiting[i]) || !is_at_border(waiting[i]) ||
-        !older.pass(edge.position, edge.normal, beside() * scale, kBeyondRim * scale)) {
-      continue;
-    }
+    const double scale = uncut_length((mesh.rest(edge.b) - mesh.rest(edge.a)).norm(), spacing_);
+    if (!edge.is_flagged() || !may_let_go(waiting[i]) || !ends_at_older_cut(older, waiting[i], scale)) continue;
     complex_.toggle(waiting[i]);
     refresh_around(waiting[i]);
     complex_.for_each_around(waiting[i], [&](std::uint32_t master) { wait(complex_[master]); });
@@ -539,16 +540,24 @@ bool StrokeCut::may_let_go(std::uint32_t edge) const {
   return !is_settled;
 }
 
-/// Whether the cut ends in a face that has a certain edge.
-bool StrokeCut::is_at_border(std::uint32_t edge) const {
-  bool is_at_border = false;
-  complex_.for_each_around(edge, [&](std::uint32_t m) {
+/// Whether the cut ends in faces that have a certain edge, and nowhere in them further than an older cut reaches.
+bool StrokeCut::ends_at_older_cut(const OlderWalls& older, std::uint32_t index, double scale) const {
+  const ClosedEdge& edge = complex_.edges()[index];
+  const auto is_there = [&](const Vec3& place) {
+    return older.pass(place, edge.normal, beside() * scale, kBeyondRim * scale);
+  };
+  if (!is_there(edge.position)) return false;
+  bool does_end = false, goes_on = false;
+  complex_.for_each_around(index, [&](std::uint32_t m) {
     const Master& master = complex_[m];
     for (unsigned s = 0; s < 4; ++s) {
-      for (const unsigned e : kSideEdges[s]) is_at_border |= master.edges[e] == edge && is_odd_side(master, s);
+      if (!is_odd_side(master, s) || !has_edge(master, s, index)) continue;
+      const std::uint32_t end = master.points[s];
+      does_end = true;
+      goes_on |= end != Master::kNone && complex_.point(end).is_explained && !is_there(complex_.point(end).pierced);
     }
   });
-  return is_at_border;
+  return does_end && !goes_on;
 }
 
 /// The blade goes no further: its border is where it is, but for what lies at an older cut.

@@ -134,7 +134,7 @@ class StrokeCut {
   void bake_behind(const CutContext& context, const FrontRules& rules, std::span<const std::uint32_t> pinned);
   void settle(const CutContext& context, const FrontRules& rules);
   [[nodiscard]] bool may_let_go(std::uint32_t edge) const;
-  [[nodiscard]] bool is_at_border(std::uint32_t edge) const;
+  [[nodiscard]] bool ends_at_older_cut(const OlderWalls& older, std::uint32_t index, double scale) const;
   void settle_front(const CutContext& context, const FrontRules& rules);
   [[nodiscard]] SnapRules snap_rules(const TetMesh& mesh);
   void choose_on(const TetMesh& mesh, std::span<const std::uint32_t> masters, const SnapRules& rules,
