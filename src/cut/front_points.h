@@ -44,7 +44,7 @@ void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, const Wake& 
 
 /// How far an older wall may pass beside a place of the sheet that counts as open already, as a share of the local
 /// edge before it was cut (`uncut_length`), with snapping and without; and how far short of that place its rim may end.
-inline constexpr double kBesideWall = 0.2, kBesideExactly = 0.02, kBeyondRim = 0.3;
+inline constexpr double kBesideWall = 0.2, kBesideExactly = 0.02, kBeyondRim = 0.2;
 
 }  // namespace v0
 }  // namespace incise

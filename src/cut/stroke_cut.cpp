@@ -28,6 +28,8 @@ constexpr double kFinalMargin = 0.04;
 /// What lies further behind the front than so many spacings is settled, at rest and in a body that moves: less than
 /// that, and a blade that trembles would come back to it.
 constexpr double kBand = 0.5, kMovingBand = 1.0;
+/// What is crossed at most this share of an edge beyond the rim of an older cut, where the sheet ends there, is let go.
+constexpr double kLetGo = 0.3;
 /// Two crossings of an edge within so many spacings of travel are a corner of the blade's way: the cut passes it by.
 constexpr double kCorner = 1.5;
 /// An edge crossed twice is bisected at most so often.
@@ -544,7 +546,7 @@ bool StrokeCut::may_let_go(std::uint32_t edge) const {
 bool StrokeCut::ends_at_older_cut(const OlderWalls& older, std::uint32_t index, double scale) const {
   const ClosedEdge& edge = complex_.edges()[index];
   const auto is_there = [&](const Vec3& place) {
-    return older.pass(place, edge.normal, beside() * scale, kBeyondRim * scale);
+    return older.pass(place, edge.normal, beside() * scale, kLetGo * scale);
   };
   if (!is_there(edge.position)) return false;
   bool does_end = false, goes_on = false;
