@@ -128,8 +128,11 @@ incise_status incise_haptic_tool_tick(incise_haptic_tool* tool, double dt, const
   if (position == nullptr || velocity == nullptr || force == nullptr) {
     return c::refuse("position, velocity or force is null");
   }
-  return c::change_tool(tool, [&](HapticTool& changed) {
-    c::from_vec(changed.tick(dt, c::to_vec(position), c::to_vec(velocity)), force);
+  return c::change_tool(tool, [&](HapticTool& changed) -> incise_status {
+    const Vec3 place = c::to_vec(position), speed = c::to_vec(velocity);
+    const Status sound = HapticTool::check_tick(dt, place, speed);
+    c::from_vec(changed.tick(dt, place, speed), force);
+    if (!sound.ok()) return c::fail(sound.error());
     if (tool_position != nullptr) c::from_vec(changed.tool_position(), tool_position);
     return INCISE_OK;
   });

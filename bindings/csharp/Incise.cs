@@ -537,7 +537,7 @@ namespace Incise
             public double cut_friction;
         }
 
-        /// <summary>How a blade in the hand feels; see HapticToolOptions in C++.</summary>
+        /// <summary>How a blade in the hand feels; see HapticToolOptions in C++. Numbers above 0 lie in [1e-15, 1e15], others in [0, 1e15].</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_haptic_options
         {
@@ -938,7 +938,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_haptic_tool_accept(IntPtr tool, incise_haptic_snapshot* snapshot);
 
-        /// <summary>One tick of `dt` s: the device's position (m) and velocity (m/s) give the force on it (N) and, where `tool_position` is not null, where the physics moves its blade to (m); 3 numbers each.</summary>
+        /// <summary>One tick of `dt` s, 1e-9 to 1: the device's position (m) and velocity (m/s) give the force on it (N) and, where `tool_position` is not null, where the physics moves its blade to (m); 3 numbers each. Errors: bad argument for a `dt` outside of its range, and for what is not finite or beyond 1e15; `force` is then zero, and the next tick starts anew.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_haptic_tool_tick(IntPtr tool, double dt, double* position, double* velocity, double* force, double* tool_position);
 
@@ -970,7 +970,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_default_batch_options(incise_batch_options* options, uint size);
 
-        /// <summary>Computes the items of a shard that no worker has done yet into `folder`, which is made where it is not there. `tell` (may be null) gets a report: JSON of format incise-batch, with "items", "skipped", "done", "failed" and "stopped". Items that cannot be computed are no error of the call. Errors: io; bad argument where another worker is at the same shard; bad file where the folder has results of another plan.</summary>
+        /// <summary>Computes the items of a shard that no worker has done yet into `folder`, which is made where it is not there. `tell` (may be null) gets a report: JSON of format incise-batch, with "items", "skipped", "done", "failed" and "stopped". Items that cannot be computed are no error of the call. Errors: io; bad argument where another worker is at the same shard; bad file where the folder has results of another plan, of another version of the program or of other meshes, or a line that is no result: the message names file, line and remedy.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_batch_run(IntPtr plan, [MarshalAs(UnmanagedType.LPUTF8Str)] string folder, incise_batch_options* options, incise_told tell, IntPtr user);
 

@@ -4,17 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
-Error bad_stroke(const Stroke& stroke, const std::string& what) {
+Error bad_stroke(const Stroke& stroke, const std::string& what, std::vector<std::uint64_t> ids = {}) {
   const std::string place = stroke.name.empty() ? "" : "stroke \"" + stroke.name + "\": ";
-  return {ErrorCode::kBadArgument, place + what, {}};
+  return {ErrorCode::kBadArgument, place + what, std::move(ids)};
 }
 
 bool is_finite(const Vec3& p) {
@@ -74,15 +77,18 @@ Status check(const Stroke& stroke) {
   }
   for (std::size_t i = 0; i < times; ++i) {
     if (!std::isfinite(stroke.times[i]) || (i > 0 && !(stroke.times[i] > stroke.times[i - 1]))) {
-      return bad_stroke(stroke, "times must be finite and increase; time " + std::to_string(i) + " does not");
+      return bad_stroke(stroke, "times must be finite and increase; time " + std::to_string(i) + " does not", {i});
     }
     if (stroke.edges[i].size() < 2 || stroke.edges[i].size() != stroke.edges[0].size()) {
-      return bad_stroke(stroke, "every polyline needs the same number of points, at least 2; the one at time " +
-                                    std::to_string(i) + " has " + std::to_string(stroke.edges[i].size()));
+      return bad_stroke(stroke,
+                        "every polyline needs the same number of points, at least 2; the one at time " +
+                            std::to_string(i) + " has " + std::to_string(stroke.edges[i].size()),
+                        {i});
     }
     for (std::size_t k = 0; k < stroke.edges[i].size(); ++k) {
       if (!is_finite(stroke.edges[i][k])) {
-        return bad_stroke(stroke, "point " + std::to_string(k) + " at time " + std::to_string(i) + " is not finite");
+        return bad_stroke(stroke, "point " + std::to_string(k) + " at time " + std::to_string(i) + " is not finite",
+                          {k, i});
       }
     }
   }

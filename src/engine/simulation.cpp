@@ -45,14 +45,16 @@ Status check(const SimulationOptions& options) {
 }
 
 Status check(const Hook& hook) {
-  const std::string name = "hook " + std::to_string(hook.id);
+  const auto bad_hook = [&](const char* what) {
+    return Error{ErrorCode::kBadArgument, "hook " + std::to_string(hook.id) + ": " + what, {hook.id}};
+  };
   if (!(hook.position.array().abs() <= kGreatestExtent).all()) {  // beyond it squares of lengths overflow
-    return bad(name + ": its position is not finite, or beyond 1e+30");
+    return bad_hook("its position is not finite, or beyond 1e+30");
   }
-  if (!(hook.radius > 0 && std::isfinite(hook.radius))) return bad(name + ": its radius must be above 0");
-  if (!(hook.stiffness > 0 && std::isfinite(hook.stiffness))) return bad(name + ": its stiffness must be above 0 N/m");
-  if (!(hook.strength > 0)) return bad(name + ": its strength must be above 0 N");
-  if (!(hook.closed >= 0 && hook.closed < 1)) return bad(name + ": it must be closed by at least 0 and less than 1");
+  if (!(hook.radius > 0 && std::isfinite(hook.radius))) return bad_hook("its radius must be above 0");
+  if (!(hook.stiffness > 0 && std::isfinite(hook.stiffness))) return bad_hook("its stiffness must be above 0 N/m");
+  if (!(hook.strength > 0)) return bad_hook("its strength must be above 0 N");
+  if (!(hook.closed >= 0 && hook.closed < 1)) return bad_hook("it must be closed by at least 0 and less than 1");
   return {};
 }
 
@@ -61,11 +63,13 @@ Status check(const FrameInput& input) {
     if (Status status = check(input.hooks[i]); !status) return status;
     for (std::size_t j = 0; j < i; ++j) {
       if (input.hooks[j].id == input.hooks[i].id)
-        return bad("hook " + std::to_string(input.hooks[i].id) + " comes twice");
+        return Error{
+            ErrorCode::kBadArgument, "hook " + std::to_string(input.hooks[i].id) + " comes twice", {input.hooks[i].id}};
     }
   }
-  for (const Tool& tool : input.tools) {
-    if (Status status = check(tool); !status) return status;
+  for (std::size_t i = 0; i < input.tools.size(); ++i) {
+    const Status status = check(input.tools[i]);
+    if (!status) return Error{status.error().code, "tool " + std::to_string(i) + ": " + status.error().message, {i}};
   }
   return {};
 }

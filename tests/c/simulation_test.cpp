@@ -92,6 +92,17 @@ TEST(CSimulation, hooks_pull_and_tools_press) {
   std::uint64_t count = 0;
   ASSERT_EQ(incise_simulation_hook_forces(simulation.get(), force, 1, &count), INCISE_OK);
   EXPECT_GT(force[2], 0) << "the tissue pulls the hook up";
+  plane.a[0] = 2;
+  EXPECT_EQ(incise_simulation_frame(simulation.get(), &input, &report), INCISE_BAD_ARGUMENT);
+  std::uint64_t id = 9;
+  EXPECT_EQ(incise_last_error_ids(&id, 1), 1U);
+  EXPECT_EQ(id, 0U) << "the number of the tool";
+  plane.a[0] = 1;
+  hook.radius = -1;
+  EXPECT_EQ(incise_simulation_frame(simulation.get(), &input, &report), INCISE_BAD_ARGUMENT);
+  EXPECT_EQ(incise_last_error_ids(&id, 1), 1U);
+  EXPECT_EQ(id, 7U);
+  hook.radius = 0.3;
   plane.kind = 9;
   EXPECT_EQ(incise_simulation_frame(simulation.get(), &input, &report), INCISE_BAD_ARGUMENT);
 }
@@ -303,6 +314,18 @@ TEST(CHaptics, the_tool_pushes_back) {
   }
   EXPECT_LT(force[0], 0);
   EXPECT_GT(place[0], 0);
+  const double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const double here[3] = {0, 0, 0};
+  for (const double bad : {nan, infinite, -infinite, 1e300, -1e300, -1.0, 0.0, 1e-300}) {
+    force[0] = 1;
+    EXPECT_EQ(incise_haptic_tool_tick(tool, bad, here, here, force, place), INCISE_BAD_ARGUMENT) << bad;
+    EXPECT_NE(std::string(incise_last_error()).find("a tick must last from 1e-9 to 1 s"), std::string::npos);
+    EXPECT_EQ(force[0], 0) << "a device gets no force rather than a wrong one";
+    const double far[3] = {bad, 0, 0};
+    if (std::abs(bad) <= 1) continue;
+    EXPECT_EQ(incise_haptic_tool_tick(tool, 1e-3, far, here, force, place), INCISE_BAD_ARGUMENT) << bad;
+    EXPECT_EQ(incise_haptic_tool_tick(tool, 1e-3, here, far, force, place), INCISE_BAD_ARGUMENT) << bad;
+  }
   EXPECT_EQ(incise_haptic_tool_free(tool), INCISE_OK);
   options.max_force = -1;
   EXPECT_EQ(incise_haptic_tool_create(&options, &tool), INCISE_BAD_ARGUMENT);

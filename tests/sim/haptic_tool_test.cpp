@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <new>
+#include <random>
 
 #include "incise/sim/simulated_operator.h"
 #include "sim/haptic_scenes.h"
@@ -134,8 +135,64 @@ TEST(HapticTool, InputThatIsNotFiniteGivesNoForceAndLeavesNoTrace) {
   }
   EXPECT_EQ(tool.tick(kDt, bad, Vec3::Zero()), Vec3(0, 0, 0));
   EXPECT_EQ(tool.tick(kDt, place, bad), Vec3(0, 0, 0));
-  EXPECT_EQ(tool.tick(0, place, Vec3::Zero()), Vec3(0, 0, 0));
+  for (const double dt :
+       {0.0, -1e-3, 1e-300, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(tool.tick(dt, place, Vec3::Zero()), Vec3(0, 0, 0)) << dt;
+    EXPECT_FALSE(HapticTool::check_tick(dt, place, Vec3::Zero()).ok()) << dt;
+  }
+  EXPECT_EQ(tool.tick(kDt, Vec3(1e300, 0, 0), Vec3::Zero()), Vec3(0, 0, 0));
+  EXPECT_EQ(tool.tick(kDt, place, Vec3(0, 1e160, 0)), Vec3(0, 0, 0));
   EXPECT_EQ(settle(tool, place, 1), settle(other, place, 1));
+}
+
+/// Whatever is taken gives numbers: of options, snapshots and ticks of all sizes.
+TEST(HapticTool, WhatIsTakenGivesNumbers) {
+  std::mt19937_64 random(7);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * 0x1p-64 * static_cast<double>(random());
+  };
+  const auto any = [&] { return std::pow(10, random() % 2 == 0 ? uniform(-320, 308) : uniform(-6, 6)); };
+  const auto either_way = [&] { return random() % 2 == 0 ? any() : -any(); };
+  const auto now_and_then = [&](double& number, const auto& make) {
+    if (random() % 4 == 0) number = make();
+  };
+  std::size_t tools = 0, ticks = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    HapticToolOptions options;
+    for (double* option : {&options.coupling_stiffness, &options.coupling_damping, &options.drag, &options.max_stretch,
+                           &options.max_force, &options.physics_period, &options.passivity.initial_energy,
+                           &options.passivity.max_acceleration, &options.passivity.recovery_time}) {
+      now_and_then(*option, any);
+    }
+    HapticSnapshot snapshot = liver_at(Vec3::Zero());
+    for (int k = 0; k < 3; ++k) {
+      now_and_then(snapshot.tool_position[k], either_way);
+      now_and_then(snapshot.force[k], either_way);
+      now_and_then(snapshot.contact_point[k], either_way);
+      now_and_then(snapshot.compliance(k, k), any);
+    }
+    for (double* number : {&snapshot.engaged_length, &snapshot.toughness, &snapshot.cut_friction})
+      now_and_then(*number, any);
+    if (!check(options).ok()) continue;
+    HapticTool tool(options);
+    if (!tool.accept(snapshot)) continue;
+    ++tools;
+    for (int tick = 0; tick < 6; ++tick) {
+      double dt = 1e-3;
+      Vec3 place(1e-4 * tick, 0.1, 0), velocity(0.1, 0, -0.2);
+      now_and_then(dt, any);
+      for (int k = 0; k < 3; ++k) {
+        now_and_then(place[k], either_way);
+        now_and_then(velocity[k], either_way);
+      }
+      const Vec3 force = tool.tick(dt, place, velocity);
+      if (HapticTool::check_tick(dt, place, velocity).ok()) ++ticks;
+      ASSERT_TRUE(force.allFinite() && tool.tool_position().allFinite()) << round << " " << dt;
+      ASSERT_LE(force.norm(), options.max_force * (1 + 1e-9)) << round << " " << dt;
+    }
+  }
+  EXPECT_GT(tools, 100U);
+  EXPECT_GT(ticks, 100U);
 }
 
 TEST(HapticTool, EqualInputsGiveEqualBits) {

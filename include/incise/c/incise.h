@@ -809,7 +809,8 @@ INCISE_API incise_status incise_simulation_haptic_snapshot(const incise_simulati
 
 /* The blade in the hand at 1 kHz: coupling, rupture, passivity. Its own thread's; no call allocates but the first. */
 typedef struct incise_haptic_tool incise_haptic_tool;
-/* How a blade in the hand feels; see HapticToolOptions in C++. */
+/* How a blade in the hand feels; see HapticToolOptions in C++. Numbers above 0 lie in [1e-15, 1e15], others in
+ * [0, 1e15]. */
 typedef struct incise_haptic_options {
   uint32_t size;
   uint32_t pad;
@@ -826,8 +827,10 @@ INCISE_API incise_status incise_default_haptic_options(incise_haptic_options* op
 INCISE_API incise_status incise_haptic_tool_create(const incise_haptic_options* options, incise_haptic_tool** tool);
 /* Takes a newer snapshot over. Errors: bad argument for one that is not sound, or not newer; it is passed over. */
 INCISE_API incise_status incise_haptic_tool_accept(incise_haptic_tool* tool, const incise_haptic_snapshot* snapshot);
-/* One tick of `dt` s: the device's position (m) and velocity (m/s) give the force on it (N) and, where
- * `tool_position` is not null, where the physics moves its blade to (m); 3 numbers each. */
+/* One tick of `dt` s, 1e-9 to 1: the device's position (m) and velocity (m/s) give the force on it (N) and, where
+ * `tool_position` is not null, where the physics moves its blade to (m); 3 numbers each. Errors: bad argument for a
+ * `dt` outside of its range, and for what is not finite or beyond 1e15; `force` is then zero, and the next tick starts
+ * anew. */
 INCISE_API incise_status incise_haptic_tool_tick(incise_haptic_tool* tool, double dt, const double* position,
                                                  const double* velocity, double* force, double* tool_position);
 /* Null is fine. */
@@ -863,7 +866,7 @@ typedef struct incise_batch_options {
   uint32_t shard_index; /* which part of the items, from 0 */
   uint32_t shard_count; /* of how many, in [1, 99999] */
   uint32_t threads;     /* in [1, 256]; the result does not depend on it */
-  int32_t retry;        /* items that have failed are tried again */
+  int32_t retry;        /* items that have failed are tried again, lines that are no results taken off */
   uint32_t pad;
   uint64_t verify_items;          /* of incise_batch_verify: how many */
   uint64_t verify_seed;           /* which */
@@ -879,7 +882,8 @@ INCISE_API incise_status incise_default_batch_options(incise_batch_options* opti
 /* Computes the items of a shard that no worker has done yet into `folder`, which is made where it is not there. `tell`
  * (may be null) gets a report: JSON of format incise-batch, with "items", "skipped", "done", "failed" and "stopped".
  * Items that cannot be computed are no error of the call. Errors: io; bad argument where another worker is at the same
- * shard; bad file where the folder has results of another plan. */
+ * shard; bad file where the folder has results of another plan, of another version of the program or of other meshes,
+ * or a line that is no result: the message names file, line and remedy. */
 INCISE_API incise_status incise_batch_run(const incise_plan* plan, const char* folder,
                                           const incise_batch_options* options, incise_told tell, void* user);
 /* Puts the lines of all shards into results.jsonl, in the order of the plan, where all is whole; the report's "ok" says

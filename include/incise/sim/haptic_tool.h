@@ -11,6 +11,7 @@ namespace incise {
 inline namespace v0 {
 
 /// How a blade in the hand feels.
+/// Numbers above 0 lie in [1e-15, 1e15], others in [0, 1e15].
 struct HapticToolOptions {
   double coupling_stiffness = 500;   ///< N/m between device and tool, above 0; 300 to 800 suits desktop arms
   double coupling_damping = 1;       ///< N·s/m on the stretch of the coupling, at least 0
@@ -51,10 +52,14 @@ class HapticTool {
 
   /// The force to command, N on the device, at most max_force.
   ///
-  /// @param dt  s since the last tick, above 0; usually 1e-3.  @param device_position  m.
-  /// @param device_velocity  m/s; where the device has none, its last displacement over dt.
-  /// Input that is not finite, or dt ≤ 0, gives no force and changes nothing else; the next sound tick starts anew.
+  /// @param dt  s since the last tick, in [kShortestTick, kLongestTick]; usually 1e-3.
+  /// @param device_position  m, within 1e15.
+  /// @param device_velocity  m/s, within 1e15; where the device has none, its last displacement over dt.
+  /// Input that `check_tick` refuses gives no force and changes nothing else; the next sound tick starts anew.
   Vec3 tick(double dt, const Vec3& device_position, const Vec3& device_velocity);
+  /// Whether `tick` takes these. Errors: kBadArgument names the first that is out of its range.
+  [[nodiscard]] static Status check_tick(double dt, const Vec3& device_position, const Vec3& device_velocity);
+  static constexpr double kShortestTick = 1e-9, kLongestTick = 1;  ///< s
 
   [[nodiscard]] const Vec3& tool_position() const { return tool_position_; }  ///< m, after the last tick
   [[nodiscard]] const Vec3& force() const { return force_; }                  ///< N, what the last tick returned

@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which numbers options and snapshots may have.
+// Which numbers options, snapshots and ticks may have: beyond these bounds, which no device and no tissue comes near,
+// products of four of them could overflow, and a force be no number.
 #pragma once
 
-#include <cmath>
+#include "incise/geom/vec.h"
 
 namespace incise {
 inline namespace v0 {
 namespace detail {
 
+inline constexpr double kLeastAmount = 1e-15, kGreatestAmount = 1e15;  // SI units
+
 [[nodiscard]] inline bool is_amount(double number) {
-  return number >= 0 && std::isfinite(number);
+  return number >= 0 && number <= kGreatestAmount;
 }
 
 [[nodiscard]] inline bool is_positive(double number) {
-  return number > 0 && std::isfinite(number);
+  return number >= kLeastAmount && number <= kGreatestAmount;
+}
+
+/// Each component, of any sign.
+[[nodiscard]] inline bool is_within_bounds(const Vec3& vector) {
+  return (vector.array().abs() <= kGreatestAmount).all();
 }
 
 }  // namespace detail

@@ -11,6 +11,7 @@ inline namespace v0 {
 namespace {
 
 using detail::is_amount;
+using detail::is_within_bounds;
 
 /// No negative eigenvalue, by the principal minors; rounding of a part in 10⁹ is let pass.
 bool is_semidefinite(const Eigen::Matrix3d& m) {
@@ -33,17 +34,21 @@ bool is_unit(const Vec3& direction) {
 /// What is wrong with a snapshot, in static words; null where nothing is.
 const char* find_defect(const HapticSnapshot& s) {
   if (!s.touches) return nullptr;
-  if (!s.tool_position.allFinite() || !s.contact_point.allFinite()) return "its places must be finite";
-  if (!s.force.allFinite()) return "its force must be finite";
+  if (!is_within_bounds(s.tool_position) || !is_within_bounds(s.contact_point)) {
+    return "its places must be finite, and lie within 1e+15 m";
+  }
+  if (!is_within_bounds(s.force)) return "its force must be finite, and at most 1e+15 N";
   if (!is_unit(s.cutting_direction) || !is_unit(s.flat_normal)) return "its directions must have length 1";
   if (!(std::abs(s.cutting_direction.dot(s.flat_normal)) <= 1e-6)) {
     return "the blade's normal must be orthogonal to the cutting direction";
   }
-  if (!s.compliance.allFinite()) return "its compliance must be finite";
+  if (!(s.compliance.array().abs() <= detail::kGreatestAmount).all()) {
+    return "its compliance must be finite, and at most 1e+15 m/N";
+  }
   if (!is_symmetric(s.compliance)) return "its compliance must be symmetric";
   if (!is_semidefinite(s.compliance)) return "its compliance must have no negative eigenvalue";
   if (!is_amount(s.engaged_length) || !is_amount(s.toughness) || !is_amount(s.cut_friction)) {
-    return "its length, toughness and friction must be at least 0";
+    return "its length, toughness and friction must lie in [0, 1e+15]";
   }
   return nullptr;
 }

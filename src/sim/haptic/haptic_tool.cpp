@@ -15,6 +15,7 @@ namespace {
 
 using detail::is_amount;
 using detail::is_positive;
+using detail::is_within_bounds;
 
 Vec3 shortened(const Vec3& v, double longest) {
   const double length = v.norm();
@@ -48,7 +49,7 @@ Status check(const HapticToolOptions& options) {
   if (!is_positive(options.max_stretch)) return bad("the coupling's largest stretch must be above 0 m");
   if (!is_positive(options.max_force)) return bad("the largest force must be above 0 N");
   if (!is_amount(options.physics_period)) return bad("the physics period must be at least 0 s");
-  if (!(options.rupture.onset >= 1 && std::isfinite(options.rupture.onset))) {
+  if (!(options.rupture.onset >= 1 && is_amount(options.rupture.onset))) {
     return bad("rupture must need at least the force of cutting");
   }
   if (!(options.rupture.arrest >= 0 && options.rupture.arrest < 1)) return bad("the arrest must lie in [0, 1)");
@@ -102,6 +103,14 @@ void HapticTool::place_tool(const Coupling& coupling, const Vec3& device_positio
   tool_position_ = device_position + stretch_;
 }
 
+Status HapticTool::check_tick(double dt, const Vec3& device_position, const Vec3& device_velocity) {
+  const auto bad = [](const char* what) { return Error{ErrorCode::kBadArgument, what, {}}; };
+  if (!(dt >= kShortestTick && dt <= kLongestTick)) return bad("a tick must last from 1e-9 to 1 s");
+  if (!is_within_bounds(device_position)) return bad("the device's position must lie within 1e+15 m");
+  if (!is_within_bounds(device_velocity)) return bad("the device's velocity must lie within 1e+15 m/s");
+  return {};
+}
+
 Vec3 HapticTool::stop() {
   has_moved_ = false;
   force_.setZero();
@@ -109,7 +118,7 @@ Vec3 HapticTool::stop() {
 }
 
 Vec3 HapticTool::tick(double dt, const Vec3& device_position, const Vec3& device_velocity) {
-  if (!is_positive(dt) || !device_position.allFinite() || !device_velocity.allFinite()) return stop();
+  if (!check_tick(dt, device_position, device_velocity)) return stop();
   const Vec3 displacement = has_moved_ ? Vec3(device_position - device_position_) : Vec3(Vec3::Zero());
   const Coupling coupling = couple(dt, device_position);
   tissue_force_ = blend(dt, coupling);
