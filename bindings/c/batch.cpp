@@ -18,7 +18,7 @@ struct incise_plan {
 namespace incise::c {
 namespace {
 
-constexpr const char* kNoPlan = "the plan is null; make one with incise_plan_read or incise_plan_parse";
+constexpr const char* kNoPlan = "the plan is null; read or parse one first";
 
 incise_batch_options default_options() {
   incise_batch_options options{};

@@ -203,7 +203,7 @@ incise_status look_as(const Identity& of, const incise_engine* handle, const Cal
 template <class Call>
 incise_status change(incise_engine* handle, const Call& call) {
   if (handle == nullptr) return refuse("the engine is null");
-  if (!handle->own) return refuse("this engine belongs to a simulation and is to be read: use incise_simulation_...");
+  if (!handle->own) return refuse("this engine belongs to a simulation and is to be read: change the simulation");
   return in_turn(*handle->turn, false, [&] {
     ++handle->version;
     return call(*handle->own);

@@ -269,7 +269,7 @@ incise_status settle(incise_simulation& handle, std::uint32_t most, double speed
 }
 
 incise_status no_scene() {
-  return refuse("this simulation was made without a scene; use incise_simulation_read_scene");
+  return refuse("this simulation was made without a scene; make it from one");
 }
 
 incise_status settle_scene(incise_simulation& handle, const ShouldStop& should_stop, std::uint32_t* frames) {

@@ -4,6 +4,7 @@ import copy
 import math
 import os
 import pickle
+import re
 import subprocess
 import sys
 import threading
@@ -15,6 +16,10 @@ import pytest
 import incise
 
 CUBE = incise.box((3, 3, 3)).compact()
+STROKE = np.array([[[0.4, -1, -1], [0.4, -1, 2]], [[0.4, 2, -1], [0.5, 2, 2]]])
+PLAN = {"format": "incise-plan", "version": 1,
+        "items": [{"scene": {"format": "incise-scene", "version": 1, "model": {"box": {"cells": [1, 1, 1]}}, "length_unit": 1, "frames": 1},
+                   "random": {}}]}
 SYMBOLS = Path(__file__).parents[1] / "c" / "symbols.txt"
 
 
@@ -123,6 +128,85 @@ def test_numbers_are_not_taken_modulo_two_to_the_32(call):
 def test_what_is_no_number_of_the_kind_is_a_type_error(call):
     with pytest.raises(TypeError):
         call()
+
+
+@pytest.mark.parametrize("call", [
+    lambda: incise.box((2, 2, 2), log=5), lambda: body(log="print"),
+    lambda: incise.box((2, 2, 2)).maintain(should_stop=1), lambda: incise.box((2, 2, 2)).improve(should_stop=True),
+    lambda: incise.box((2, 2, 2)).cut_along([], progress=3), lambda: body().settle(should_stop=0),
+    lambda: body().run(0, progress=[]), lambda: incise.batch.run(PLAN, "nowhere", progress=1),
+    lambda: incise.batch.verify(PLAN, "nowhere", should_stop=1),
+    lambda: incise.Attributes(incise.box((2, 2, 2))).add("a", "tets", "recompute", recompute=2.0)])
+def test_what_is_called_back_can_be_called(call):
+    with pytest.raises(TypeError, match="a function is wanted"):
+        call()
+
+
+@pytest.mark.parametrize("call", [
+    lambda: incise.box((2, 2, 2)).cut(incise.Stroke(STROKE, name=None)),
+    lambda: incise.box((2, 2, 2)).cut(incise.Stroke(STROKE, name=b"a")), lambda: incise.box((2, 2, 2)).to_bytes(None),
+    lambda: incise.Engine.from_bytes(b"", name=1), lambda: incise.Attributes(incise.box((2, 2, 2))).add(7, "tets")])
+def test_names_are_texts(call):
+    with pytest.raises(TypeError, match="a text is wanted"):
+        call()
+
+
+def test_names_have_whole_characters():
+    with pytest.raises(incise.BadArgument, match="half of a character"):
+        incise.box((2, 2, 2)).cut(incise.Stroke(STROKE, name="\ud800"))
+
+
+@pytest.mark.parametrize("call", [
+    lambda: incise.box((2, 2, 2), merge=0.5), lambda: incise.box((2, 2, 2), improve="1"), lambda: body(coarse=2),
+    lambda: incise.box((2, 2, 2), check_steps=[]), lambda: incise.Engine(CUBE.points, CUBE.tets, mend=None),
+    lambda: incise.box((2, 2, 2)).quality("no"), lambda: body(materials=incise.Material(rigid="no")),
+    lambda: body().pin(0, 100, 1, tears="no"), lambda: incise.batch.run(PLAN, "nowhere", retry="no"),
+    lambda: body().frame(hooks=[incise.Hook(1, (0.5, 0.5, 0), 0.3, tears=0.5)])])
+def test_yes_and_no_are_no_texts_nor_shares(call):
+    with pytest.raises(TypeError, match="True or False is wanted"):
+        call()
+
+
+def hidden(array):
+    """The array with its last number behind a mask."""
+    mask = np.zeros(np.shape(array), bool)
+    mask.flat[-1] = True
+    return np.ma.array(array, mask=mask)
+
+
+@pytest.mark.parametrize("call", [
+    lambda: incise.Engine(hidden(CUBE.points), CUBE.tets), lambda: incise.Engine(CUBE.points, hidden(CUBE.tets)),
+    lambda: incise.Engine(list(hidden(CUBE.points)), CUBE.tets),
+    lambda: incise.Engine(CUBE.points, CUBE.tets, hidden(CUBE.regions)), lambda: incise.box(hidden([2, 2, 2])),
+    lambda: incise.box((2, 2, 2), high=hidden([1.0, 1, 1])), lambda: incise.box((2, 2, 2)).cut(hidden(STROKE)),
+    lambda: incise.box((2, 2, 2)).cut(incise.Stroke(STROKE, times=hidden([0.0, 1]))),
+    lambda: incise.box((2, 2, 2)).set_positions(hidden(np.zeros((27, 3)))), lambda: body().hold(hidden([1, 2])),
+    lambda: body().move_hold(0, hidden([0.0, 0, 0])), lambda: body().set_velocity(0, hidden([0.0, 0, 0])),
+    lambda: body().frame(hidden(STROKE[0])), lambda: incise.Attributes(incise.box((2, 2, 2))).add("a", "tets", initial=hidden([1.0]))])
+def test_what_a_mask_hides_is_not_taken(call):
+    with pytest.raises(incise.BadArgument, match="masked"):
+        call()
+
+
+def test_a_mask_that_hides_nothing_is_fine():
+    engine = incise.Engine(np.ma.array(CUBE.points), np.ma.array(CUBE.tets, mask=np.zeros(CUBE.tets.shape, bool)))
+    assert engine.hash == incise.Engine(CUBE.points, CUBE.tets).hash
+
+
+C_SOURCES = Path(__file__).parents[2] / "bindings" / "c"
+
+
+def test_messages_name_no_call_of_c():
+    """Python hears the same words as C does. A name alone, of a struct or a header, is no message."""
+    texts = []
+    for source in sorted(C_SOURCES.glob("*.cpp")) + sorted(C_SOURCES.glob("*.h")):
+        texts += re.findall(r'"((?:[^"\\\n]|\\.)*)"', source.read_text(encoding="utf-8"))
+    messages = [text for text in texts if " " in text]
+    assert len(messages) > 50
+    assert not [text for text in messages if "incise_" in text]
+    with pytest.raises(incise.BadArgument) as error:
+        body().play()
+    assert str(error.value) == "this simulation was made without a scene; make it from one"
 
 
 def test_null_characters_do_not_end_a_name(tmp_path):
@@ -315,6 +399,13 @@ def test_errors_name_the_vertex():
     with pytest.raises(incise.BadArgument) as error:
         engine.set_positions(places)
     assert list(error.value.ids) == [7]
+
+
+@pytest.mark.parametrize("times, ids", [((0, math.nan), (1,)), ((1, 0), (1,)), ((0, math.inf), (1,))])
+def test_errors_name_the_time(times, ids):
+    with pytest.raises(incise.BadArgument) as error:
+        incise.box((2, 2, 2)).cut(incise.Stroke(STROKE, times=times))
+    assert error.value.ids == ids
 
 
 def test_boxes_have_cells():

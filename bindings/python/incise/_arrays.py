@@ -30,8 +30,18 @@ def _for_c(array: npt.NDArray[Any], kind: npt.DTypeLike) -> npt.NDArray[Any]:
     return np.require(array, kind, ("C", "A"))
 
 
-def _real(value: npt.ArrayLike, name: str) -> Floats:
-    array = np.ascontiguousarray(value)
+def plain(value: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
+    """As an array of numpy; what hides elements behind a mask is refused: C would take what is hidden."""
+    parts = value if isinstance(value, (list, tuple)) else [value]
+    for part in parts:
+        if isinstance(part, np.ma.MaskedArray) and np.ma.is_masked(part):  # type: ignore[no-untyped-call]
+            raise BadArgument(f"{name} has masked elements; fill them, or leave them out")
+    return np.asarray(value)
+
+
+def real(value: npt.ArrayLike, name: str) -> Floats:
+    """Real numbers, as C wants them; a single one becomes a list of one."""
+    array = np.ascontiguousarray(value if type(value) is np.ndarray else plain(value, name))
     kind = array.dtype
     if kind.char == "d" and kind.isnative and array.flags.aligned:  # the usual one: each step of a blade comes by here
         return array
@@ -48,9 +58,16 @@ def whole(value: Any, name: str, least: int, most: int) -> int:
     return number
 
 
+def flag(value: Any, name: str) -> int:
+    """Yes or no for C: a text would be yes, and 0.5 no."""
+    if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, (int, np.integer)) and value in (0, 1)):
+        raise TypeError(f"{name} is {value!r}; True or False is wanted")
+    return int(value)
+
+
 def poses(value: npt.ArrayLike, name: str) -> Floats:
     """n x m x 3 numbers: an edge of m points at n times."""
-    array = _real(value, name)
+    array = real(value, name)
     if array.ndim != 3 or array.shape[2] != 3:
         raise BadArgument(f"{name} have the shape {array.shape}; n_times x n_points x 3 is wanted")
     return array
@@ -58,7 +75,7 @@ def poses(value: npt.ArrayLike, name: str) -> Floats:
 
 def numbers(value: npt.ArrayLike, n: int, name: str) -> Floats:
     """n numbers."""
-    array = _real(value, name)
+    array = real(value, name)
     if array.shape != (n,):
         raise BadArgument(f"{name} has the shape {array.shape}; {n} numbers are wanted")
     return array
@@ -66,7 +83,7 @@ def numbers(value: npt.ArrayLike, n: int, name: str) -> Floats:
 
 def points(value: npt.ArrayLike, name: str = "points") -> Floats:
     """n x 3 numbers, as C wants them; no copy where they are that already."""
-    array = _real(value, name)
+    array = real(value, name)
     if array.ndim != 2 or array.shape[1] != 3:
         raise BadArgument(f"{name} has the shape {array.shape}; n x 3 is wanted")
     return array
@@ -79,7 +96,7 @@ def vector(value: npt.ArrayLike, name: str) -> Floats:
 
 def indices(value: npt.ArrayLike, width: int, name: str) -> Slots:
     """n x width whole numbers that 32 bits hold; no copy where they are uint32 already."""
-    array = np.asarray(value)
+    array = plain(value, name)
     if array.size == 0:
         array = array.reshape(0, width)
     if array.ndim != 2 or array.shape[1] != width:
@@ -98,7 +115,7 @@ def labels(value: Optional[npt.ArrayLike], n: int, name: str) -> Optional[Ints]:
     """n labels, or none."""
     if value is None:
         return None
-    given = np.asarray(value)
+    given = plain(value, name)
     if given.shape != (n,):
         raise BadArgument(f"{name} has the shape {given.shape}; {n} labels are wanted")
     if given.dtype.kind not in "iubf":
@@ -191,6 +208,7 @@ class Asking(Waiting):
 
     def __init__(self, should_stop: Optional[Callable[[], bool]]) -> None:
         super().__init__()
+        listener(should_stop, "should_stop")
         self._should_stop = should_stop
         self._error: Optional[BaseException] = None
 
@@ -226,7 +244,18 @@ def path_bytes(path: Path) -> bytes:
 
 def text_bytes(text: str, name: str) -> bytes:
     """A text for C."""
-    return _without_nul(text.encode(), name)
+    if not isinstance(text, str):
+        raise TypeError(f"{name} is {text!r}; a text is wanted")
+    try:
+        return _without_nul(text.encode(), name)
+    except UnicodeEncodeError:
+        raise BadArgument(f"{name} is {text!r}; it has half of a character in it") from None
+
+
+def listener(function: Optional[Callable[..., Any]], name: str) -> None:
+    """Refuses what cannot be called; none is fine."""
+    if function is not None and not callable(function):
+        raise TypeError(f"{name} is {function!r}; a function is wanted")
 
 
 def _without_nul(content: bytes, name: str) -> bytes:

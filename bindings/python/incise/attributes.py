@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from ._arrays import Floats, address, text_bytes, waiting, whole
+from ._arrays import Floats, address, listener, real, text_bytes, waiting, whole
 from ._library import Handle, check, lib, sized
 from .mesh import Mesh, choice
 
@@ -53,9 +53,10 @@ class Attributes:
         `add` and `follow`; the values that it owed are then 0, or those of another element.
         """
         width = whole(width, "width", 1, 64)
+        listener(recompute, "recompute")
         spec = sized(_c.incise_attribute_spec)
         encoded = text_bytes(name, "the name")
-        start = None if initial is None else np.array(np.broadcast_to(np.asarray(initial, np.float64), (width,)))
+        start = None if initial is None else np.array(np.broadcast_to(real(initial, "initial"), (width,)))
         spec.name, spec.width, spec.initial = encoded, width, address(start)
         spec.domain, spec.transfer = choice(domain, _DOMAINS, "domain"), choice(transfer, _TRANSFERS, "transfer")
         if recompute is not None:
@@ -102,7 +103,7 @@ class Attributes:
     def __setitem__(self, name: str, values: npt.ArrayLike) -> None:
         """Sets all values, in the shape in which they are had."""
         inside, width = self._values(name), self._width(name)
-        inside.reshape(-1, width)[:] = np.broadcast_to(np.asarray(values, np.float64).reshape(-1, width),
+        inside.reshape(-1, width)[:] = np.broadcast_to(real(values, "values").reshape(-1, width),
                                                        (len(inside) // width, width))
 
     def _width(self, name: str) -> int:

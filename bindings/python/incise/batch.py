@@ -31,7 +31,7 @@ from pathlib import Path as _Path
 from typing import Any, Callable, Iterator, Mapping, Optional, Tuple, Union
 
 from . import _c
-from ._arrays import Asking, Path, Waiting, null, path_bytes, whole
+from ._arrays import Asking, Path, Waiting, flag, listener, null, path_bytes, whole
 from ._library import Handle, check, default, lib
 from .errors import BadArgument
 
@@ -115,6 +115,8 @@ def _reported(call: Callable[[Any], Any]) -> dict[str, Any]:
 def _computed(plan: Handle, out: Path, call: Any, options: Any, progress: Optional[Progress],
               should_stop: Optional[Callable[[], bool]]) -> dict[str, Any]:
     """Runs what takes long: Ctrl-C, and what a callback raises, ends it between two items, or two frames."""
+    listener(progress, "progress")
+    listener(should_stop, "should_stop")
     raised: list[BaseException] = []
 
     def tell(_user: Any, done: int, total: int) -> None:
@@ -187,7 +189,7 @@ def run(plan: Plan, out: Path, shard: Optional[Shard] = None, *, threads: int = 
     """
     options = _options(threads)
     options.shard_index, options.shard_count = _shard(shard)
-    options.retry = 1 if retry else 0
+    options.retry = flag(retry, "retry")
     report = _computed(_read(plan, folder), out, lib.incise_batch_run, options, progress, should_stop)
     return Run(report["items"], report["skipped"], report["done"], _told(report, "failed"), report["stopped"])
 

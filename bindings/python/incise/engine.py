@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c, exchange
-from ._arrays import Asking, Path, address, indices, labels, numbers, path_bytes, points, poses, text_bytes, vector, waiting, whole
+from ._arrays import Asking, Path, address, flag, indices, labels, listener, numbers, path_bytes, plain, points, poses, text_bytes, vector, waiting, whole
 from ._library import Handle, check, default, hear, lib, sized
 from .errors import BadArgument
 from .mesh import Mesh, choice
@@ -101,13 +101,14 @@ def engine_options(profile: str = "incise", snap: float = 0.2, merge: bool = Tru
                    work_units: Optional[int] = None, threads: int = 1, smooth_boundary: bool = True,
                    check_steps: Optional[bool] = None, log: Optional[Callable[[int, str], None]] = None) -> Any:
     """The options of an engine for C, with what they point to."""
+    listener(log, "log")
     options = default(_c.incise_engine_options, lib.incise_default_engine_options)
     options.profile = choice(profile, _PROFILES, "profile")
-    options.snap, options.merge, options.improve = snap, int(merge), int(improve)
+    options.snap, options.merge, options.improve = snap, flag(merge, "merge"), flag(improve, "improve")
     options.work_units = _units(work_units)
-    options.threads, options.smooth_boundary = whole(threads, "threads", 1, 256), int(smooth_boundary)
+    options.threads, options.smooth_boundary = whole(threads, "threads", 1, 256), flag(smooth_boundary, "smooth_boundary")
     if check_steps is not None:
-        options.check_steps = int(check_steps)
+        options.check_steps = flag(check_steps, "check_steps")
     if log is not None:
         options.log = _c.incise_log(lambda _user, level, text: hear(log, level, text.decode(errors="replace")))
     return options
@@ -120,7 +121,7 @@ def mesh_struct(point_array: npt.ArrayLike, tets: npt.ArrayLike, regions: Option
     region = labels(regions, len(corners), "regions")
     keep += [xyz, corners, region]
     mesh = sized(_c.incise_mesh_arrays)
-    mesh.mend = int(mend)
+    mesh.mend = flag(mend, "mend")
     mesh.points, mesh.n_points = address(xyz), len(xyz)
     mesh.tets, mesh.n_tets, mesh.regions = address(corners), len(corners), address(region)
     return mesh
@@ -185,7 +186,7 @@ class Engine(Mesh):
             **options: Any) -> "Engine":
         """A box of six tets per cell, for trying things."""
         corner, other = vector(low, "low"), vector(high, "high")
-        counts = np.asarray(list(cells))
+        counts = plain(cells if isinstance(cells, np.ndarray) else list(cells), "cells")
         if counts.shape != (3,) or counts.dtype.kind not in "iu" or counts.min() < 0 or counts.max() > 2**28:
             raise BadArgument(f"cells are {counts.tolist()}; three numbers from 1 on are wanted")
         sizes = counts.astype(np.uint32)
@@ -265,6 +266,7 @@ class Engine(Mesh):
 
         Whatever is raised on the way, Ctrl-C among it, takes the stroke back.
         """
+        listener(progress, "progress")
         began = False
         try:
             for done, edge in enumerate(edges):

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _c
 from . import journal as journals
-from ._arrays import Bytes, Floats, Ints, Path, Rows, Slots, address, lines, path_bytes, text_bytes, whole
+from ._arrays import Bytes, Floats, Ints, Path, Rows, Slots, address, flag, lines, path_bytes, text_bytes, whole
 from ._library import Handle, check, lib, sized
 from .errors import BadArgument, Busy
 
@@ -315,7 +315,7 @@ class Mesh:
     def quality(self, at_cuts: bool = False) -> Quality:
         """Of all tets, or of those with a vertex on a cut wall."""
         quality = sized(_c.incise_quality)
-        check(lib.incise_engine_quality(self._engine(), int(at_cuts), byref(quality)))
+        check(lib.incise_engine_quality(self._engine(), flag(at_cuts, "at_cuts"), byref(quality)))
         return fields_of(Quality, quality)  # type: ignore[no-any-return]
 
     def validate(self, level: str = "geometry", most: int = 16) -> Validity:

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from ._arrays import Asking, Floats, Path, Slots, address, path_bytes, points, vector, waiting, whole
+from ._arrays import Asking, Floats, Path, Slots, address, flag, listener, path_bytes, plain, points, vector, waiting, whole
 from ._library import Handle, check, default, lib, sized
 from .engine import Report, engine_options, mesh_struct
 from .errors import BadArgument
@@ -212,7 +212,7 @@ class Simulation:
         settle: lets the body come to rest as the scene says.
         """
         simulation = cls.__new__(cls)
-        threads = whole(threads, "threads", 1, 256)
+        threads, settles = whole(threads, "threads", 1, 256), flag(settle, "settle")
         if isinstance(scene, (str, os.PathLike)):
             name = path_bytes(scene)
             simulation._make(lambda out: lib.incise_simulation_read_scene(name, threads, out), [])
@@ -220,7 +220,7 @@ class Simulation:
             text = json.dumps(scene).encode()
             seen_from = None if folder is None else path_bytes(folder)
             simulation._make(lambda out: lib.incise_simulation_parse_scene(text, seen_from, threads, out), [])
-        if settle:
+        if settles:
             with Asking(None) as callback:
                 check(lib.incise_simulation_settle_scene_until(simulation._handle.pointer, callback, None, None))
         return simulation
@@ -265,8 +265,9 @@ class Simulation:
 
         Ctrl-C ends it between two frames.
         """
+        listener(progress, "progress")
         state = self.state
-        total = max(0, state.scene_frames - state.frames) if frames is None else frames
+        total = max(0, state.scene_frames - state.frames) if frames is None else whole(frames, "frames", 0, 2**32 - 1)
         done: list[Frame] = []
         for index in range(total):
             done.append(self.play())
@@ -313,12 +314,12 @@ class Simulation:
     def pin(self, vertices: "npt.ArrayLike", stiffness: float, strength: float, tears: bool = False) -> None:
         """Holds vertices by springs that bear no more than `strength` N each: beyond it they slip, or tear loose."""
         for vertex in self._live_slots(vertices):
-            check(lib.incise_simulation_pin(self._handle.pointer, vertex, float(stiffness), float(strength), int(tears)))
+            check(lib.incise_simulation_pin(self._handle.pointer, vertex, float(stiffness), float(strength), flag(tears, "tears")))
 
     def move_hold(self, vertices: npt.ArrayLike, targets: npt.ArrayLike) -> None:
         """Where held vertices are to be: n x 3, or one place for one vertex; length unit."""
         slots = self._live_slots(vertices)
-        places = points(np.atleast_2d(np.asarray(targets, np.float64)), "targets")
+        places = points(np.atleast_2d(plain(targets, "targets")), "targets")
         if len(places) != len(slots):
             raise BadArgument(f"{len(slots)} vertices and {len(places)} targets")
         for vertex in slots:  # before any is moved
@@ -328,7 +329,7 @@ class Simulation:
             check(lib.incise_simulation_move_hold(self._handle.pointer, vertex, address(place)))
 
     def _live_slots(self, vertices: npt.ArrayLike) -> list[int]:
-        slots, shapes = [_slot(vertex) for vertex in np.atleast_1d(np.asarray(vertices)).tolist()], self._mesh.shapes
+        slots, shapes = [_slot(vertex) for vertex in np.atleast_1d(plain(vertices, "vertices")).tolist()], self._mesh.shapes
         for slot in slots:
             if slot >= len(shapes) or shapes[slot] & _c.SHAPE_DEAD:
                 raise BadArgument(f"vertex {slot} is not live", (slot,))
@@ -402,7 +403,7 @@ def _materials(materials: Union[Material, Iterable[Material], None], keep: list[
         if len(terms) > 6 or len(terms) != 2 * len(material.prony):
             raise BadArgument("prony takes up to three pairs of a share and seconds")
         struct.prony[:] = terms + [0] * (6 - len(terms))
-        struct.rigid = int(material.rigid)
+        struct.rigid = flag(material.rigid, "rigid")
     keep.append(structs)
     return structs, len(given)
 
@@ -416,7 +417,7 @@ def _options(keep: list[Any], *, materials: Union[Material, Iterable[Material], 
              flat_height: float = 0, relaxation: str = "block_descent", threads: int = 1, coarse: bool = True,
              work_units: Optional[int] = 20_000, **others: Any) -> Any:
     body = default(_c.incise_body_options, lib.incise_default_body_options)
-    body.relaxation, body.coarse = choice(relaxation, _RELAXATIONS, "relaxation"), int(coarse)
+    body.relaxation, body.coarse = choice(relaxation, _RELAXATIONS, "relaxation"), flag(coarse, "coarse")
     body.gravity[:] = vector(gravity, "gravity").tolist()
     for name in _BODY:
         if name in others:
@@ -466,7 +467,7 @@ def _input(blade: Optional[npt.ArrayLike], direction: Optional[npt.ArrayLike], h
     for hook, hook_struct in zip(hooks, hook_structs):
         hook_struct.id = whole(hook.id, "the hook's id", 0, 2**32 - 1)
         hook_struct.radius, hook_struct.stiffness = hook.radius, hook.stiffness
-        hook_struct.strength, hook_struct.tears = hook.strength, int(hook.tears)
+        hook_struct.strength, hook_struct.tears = hook.strength, flag(hook.tears, "tears")
         hook_struct.position[:] = vector(hook.position, "position").tolist()
     for tool, tool_struct in zip(tools, tool_structs):
         _tool(tool, tool_struct, keep)
