@@ -155,8 +155,9 @@ Command add_batch(CLI::App& root) {
   words->add_option("--verify", a.verify, "Compute this many items again; exit 4 where a hash differs")
       ->check(CLI::Range(std::uint64_t{1}, app::kMaxBatchItems));
   words->add_option("--seed", a.seed, "Which items --verify takes");
-  words->add_flag("--retry", a.retry,
-                  "Compute items again that have failed, or whose files are not as they were written");
+  words->add_flag(
+      "--retry", a.retry,
+      "Compute items again that have failed, whose files are not as they were written, or whose line is no result");
   add_json(*words, a.as_json);
   add_threads(*words, a.threads);
   return {words, [arguments](const Terminal& terminal) { return run_batch(*arguments, terminal); }};

@@ -13,6 +13,7 @@
 #include "app/text/json_write.h"
 #include "app/text/line_reader.h"
 #include "app/text/text_file.h"
+#include "incise/core/hash.h"
 #include "incise/io/mesh_export.h"
 #include "incise/mesh/bounds.h"
 
@@ -72,6 +73,18 @@ EngineOptions engine_of(const BatchOptions& options, EngineOptions engine) {
   return engine;
 }
 
+/// What of a mesh's file a result may depend on.
+std::uint64_t input_key_of(const io::LoadedMesh& loaded) {
+  StateHash hash;
+  hash.add(loaded.mesh.hash());
+  for (const auto& [region, name] : loaded.region_names) {
+    hash.add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(region)));
+    hash.add(hash_of_text(name));
+  }
+  for (const std::uint32_t vertex : loaded.file_vertex) hash.add(std::uint64_t{vertex});
+  return hash.value();
+}
+
 /// The blade file that makes the same cut again.
 std::string blade_text(const std::vector<Stroke>& strokes) {
   Json list = Json::array();
@@ -93,6 +106,7 @@ class ItemRunner {
     line_ = {{"item", index}, {"name", item_.name}};
     if (!item_.label.empty()) line_["label"] = item_.label;
     line_["key"] = hash_text(item_.key);
+    line_["program"] = kBatchProgram;
   }
 
   Result<BatchItemResult> run() {
@@ -104,14 +118,14 @@ class ItemRunner {
       line_["error"] = {{"code", name_of(code)}, {"message", status.error().message}};
       result_.has_failed = true;
     }
-    if (!result_.was_stopped) result_.line = line_of(line_);
+    if (!result_.was_stopped && !result_.was_refused) result_.line = line_of(line_);
     return std::move(result_);
   }
 
  private:
   [[nodiscard]] Json without_figures() const {
     Json line;
-    for (const char* key : {"item", "name", "label", "key"}) {
+    for (const char* key : {"item", "name", "label", "key", "program"}) {
       if (line_.contains(key)) line[key] = line_[key];
     }
     return line;
@@ -132,7 +146,7 @@ class ItemRunner {
     if (job.method) job.engine.maintain.merge = job.engine.maintain.improve = false;
     job.engine.threads = job_.threads;
     job.engine.log = job_.log;
-    if (Status status = add_input(*loaded); !status.ok()) return status;
+    if (Status status = add_input(*loaded); !status.ok() || result_.was_refused) return status;
     const bool wants_mesh = writes() && !plan_.output.format.empty();
     const Result<JobResult> result = run_cut(std::move(loaded).value(), job, wants_mesh);
     if (!result.ok()) return result.error();
@@ -143,10 +157,10 @@ class ItemRunner {
 
   Status simulate() {
     Scene scene = scene_of_item();
-    Result<io::LoadedMesh> loaded = load_model(scene);
+    Result<io::LoadedMesh> loaded = take_model(scene);
     if (!loaded.ok()) return loaded.error();
     if (Status status = place_random(rest_bounds(loaded->mesh), scene); !status.ok()) return status;
-    if (Status status = add_input(*loaded); !status.ok()) return status;
+    if (Status status = add_input(*loaded); !status.ok() || result_.was_refused) return status;
     SimulateJob job;
     job.run.threads = job_.threads;
     job.run.log = job_.log;
@@ -209,7 +223,13 @@ class ItemRunner {
   /// The mesh before its cuts: its hash in the line, and a file named by it, which all items of this mesh share.
   Status add_input(const io::LoadedMesh& loaded) {
     const std::string hash = hash_text(loaded.mesh.hash());
-    line_["input"] = {{"hash", hash}, {"vertices", loaded.mesh.vertex_count()}, {"tets", loaded.mesh.tet_count()}};
+    result_.input_key = input_key_of(loaded);
+    result_.was_refused = job_.takes_input && !job_.takes_input(result_.input_key);
+    if (result_.was_refused) return {};
+    line_["input"] = {{"hash", hash},
+                      {"key", hash_text(result_.input_key)},
+                      {"vertices", loaded.mesh.vertex_count()},
+                      {"tets", loaded.mesh.tet_count()}};
     if (!writes() || plan_.output.format.empty() || !plan_.output.before) return {};
     const std::string name = "before/" + hash + extension();
     line_["input"]["file"] = name;

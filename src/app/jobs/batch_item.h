@@ -9,10 +9,14 @@
 #include "app/jobs/batch_plan.h"
 #include "incise/core/log.h"
 #include "incise/core/result.h"
+#include "incise/version.h"
 
 namespace incise {
 inline namespace v0 {
 namespace app {
+
+/// Who computes, as lines name it: results of two versions may differ.
+inline constexpr const char* kBatchProgram = "incise " INCISE_VERSION;
 
 /// How an item is computed, whatever it is.
 struct BatchItemJob {
@@ -21,13 +25,20 @@ struct BatchItemJob {
   unsigned threads = 1;           ///< the result does not depend on them
   LogSink log = {};
   std::function<bool()> should_stop = {};  ///< asked before each frame of a scene; may be empty
+  /// Asked once the mesh is read, before anything is computed or written: whether a mesh of this key is the one that
+  /// is meant. May be empty.
+  std::function<bool(std::uint64_t input_key)> takes_input = {};
 };
 
 /// What an item came to.
 struct BatchItemResult {
-  std::string line;              ///< of JSON, with its newline; see docs/batches.md. It depends on the item alone
-  bool has_failed = false;       ///< the line says why
-  bool was_stopped = false;      ///< by `should_stop`; there is no line
+  std::string line;          ///< of JSON, with its newline; see docs/batches.md. It depends on the item alone
+  bool has_failed = false;   ///< the line says why
+  bool was_stopped = false;  ///< by `should_stop`; there is no line
+  bool was_refused = false;  ///< by `takes_input`; there is no line
+  /// Of the mesh before its cuts: of all that its file says, names of regions and numbers of vertices among it; 0 where
+  /// it could not be read.
+  std::uint64_t input_key = 0;
   std::uint64_t hash = 0;        ///< of the mesh at the end
   std::uint64_t state_hash = 0;  ///< of the body, of a scene; else 0
 };

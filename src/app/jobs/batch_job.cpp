@@ -9,6 +9,8 @@
 #include "app/jobs/batch_files.h"
 #include "app/jobs/batch_item.h"
 #include "app/jobs/batch_lines.h"
+#include "app/jobs/batch_origins.h"
+#include "app/text/counted.h"
 #include "app/text/json_write.h"
 #include "app/text/text_file.h"
 #include "app/text/write_all.h"
@@ -29,7 +31,7 @@ constexpr const char* kResults = "results.jsonl";
 
 class Worker {
  public:
-  Worker(const BatchPlan& plan, const BatchJob& job) : plan_(plan), job_(job) {
+  Worker(const BatchPlan& plan, const BatchJob& job) : plan_(plan), job_(job), origins_(plan) {
     report_.plan = plan.name;
     report_.shard = job.shard;
   }
@@ -42,6 +44,9 @@ class Worker {
     }
     Result<ShardFile> file = ShardFile::open(job_.folder, job_.shard);
     if (!file.ok()) return file.error();
+    if (job_.retry) {
+      if (const Status status = take_off_bad_lines(*file); !status.ok()) return status.error();
+    }
     const Result<std::vector<std::size_t>> left = items_left();
     if (!left.ok()) return left.error();
     for (const std::size_t index : *left) {
@@ -58,10 +63,25 @@ class Worker {
   }
 
  private:
+  Status take_off_bad_lines(ShardFile& file) {
+    const Result<std::uint64_t> bad = file.take_off_bad_lines(plan_);
+    if (!bad.ok()) return bad.error();
+    if (*bad > 0 && job_.log) {
+      job_.log(LogLevel::kWarning, name_of(job_.shard) + ".jsonl: took off " + counted(*bad, "line") +
+                                       " that were no results; their items are computed again");
+    }
+    return {};
+  }
   /// Of the shard, without those that any worker has done.
   Result<std::vector<std::size_t>> items_left() {
-    const Result<BatchLines> lines = read_batch_lines(plan_, job_.folder);
+    // Bad lines of other shards are for a retry of those to mend.
+    const Result<BatchLines> lines =
+        read_batch_lines(plan_, job_.folder, job_.retry ? BadLines::kAreLeftOut : BadLines::kAreErrors);
     if (!lines.ok()) return lines.error();
+    if (const Status status = origins_.add_program(kBatchProgram, "this program"); !status.ok()) return status.error();
+    for (const BatchLine& line : lines->lines) {
+      if (const Status status = origins_.add(line); !status.ok()) return status.error();
+    }
     std::vector<bool> is_done(plan_.items.size()), is_broken(plan_.items.size());
     BatchFiles files(job_.folder, job_.retry ? BatchFiles::Care::kContent : BatchFiles::Care::kSizes);
     for (const BatchLine& line : lines->lines) {
@@ -87,9 +107,15 @@ class Worker {
     return !broken.empty();
   }
   Status run_one(std::size_t index, ShardFile& file) {
-    const BatchItemJob item_job{job_.folder, name_of(job_.shard), job_.threads, job_.log, job_.should_stop};
+    BatchItemJob item_job{job_.folder, name_of(job_.shard), job_.threads, job_.log, job_.should_stop, {}};
+    Status origin;
+    item_job.takes_input = [&](std::uint64_t key) {
+      origin = origins_.add_input(index, key, "this worker");
+      return origin.ok();
+    };
     const Result<BatchItemResult> result = run_item(plan_, index, item_job);
     if (!result.ok()) return result.error();
+    if (result->was_refused) return origin;
     report_.was_stopped = result->was_stopped;
     if (report_.was_stopped) return {};
     if (Status status = file.append(result->line); !status.ok()) return status;
@@ -104,6 +130,7 @@ class Worker {
   const BatchPlan& plan_;
   const BatchJob& job_;
   BatchReport report_;
+  BatchOrigins origins_;
 };
 
 // --- the merge
@@ -125,7 +152,11 @@ class Merger {
           ErrorCode::kBadFile, folder_.string() + ": has no results; run incise batch with -o there first", {}};
     }
     chosen_.assign(plan_.items.size(), nullptr);
-    for (const BatchLine& line : lines->lines) choose(line);
+    BatchOrigins origins(plan_);
+    for (const BatchLine& line : lines->lines) {
+      if (const Status status = origins.add(line); !status.ok()) return status.error();
+      choose(line);
+    }
     for (std::size_t i = 0; i < chosen_.size(); ++i) look_at(i);
     if (!report_.is_whole()) return std::move(report_);
     return write();
@@ -193,6 +224,9 @@ std::vector<const BatchLine*> sample(const std::vector<BatchLine>& lines, std::u
 
 /// How an item differs from its line; empty where it does not.
 std::string difference(const BatchItemResult& now, const BatchLine& line) {
+  if (now.was_refused) {
+    return "another mesh: key " + hash_text(now.input_key) + " now, " + hash_text(line.input_key) + " in the results";
+  }
   if (now.has_failed) return "it fails now: " + now.line;
   if (now.hash != line.hash) return "hash " + hash_text(now.hash) + " now, " + hash_text(line.hash) + " in the results";
   if (now.state_hash == line.state_hash) return {};
@@ -238,12 +272,13 @@ Result<VerifyReport> verify_batch(const BatchPlan& plan, const VerifyJob& job) {
   }
   VerifyReport report;
   report.plan = plan.name;
-  const BatchItemJob item_job{{}, {}, job.threads, job.log, job.should_stop};
+  BatchItemJob item_job{{}, {}, job.threads, job.log, job.should_stop, {}};
   for (const BatchLine* line : chosen) {
     if (job.progress) job.progress(static_cast<std::size_t>(report.items), chosen.size());
     if (job.should_stop && job.should_stop()) report.was_stopped = true;
     if (report.was_stopped) return report;
     const auto index = static_cast<std::size_t>(line->item);
+    item_job.takes_input = [&](std::uint64_t key) { return key == line->input_key; };
     const Result<BatchItemResult> now = run_item(plan, index, item_job);
     if (!now.ok()) return now.error();
     report.was_stopped = now->was_stopped;

@@ -21,7 +21,9 @@ namespace app {
 struct BatchJob {
   std::filesystem::path folder;  ///< made where it is not there, but for the folder that it is in
   Shard shard;
-  bool retry = false;    ///< items that have failed are tried again, and files are read, not only looked at
+  /// Items that have failed are tried again, files are read, not only looked at, and lines that are no results taken
+  /// off.
+  bool retry = false;
   unsigned threads = 1;  ///< the result does not depend on them
   LogSink log = {};
   /// Called before each item and after the last: items done, items of the shard. May be empty.
@@ -46,7 +48,8 @@ struct BatchReport {
 /// After each item its files are whole, and its line is at the end of the shard's file: a worker that is killed loses
 /// the item that it was at and nothing else, and the next run goes on there, whatever the number of shards is then.
 /// Items whose files are gone or cut off are computed again. Errors: kIo, kOutOfMemory; kBadArgument where another
-/// worker is at the same shard; kBadFile where the folder has results of another plan. Cost: that of the items.
+/// worker is at the same shard; kBadFile where the folder has results of another plan, another version of the program
+/// or other meshes, or a line that is none. Cost: that of the items.
 [[nodiscard]] Result<BatchReport> run_batch(const BatchPlan& plan, const BatchJob& job);
 
 /// What a merge found.
@@ -69,7 +72,8 @@ struct MergeReport {
 /// It is written only where each item has one result and all files are there as they were written: meshes after cuts
 /// byte for byte, meshes before them and strokes as far as they can be read. Its bytes do not depend on the shards, nor
 /// on how often workers were killed; files that these left half-written are taken away. Errors: kBadFile for lines of
-/// another plan or none at all, kIo. Cost: O(bytes of all files).
+/// another plan or none at all, for a line that is no result, naming file, line and remedy, and for results of two
+/// versions of the program or two meshes under one name, naming both; kIo. Cost: O(bytes of all files).
 [[nodiscard]] Result<MergeReport> merge_batch(const BatchPlan& plan, const std::filesystem::path& folder);
 
 /// What is computed again.

@@ -4,11 +4,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
+#include <regex>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -17,6 +20,7 @@
 #include "app/text/json_write.h"
 #include "app/text/line_source.h"
 #include "app/text/range_reader.h"
+#include "app/text/text_file.h"
 #include "app/text/write_all.h"
 
 namespace incise {
@@ -39,6 +43,7 @@ class BatchLineReader {
     return read_item(root, line) && read_figures(root, line);
   }
   [[nodiscard]] const Error& error() const { return read_.error(); }
+  [[nodiscard]] bool is_of_another_plan() const { return is_of_another_plan_; }
 
  private:
   bool read_item(const JsonValue& root, BatchLine& line) {
@@ -46,9 +51,19 @@ class BatchLineReader {
     const JsonValue* key = item ? read_.member(root, "", "key") : nullptr;
     std::uint64_t found = 0;
     if (key == nullptr || !read_.whole(*item, "item", line.item) || !read_hash(*key, "key", found)) return false;
-    if (line.item < plan_.items.size() && plan_.items[static_cast<std::size_t>(line.item)].key == found) return true;
+    const bool is_there = line.item < plan_.items.size();
+    const std::uint64_t wanted = is_there ? plan_.items[static_cast<std::size_t>(line.item)].key : 0;
+    if (is_there && wanted == found) return read_program(root, line);
+    is_of_another_plan_ = true;
+    const std::string here =
+        is_there ? "key " + hash_text(wanted) : "no such item among its " + std::to_string(plan_.items.size());
     return read_.fail(root, "item " + std::to_string(line.item),
-                      "is of another plan, or of this plan before it was changed; use another folder");
+                      "is of another plan, or of this plan before it was changed: it has the key " + hash_text(found) +
+                          ", this plan has " + here + "; use another folder, or that plan");
+  }
+  bool read_program(const JsonValue& root, BatchLine& line) {
+    const JsonValue* program = read_.member(root, "", "program");
+    return program != nullptr && read_.text(*program, "program", line.program);
   }
   bool read_figures(const JsonValue& root, BatchLine& line) {
     line.has_failed = root.find("error") != nullptr;
@@ -64,7 +79,9 @@ class BatchLineReader {
     if (input == nullptr || !read_file_name(*input, "input", "file", "before/", line.input_file)) return false;
     const JsonValue* vertices = read_.member(*input, "input", "vertices");
     const JsonValue* tets = vertices ? read_.member(*input, "input", "tets") : nullptr;
-    return tets != nullptr && read_.whole(*vertices, "input.vertices", line.input_vertices) &&
+    const JsonValue* key = tets ? read_.member(*input, "input", "key") : nullptr;
+    return key != nullptr && read_hash(*key, "input.key", line.input_key) &&
+           read_.whole(*vertices, "input.vertices", line.input_vertices) &&
            read_.whole(*tets, "input.tets", line.input_tets);
   }
   bool read_file(const JsonValue& root, BatchLine& line) {
@@ -101,26 +118,71 @@ class BatchLineReader {
 
   const BatchPlan& plan_;
   RangeReader read_;
+  bool is_of_another_plan_ = false;
 };
 
-Status read_shard_file(const BatchPlan& plan, const fs::path& path, BatchLines& out) {
+/// What to do about a line that is no result.
+std::string remedy(const fs::path& shard_file) {
+  const std::regex shard(R"(shard-(\d{5})-of-(\d{5})\.jsonl)");
+  const std::string name = shard_file.filename().string();
+  std::smatch found;
+  if (!std::regex_match(name, found, shard)) return "; take the line out of the file";
+  return fmt::format(
+      "; run incise batch with --shard {}/{} --retry, which takes the line off and computes its item again",
+      std::stoul(found[1]), std::stoul(found[2]));
+}
+
+/// A line, or why it is none.
+struct ReadLine {
+  BatchLine line;
+  std::optional<Error> error;
+  bool is_of_another_plan = false;  ///< that is why
+};
+
+ReadLine read_line(const BatchPlan& plan, const std::string& text, const LineSource& source) {
+  ReadLine read;
+  const Result<JsonValue> root = parse_json(text, source.file_name(), {}, source.number());
+  BatchLineReader reader(plan, source.file_name());
+  if (!root.ok()) {
+    read.error = root.error();
+  } else if (!reader.run(*root, read.line)) {
+    read.error = reader.error();
+    read.is_of_another_plan = reader.is_of_another_plan();
+  }
+  if (read.error && !read.is_of_another_plan) read.error->message += remedy(source.file_name());
+  read.line.where = source.file_name() + ":" + std::to_string(source.number());
+  read.line.text = text + "\n";
+  return read;
+}
+
+/// Hands each line of a shard's file to `take(ReadLine)`, until it fails. Whether the last line was cut off.
+Result<bool> for_each_line(const BatchPlan& plan, const fs::path& path, const auto& take) {
   Result<LineSource> source = LineSource::open(path);
   if (!source.ok()) return source.error();
   std::string text;
   while (true) {
     const Result<bool> got = source->next(text);
     if (!got.ok()) return got.error();
-    if (!*got) break;
-    const Result<JsonValue> root = parse_json(text, source->file_name(), {}, source->number());
-    if (!root.ok()) return root.error();
-    BatchLineReader reader(plan, source->file_name());
-    BatchLine line;
-    if (!reader.run(*root, line)) return reader.error();
-    line.text = text + "\n";
-    out.lines.push_back(std::move(line));
+    if (!*got) return source->is_cut_off();
+    if (const Status status = take(read_line(plan, text, *source)); !status.ok()) return status.error();
   }
-  if (source->is_cut_off()) ++out.cut_off;
+}
+
+Status read_shard_file(const BatchPlan& plan, const fs::path& path, BadLines bad, BatchLines& out) {
+  const Result<bool> is_cut_off = for_each_line(plan, path, [&](ReadLine read) -> Status {
+    const bool is_left_out = read.error && !read.is_of_another_plan && bad == BadLines::kAreLeftOut;
+    if (read.error && !is_left_out) return *read.error;
+    if (!is_left_out) out.lines.push_back(std::move(read.line));
+    return {};
+  });
+  if (!is_cut_off.ok()) return is_cut_off.error();
+  if (*is_cut_off) ++out.cut_off;
   return {};
+}
+
+/// Of what is called like a shard's file and is none: a pipe would let a worker wait for ever.
+Error no_file(const fs::path& path, ErrorCode code) {
+  return {code, path.string() + ": is no regular file; take it away", {}};
 }
 
 bool is_shard_file(const fs::path& path) {
@@ -141,7 +203,7 @@ bool is_free(const fs::path& folder, const std::string& name) {
   return is_free;
 }
 
-Result<BatchLines> read_batch_lines(const BatchPlan& plan, const fs::path& folder) {
+Result<BatchLines> read_batch_lines(const BatchPlan& plan, const fs::path& folder, BadLines bad) {
   std::vector<fs::path> files;
   std::error_code code;
   for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
@@ -151,16 +213,22 @@ Result<BatchLines> read_batch_lines(const BatchPlan& plan, const fs::path& folde
   BatchLines lines;
   lines.shards = files.size();
   for (const fs::path& file : files) {
-    if (const Status status = read_shard_file(plan, file, lines); !status.ok()) return status.error();
+    if (!fs::is_regular_file(file, code)) return no_file(file, ErrorCode::kBadFile);
+    if (const Status status = read_shard_file(plan, file, bad, lines); !status.ok()) return status.error();
   }
   return lines;
 }
 
 Result<ShardFile> ShardFile::open(const fs::path& folder, const Shard& shard) {
-  const fs::path path = folder / (name_of(shard) + ".jsonl");
+  return open(folder / (name_of(shard) + ".jsonl"));
+}
+
+Result<ShardFile> ShardFile::open(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kMode);
   if (file < 0) return write_error(path);
   ShardFile opened(path, file);
+  struct stat about = {};
+  if (::fstat(file, &about) != 0 || !S_ISREG(about.st_mode)) return no_file(path, ErrorCode::kIo);
   if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {  // file systems without locks do without
     return Error{ErrorCode::kBadArgument,
                  path.string() + ": another worker is at this shard; wait for it, or give this one another",
@@ -197,6 +265,26 @@ Status ShardFile::take_off_unfinished() {
 
 Status ShardFile::append(std::string_view line) {
   return write_all(file_, line, path_);
+}
+
+/// The file that takes this one's place is opened while this one is still locked: no other worker comes in between
+/// but one that begins just then, and gets the place.
+Result<std::uint64_t> ShardFile::take_off_bad_lines(const BatchPlan& plan) {
+  std::uint64_t bad = 0;
+  std::string kept;
+  const Result<bool> read = for_each_line(plan, path_, [&](const ReadLine& line) -> Status {
+    const bool is_kept = !line.error || line.is_of_another_plan;
+    if (is_kept) kept += line.line.text;
+    if (!is_kept) ++bad;
+    return {};
+  });
+  if (!read.ok()) return read.error();
+  if (bad == 0) return bad;
+  if (const Status status = write_text_file(path_, kept); !status.ok()) return status.error();
+  Result<ShardFile> renewed = open(path_);
+  if (!renewed.ok()) return renewed.error();
+  std::swap(file_, renewed->file_);
+  return bad;
 }
 
 }  // namespace app

@@ -20,6 +20,8 @@ namespace app {
 /// A line of an item, as far as the program reads it again.
 struct BatchLine {
   std::uint64_t item = 0;
+  std::string where;    ///< "FILE:LINE", for messages
+  std::string program;  ///< that computed it: "incise VERSION"
   bool has_failed = false;
   std::string text;  ///< the whole line, with its newline
   std::string file;  ///< with the mesh after the cut, seen from the folder; may be empty
@@ -27,6 +29,7 @@ struct BatchLine {
   std::string strokes_file;  ///< likewise
   std::string input_file;    ///< with the mesh before it; likewise
   std::uint64_t input_vertices = 0, input_tets = 0;
+  std::uint64_t input_key = 0;  ///< of `BatchItemResult`: of the mesh before it; lines that have failed have none
   std::uint64_t hash = 0, state_hash = 0;
 };
 
@@ -37,6 +40,9 @@ struct BatchLines {
   std::uint64_t cut_off = 0;     ///< lines without an end: their workers were killed, or are writing them
 };
 
+/// What becomes of lines that are no results: a disk that was full, or a text editor, may have made some.
+enum class BadLines : std::uint8_t { kAreErrors, kAreLeftOut };
+
 /// "shard-00001-of-00004", of which the file is `.jsonl`.
 [[nodiscard]] std::string name_of(const Shard& shard);
 
@@ -45,8 +51,10 @@ struct BatchLines {
 [[nodiscard]] bool is_free(const std::filesystem::path& folder, const std::string& name);
 
 /// Reads the lines of all shards in a folder; none where the folder is not there.
-/// Errors: kBadFile "FILE:LINE: what" for a line that is no result, or one of another plan. Cost: O(lines).
-[[nodiscard]] Result<BatchLines> read_batch_lines(const BatchPlan& plan, const std::filesystem::path& folder);
+/// Errors: kBadFile "FILE:LINE: what; remedy" for a line that is no result (unless such are left out), or a result of
+/// another plan. Cost: O(lines).
+[[nodiscard]] Result<BatchLines> read_batch_lines(const BatchPlan& plan, const std::filesystem::path& folder,
+                                                  BadLines bad = BadLines::kAreErrors);
 
 /// The file of a shard, to which one worker at a time appends.
 ///
@@ -66,8 +74,13 @@ class ShardFile {
   /// Appends a line, in one write. Errors: kIo, naming the file.
   Status append(std::string_view line);
 
+  /// Takes off the lines that are no results; those of another plan stay. How many they were.
+  /// Errors: kIo, kBadFile where the file cannot be read, and as `open`. Cost: O(lines).
+  Result<std::uint64_t> take_off_bad_lines(const BatchPlan& plan);
+
  private:
   ShardFile(std::filesystem::path path, int file) : path_(std::move(path)), file_(file) {}
+  static Result<ShardFile> open(const std::filesystem::path& path);
   Status take_off_unfinished();
 
   std::filesystem::path path_;

@@ -2,6 +2,7 @@
 #include "app/jobs/batch_plan.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -103,6 +104,21 @@ std::uint64_t key_of(const BatchItem& item, std::uint64_t shared) {
   return hash.value();
 }
 
+/// Of where a mesh comes from: files by where they are, so that two ways of writing a path are one.
+std::uint64_t source_hash(const BatchItem& item, const fs::path& folder) {
+  Json model = item.scene ? scene_tree(*item.scene)["model"] : Json();
+  const std::string& file = item.mesh.empty() && item.scene ? item.scene->model.file : item.mesh;
+  const fs::path& from = item.mesh.empty() && item.scene ? item.scene->folder : folder;
+  std::error_code code;
+  const fs::path place = file.empty() ? fs::path() : fs::weakly_canonical(find_in_plan(from, file), code);
+  if (model.is_object()) model.erase("file");
+  if (model.empty()) model = Json();  // the mesh of a file, as it is cut at rest
+  StateHash hash;
+  hash.add(hash_of_text(code ? file : place.string()));
+  hash.add(hash_of_text(model.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  return hash.value();
+}
+
 // --- the reader
 
 /// What items and defaults have in common.
@@ -186,8 +202,8 @@ class PlanReader {
       out = scenes_.at(value.text);
       return true;
     }
-    Result<Scene> scene =
-        is_file ? read_scene(find_in_plan(plan_.folder, value.text)) : read_scene_tree(value, file_name_, plan_.folder);
+    Result<Scene> scene = is_file ? read_scene(find_in_plan(plan_.folder, value.text))
+                                  : read_scene_tree(value, file_name_, plan_.folder, path);
     if (!scene.ok()) return is_file ? fail_by_file(value, path, scene.error()) : fail_by(scene.error());
     out = std::make_shared<const Scene>(std::move(scene).value());
     if (is_file) scenes_[value.text] = out;
@@ -325,11 +341,17 @@ class PlanReader {
     return is_random || !item.scene->strokes.empty() ||
            read_.fail(value, path, "has a scene without strokes; put some into it, or give \"random\"");
   }
-  /// Whether the item's mesh file is there. Each is looked at once.
+  /// Whether the item's mesh files are there. Each is looked at once.
   bool can_be_opened(const JsonValue& value, const std::string& path, const BatchItem& item) {
-    const bool is_model = item.mesh.empty();
-    const std::string& file = is_model ? item.scene->model.file : item.mesh;
-    const fs::path& folder = is_model ? item.scene->folder : plan_.folder;
+    if (!item.mesh.empty() && !can_be_opened(value, path, plan_.folder, item.mesh)) return false;
+    if (!item.scene) return true;
+    const Scene& scene = *item.scene;
+    const auto is_there = [&](const std::string& file) { return can_be_opened(value, path, scene.folder, file); };
+    const auto has_file = [&](const SceneBody& body) { return is_there(body.file); };
+    return (!item.mesh.empty() || is_there(scene.model.file)) &&
+           std::all_of(scene.model.bodies.begin(), scene.model.bodies.end(), has_file);
+  }
+  bool can_be_opened(const JsonValue& value, const std::string& path, const fs::path& folder, const std::string& file) {
     if (file.empty() || !opened_.insert(folder.string() + "\n" + file).second) return true;
     const Status status = check_readable(find_in_plan(folder, file));
     return status.ok() || read_.fail(value, path, "needs the mesh " + status.error().message);
@@ -341,30 +363,46 @@ class PlanReader {
     if (plan_.items.size() + count > kMaxBatchItems) {
       return read_.fail(value, path, "brings the plan above " + std::to_string(kMaxBatchItems) + " items");
     }
+    if (!has_seeds(value, path, seed_of(item), count)) return false;
     std::string name;
     if (!read_.optional_text(value, path, "name", name)) return false;
     const bool is_repeated = value.find("repeat") != nullptr;
     const std::size_t digits = std::max<std::size_t>(4, std::to_string(count - 1).size());
-    const std::uint64_t shared = shared_hash(item, plan_.output);
+    const std::uint64_t shared = shared_hash(item, plan_.output), source = source_hash(item, plan_.folder);
     for (std::uint64_t i = 0; i < count; ++i) {
       BatchItem& one = plan_.items.emplace_back(item);
       one.name = name.empty() ? "item-" + padded(plan_.items.size() - 1, 6)
                               : name + (is_repeated ? "-" + padded(i, digits) : "");
       if (auto* random = std::get_if<RandomStrokes>(&one.blade)) random->seed += i;
       one.key = key_of(one, shared);
+      one.source = source;
       if (!is_fit_name(value, path, one.name)) return false;
     }
     return true;
   }
+  /// Whether each of the repeated items has a seed of its own: none is above the highest.
+  bool has_seeds(const JsonValue& value, const std::string& path, std::uint64_t seed, std::uint64_t count) {
+    if (count - 1 <= kAnySeed - seed) return true;
+    return read_.fail(*value.find("random")->find("seed"), path + ".random.seed",
+                      "is " + std::to_string(seed) + ", and the last of " + std::to_string(count) +
+                          " items would need one above 2^64 - 1; begin with a lower one");
+  }
   bool is_fit_name(const JsonValue& value, const std::string& path, const std::string& name) {
-    if (name.front() == '.' || name.size() > kMaxNameLength || name.find_first_not_of(kNameCharacters) != name.npos) {
+    if (name.front() == '.' || name.back() == '.' || name.size() > kMaxNameLength ||
+        name.find_first_not_of(kNameCharacters) != name.npos) {
       return read_.fail(value, path + ".name",
                         "is \"" + name +
                             "\"; files are named by it: use letters, digits, _ - and . within it, at most " +
                             std::to_string(kMaxNameLength));
     }
-    return names_.insert(name).second ||
-           read_.fail(value, path + ".name", "is \"" + name + "\", as that of an item before it; change one of them");
+    std::string folded = name;  // some file systems do not tell A from a
+    for (char& letter : folded) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    const auto& [other, is_new] = names_.try_emplace(std::move(folded), name);
+    return is_new ||
+           read_.fail(value, path + ".name",
+                      "is \"" + name + "\", as that of an item before it" +
+                          (other->second == name ? "" : " but for the case of letters: \"" + other->second + "\"") +
+                          "; change one of them");
   }
 
   RangeReader read_;
@@ -372,8 +410,9 @@ class PlanReader {
   BatchPlan plan_;
   Common defaults_;
   std::map<std::string, std::shared_ptr<const Scene>> scenes_;
-  std::set<std::string> opened_, names_;
-  std::optional<Error> other_error_;  // of another file
+  std::set<std::string> opened_;
+  std::map<std::string, std::string> names_;  // in lower case: as the items have them
+  std::optional<Error> other_error_;          // of another file
 };
 
 }  // namespace

@@ -38,7 +38,8 @@ using BatchBlade = std::variant<std::monostate, HalfSpace, std::vector<BladeStro
 
 /// One cut: of a mesh at rest, or of a body that a scene simulates.
 struct BatchItem {
-  std::string name;   ///< letters, digits and . _ - alone, different for each item: files are named by it
+  /// Letters, digits and . _ - alone, different for each item, whatever the case: files are named by it.
+  std::string name;
   std::string label;  ///< repeated in the results; may be empty
   std::string mesh;   ///< a mesh file, seen from the plan's folder, or as it stands; empty: the scene's own model
   BatchBlade blade;
@@ -46,6 +47,8 @@ struct BatchItem {
   std::shared_ptr<const Scene> scene;  ///< empty: cut at rest
   /// A hash of all that the plan says about this item: results of two plans cannot be taken for each other.
   std::uint64_t key = 0;
+  /// A hash of where its mesh comes from: items with equal ones begin with the same mesh.
+  std::uint64_t source = 0;
 };
 
 /// What is written of each item beside its line.

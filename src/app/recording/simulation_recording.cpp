@@ -80,7 +80,7 @@ class HeaderReader : public LineReader {
     if (scene == nullptr || !read_.is_object(*mesh, "mesh", {"hash"}) || !read_hash(*mesh, "mesh", header.mesh_hash)) {
       return error();
     }
-    Result<Scene> found = read_scene_tree(*scene, file_name_, folder);
+    Result<Scene> found = read_scene_tree(*scene, file_name_, folder, "scene");
     if (!found.ok()) return found.error();
     header.scene = std::move(found).value();
     return header;

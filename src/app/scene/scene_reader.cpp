@@ -41,7 +41,9 @@ constexpr double kDepthTolerance = 0.25;        // of the depth
 /// A scene as far as it is read, and what all of its readers need.
 class SceneParts {
  public:
-  SceneParts(std::string_view file_name, const fs::path& folder) : read_(file_name) { scene_.folder = folder; }
+  SceneParts(std::string_view file_name, const fs::path& folder, const std::string& place) : read_(file_name, place) {
+    scene_.folder = folder;
+  }
 
  protected:
   /// Reads each item of a list that may be left out, by a member of `reader`; `path` ends with the list's key.
@@ -77,7 +79,6 @@ class SceneParts {
 
   RangeReader read_;
   Scene scene_;
-  std::optional<Error> blade_error_;
 };
 
 /// The body: model, materials, what holds it.
@@ -559,8 +560,7 @@ class SceneHandsReader : public SceneOptionsReader {
     const fs::path beside = scene_.folder / blade->text;
     Result<std::vector<BladeStroke>> found = read_blade_file(fs::exists(beside, code) ? beside : fs::path(blade->text));
     if (!found.ok()) {
-      blade_error_ = found.error();
-      return false;
+      return read_.fail(*blade, path + ".blade", "names a file that cannot be taken: " + found.error().message);
     }
     strokes = std::move(found).value();
     return true;
@@ -718,7 +718,7 @@ class SceneReader : public SceneViewReader {
         read_exercise(root.find("exercise")) && read_frames(root) && read_view(root.find("view"))) {
       return std::move(scene_);
     }
-    return blade_error_ ? *blade_error_ : read_.error();
+    return read_.error();
   }
 
  private:
@@ -758,8 +758,9 @@ class SceneReader : public SceneViewReader {
 
 }  // namespace
 
-Result<Scene> read_scene_tree(const JsonValue& root, std::string_view file_name, const fs::path& folder) {
-  return SceneReader(file_name, folder).run(root);
+Result<Scene> read_scene_tree(const JsonValue& root, std::string_view file_name, const fs::path& folder,
+                              const std::string& place) {
+  return SceneReader(file_name, folder, place).run(root);
 }
 
 Result<Scene> parse_scene(std::string_view json, std::string_view file_name, const fs::path& folder) {

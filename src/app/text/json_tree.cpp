@@ -165,7 +165,10 @@ Result<JsonValue> parse_json(std::string_view text, std::string_view file_name, 
 }
 
 bool JsonReader::fail(const JsonValue& value, const std::string& path, const std::string& what) {
-  if (!failed_) error_ = bad_file(file_name_, value.line, (path.empty() ? "the document" : path) + " " + what);
+  if (failed_) return false;
+  std::string where = place_ + (place_.empty() || path.empty() || path[0] == '[' ? "" : ".") + path;
+  if (where.empty()) where = "the document";
+  error_ = bad_file(file_name_, value.line, where + " " + what);
   failed_ = true;
   return false;
 }

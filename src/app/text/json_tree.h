@@ -46,7 +46,9 @@ Result<JsonValue> parse_json(std::string_view text, std::string_view file_name, 
 /// Walks a tree and remembers the first error, named by file, line and JSON path.
 class JsonReader {
  public:
-  explicit JsonReader(std::string_view file_name) : file_name_(file_name) {}
+  /// `place`: where in its document the tree stands, in front of all paths; empty: it is the document.
+  explicit JsonReader(std::string_view file_name, std::string place = {})
+      : file_name_(file_name), place_(std::move(place)) {}
 
   [[nodiscard]] bool ok() const { return !failed_; }
   [[nodiscard]] const Error& error() const { return error_; }
@@ -67,7 +69,7 @@ class JsonReader {
   bool fail(const JsonValue& value, const std::string& path, const std::string& what);
 
  private:
-  std::string file_name_;
+  std::string file_name_, place_;
   Error error_;
   bool failed_ = false;
 };

@@ -57,7 +57,7 @@ class Plan : public testing::Test {
         {{"name", "b"},
          {"repeat", 3},
          {"random",
-          {{"seed", 18446744073709551614U},
+          {{"seed", 18446744073709551613U},
            {"strokes", 2},
            {"kinds", {"arc", "core"}},
            {"start", 0},
@@ -95,7 +95,7 @@ TEST_F(Plan, is_read) {
   EXPECT_EQ(plan->items[3].options.merge, false);
   EXPECT_EQ(plan->items[3].options.work_units, 100U);
   const auto& random = std::get<app::RandomStrokes>(plan->items[3].blade);
-  EXPECT_EQ(random.seed, 0U);  // beyond the last there is the first
+  EXPECT_EQ(random.seed, 18446744073709551615U);
   EXPECT_EQ(random.kinds, (std::vector<app::RandomKind>{app::RandomKind::kArc, app::RandomKind::kCore}));
   EXPECT_EQ(random.seconds, 2);
   EXPECT_EQ(plan->items[4].name, "item-000004");
@@ -137,7 +137,7 @@ TEST_F(Plan, tells_what_is_wrong_and_where) {
   has(with("mesh", std::string("cube.mesh\0.vtu", 14)), "items[0].mesh must not have a null character");
   has(with("mesh", ""), "items[0] needs the key \"mesh\" or \"scene\"");
   has(with("name", "a/b"), "items[0].name is \"a/b\"; files are named by it");
-  has(with("name", ".."), "files are named by it");
+  for (const char* name : {"..", ".", ".a", "a."}) has(with("name", name), "files are named by it");
   has(with("scene", scene()), "put the strokes into the scene");
   has(with("scene", 1), "items[0].scene must be a scene file's path, or a scene");
   has(with("options", {{"profile", "best"}}), "items[0].options.profile must be one of incise, paper, removal");
@@ -151,8 +151,34 @@ TEST_F(Plan, tells_what_is_wrong_and_where) {
       "items[0].random.kinds[0] must be one of plane, arc, slit, core");
   has(error_of_item({{"mesh", "cube.mesh"}, {"repeat", 1000001}, {"random", Json::object()}}),
       "items[0].repeat is 1000001; it must be from 1 to 1000000");
+  has(error_of_item({{"mesh", "cube.mesh"}, {"repeat", 2}, {"random", {{"seed", 18446744073709551615U}}}}),
+      "items[0].random.seed is 18446744073709551615, and the last of 2 items would need one above 2^64 - 1");
   has(error_of_item({{"mesh", "cube.mesh"}, {"repeat", 1000000}, {"name", "half"}, {"random", {{"strokes", 0}}}}),
       "items[0].random.strokes is 0");
+}
+
+/// A plan may have a thousand scenes: which one is wrong has to be said.
+TEST_F(Plan, tells_which_scene_is_wrong) {
+  const auto error_with = [&](const char* key, const Json& value) {
+    Json item = {{"scene", scene()}, {"random", Json::object()}};
+    item["scene"][key] = value;
+    return error_of_item(item);
+  };
+  const auto has = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  has(error_with("version", 99), ": items[0].scene.version is 99");
+  has(error_with("speed", 1), ": items[0].scene has the unknown key \"speed\"");
+  has(error_with("length_unit", -1), ": items[0].scene.length_unit is -1");
+  has(error_with("tools", {{{"ball", 1}}}), ": items[0].scene.tools[0]");
+  has(error_with("strokes", {{{"blade", "none.json"}}}),
+      ": items[0].scene.strokes[0].blade names a file that cannot be taken: none.json: no such file");
+  has(error_with("model", {{"bodies", {{{"file", "none.mesh"}}}}, {"box", {{"cells", {1, 1, 1}}}}}),
+      ": items[0] needs the mesh none.mesh: no such file");
+  Json text = least();
+  text["defaults"] = {{"scene", scene()}};
+  text["defaults"]["scene"]["frames"] = 0;
+  has(error_of(text), ": defaults.scene.frames is 0");
 }
 
 TEST_F(Plan, needs_names_that_differ_and_formats_that_there_are) {
@@ -160,6 +186,10 @@ TEST_F(Plan, needs_names_that_differ_and_formats_that_there_are) {
   text["items"][0]["name"] = "a";
   text["items"].push_back(text["items"][0]);
   EXPECT_NE(error_of(text).find("items[1].name is \"a\", as that of an item before it"), std::string::npos);
+  text["items"][1]["name"] = "A";
+  EXPECT_NE(
+      error_of(text).find("items[1].name is \"A\", as that of an item before it but for the case of letters: \"a\""),
+      std::string::npos);
   text = least();
   text["output"] = {{"mesh", "node"}};
   EXPECT_NE(error_of(text).find("output.mesh must be one of mesh, "), std::string::npos);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Batches without the command: workers, restarts, merging, computing again.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <map>
@@ -41,6 +42,13 @@ json small_plan() {
              {"mesh", ""},
              {"scene", small_scene()},
              {"random", {{"kinds", {"slit"}}, {"seconds", 0.2}}}}}}};
+}
+
+/// A tet of a region with a name.
+std::string one_tet(const std::string& region) {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"" + region +
+         "\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+         "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n";
 }
 
 class Batch : public testing::Test {
@@ -166,6 +174,21 @@ TEST_F(Batch, a_shard_has_one_worker_at_a_time) {
   EXPECT_TRUE(app::run_batch(plan_, job).ok());
 }
 
+/// A worker would wait for ever for what comes out of it.
+TEST_F(Batch, a_pipe_is_no_file_of_a_shard) {
+  fs::create_directory(folder_ / "out");
+  const std::string pipe = folder_ / "out/shard-00000-of-00001.jsonl";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0666), 0);
+  app::BatchJob job;
+  job.folder = folder_ / "out";
+  const auto as_run = app::run_batch(plan_, job);
+  const auto as_merged = app::merge_batch(plan_, job.folder);
+  ASSERT_FALSE(as_run.ok());
+  ASSERT_FALSE(as_merged.ok());
+  EXPECT_EQ(as_run.error().message, pipe + ": is no regular file; take it away");
+  EXPECT_EQ(as_merged.error().message, as_run.error().message);
+}
+
 TEST_F(Batch, a_folder_that_cannot_be_made_is_named) {
   app::BatchJob job;
   job.folder = folder_ / "no/no";
@@ -187,6 +210,102 @@ TEST_F(Batch, results_of_another_plan_are_refused) {
        {app::run_batch(plan_, job).error().message, app::merge_batch(plan_, job.folder).error().message}) {
     EXPECT_NE(message.find("shard-00000-of-00001.jsonl:2: item 1 is of another plan"), std::string::npos) << message;
   }
+}
+
+/// Workers of two machines may see two meshes under one path.
+TEST_F(Batch, results_of_two_meshes_under_one_path_are_not_mixed) {
+  const std::string first = read(cube_);
+  run("out", {0, 2});
+  folder_.write("cube.mesh", incise_test::cube_mesh(4));
+  run("other", {1, 2});
+  fs::copy_file(folder_ / "other/shard-00001-of-00002.jsonl", folder_ / "out/shard-00001-of-00002.jsonl");
+  fs::copy(folder_ / "other/after", folder_ / "out/after");
+  const auto merged_two = app::merge_batch(plan_, folder_ / "out");
+  ASSERT_FALSE(merged_two.ok());
+  EXPECT_EQ(merged_two.error().code, ErrorCode::kBadFile);
+  for (const char* part :
+       {"out/shard-00001-of-00002.jsonl:1: the mesh \"cube.mesh\" of item \"random-0000\" has the key ",
+        "out/shard-00000-of-00002.jsonl:1", "they are two meshes"}) {
+    EXPECT_NE(merged_two.error().message.find(part), std::string::npos) << merged_two.error().message;
+  }
+  fs::remove(folder_ / "out/shard-00001-of-00002.jsonl");
+  app::BatchJob job;
+  job.folder = folder_ / "out";
+  job.shard = {1, 2};
+  const auto refused = app::run_batch(plan_, job);
+  ASSERT_FALSE(refused.ok()) << "a worker looks at its mesh before it computes";
+  EXPECT_NE(refused.error().message.find("shard-00000-of-00002.jsonl:1"), std::string::npos);
+  EXPECT_EQ(read(folder_ / "out/shard-00001-of-00002.jsonl"), "");
+  folder_.write("cube.mesh", first);
+  run("out", {1, 2});
+  EXPECT_NE(merged("out"), "");
+}
+
+/// Of a file that says the same about all tets, and calls a region by another name.
+TEST_F(Batch, names_of_regions_make_another_mesh) {
+  plan_ = plan({{"format", "incise-plan"},
+                {"version", 1},
+                {"items", {{{"mesh", folder_.write("tet.msh", one_tet("fat"))}, {"plane", {1, 0, 0, 0.3}}}}}});
+  run("out");
+  folder_.write("tet.msh", one_tet("skin"));
+  app::VerifyJob job;
+  job.folder = folder_ / "out";
+  const auto report = app::verify_batch(plan_, job);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  ASSERT_EQ(report->differences.size(), 1U);
+  EXPECT_EQ(report->differences[0].rfind("item-000000: another mesh: key ", 0), 0U) << report->differences[0];
+}
+
+TEST_F(Batch, results_of_two_versions_of_the_program_are_not_mixed) {
+  run("out");
+  const std::string file = folder_ / "out/shard-00000-of-00001.jsonl", name = "\"program\":\"incise ";
+  std::string text = read(file);
+  text.insert(text.find(name, text.find('\n')) + name.size(), "9");
+  folder_.write("out/shard-00000-of-00001.jsonl", text);
+  app::BatchJob job;
+  job.folder = folder_ / "out";
+  const auto as_merged = app::merge_batch(plan_, job.folder);
+  const auto as_run = app::run_batch(plan_, job);
+  ASSERT_FALSE(as_merged.ok());
+  ASSERT_FALSE(as_run.ok());
+  for (const std::string& message : {as_merged.error().message, as_run.error().message}) {
+    EXPECT_NE(message.find("shard-00000-of-00001.jsonl:2: was made by incise 9"), std::string::npos) << message;
+    EXPECT_NE(message.find(" by incise "), std::string::npos) << message;
+  }
+}
+
+/// A text editor, or a disk that was full, may leave lines that are no results.
+TEST_F(Batch, a_line_that_is_no_result_is_told_with_its_remedy_and_taken_off_by_a_retry) {
+  run("whole", {0, 2});
+  run("whole", {1, 2});
+  run("out", {0, 2});
+  run("out", {1, 2});
+  const std::string name = "out/shard-00001-of-00002.jsonl", text = read(folder_ / name);
+  const std::size_t second = text.find('\n') + 1, third = text.find('\n', second) + 1;
+  for (const std::string garbage : {"garbage\n", "{}\n", "\n", "[1, 2]\n", "{\"item\": 3}\n", "\xff\xfe\n"}) {
+    folder_.write(name, text.substr(0, second) + garbage + text.substr(third));
+    const auto report = app::merge_batch(plan_, folder_ / "out");
+    ASSERT_FALSE(report.ok()) << garbage;
+    const std::string& message = report.error().message;
+    EXPECT_EQ(message.rfind(folder_ / name + ":2: ", 0), 0U) << message;
+    EXPECT_NE(message.find("; run incise batch with --shard 1/2 --retry, which takes the line off"), std::string::npos)
+        << message;
+    EXPECT_EQ(run("out", {0, 2}, true).done, 0U) << "not its own";
+    EXPECT_EQ(run("out", {1, 2}, true).done, 1U) << garbage;
+    EXPECT_EQ(merged("out"), merged("whole"));
+  }
+}
+
+TEST_F(Batch, scenes_may_have_materials_by_the_names_of_regions) {
+  json scene = small_scene();
+  scene["model"] = {{"file", folder_.write("tet.msh", one_tet("fat"))}};
+  scene["materials"] = {{"regions", {{{"region", "fat"}, {"young", 2000}}}}};
+  scene["attachments"] = json::array();
+  plan_ = plan({{"format", "incise-plan"},
+                {"version", 1},
+                {"items", {{{"scene", scene}, {"random", {{"kinds", {"plane"}}, {"seconds", 0.1}}}}}}});
+  EXPECT_TRUE(run("out").failed.empty());
+  EXPECT_EQ(lines_of(merged("out"))[0]["valid"], true);
 }
 
 TEST_F(Batch, a_merge_tells_what_is_missing) {
@@ -294,13 +413,10 @@ TEST_F(Batch, lines_name_files_of_the_batch_alone) {
          {"../cube.mesh", "after/../../cube.mesh", "before/..", "/etc/passwd", "after/", ""}) {
       const std::size_t at = text.find(own), end = text.find('"', at);
       folder_.write(shard, text.substr(0, at) + other + text.substr(end));
-      app::BatchJob job;
-      job.folder = folder_ / "out";
-      job.retry = true;
-      const auto report = app::run_batch(plan_, job);
+      const auto report = app::merge_batch(plan_, folder_ / "out");
       ASSERT_FALSE(report.ok()) << own << " " << other;
       EXPECT_NE(report.error().message.find("must name a file in"), std::string::npos) << report.error().message;
-      EXPECT_EQ(app::merge_batch(plan_, folder_ / "out").error().code, ErrorCode::kBadFile);
+      EXPECT_EQ(run("out", {}, true).done, 1U) << "the line is none: it was taken off";
     }
   }
   EXPECT_FALSE(read(cube_).empty());
