@@ -46,6 +46,20 @@ bool is_binary_stl(std::string_view bytes) {
          (bytes.size() - kStlHeader) == std::size_t{load_u32(bytes.data() + 80)} * kStlTriangle;
 }
 
+// Text has no zero bytes, the numbers of binary files have.
+bool is_cut_binary_stl(std::string_view bytes) {
+  return bytes.size() >= kStlHeader && bytes.find('\0') != std::string_view::npos && !is_binary_stl(bytes);
+}
+
+// What a binary STL file whose length does not suit its header is told.
+std::string wrong_length(std::string_view bytes) {
+  const std::size_t room = bytes.size() - kStlHeader, spare = room % kStlTriangle;
+  return ": as a binary STL file its header counts " + std::to_string(load_u32(bytes.data() + 80)) +
+         " triangles, but the file holds " + std::to_string(room / kStlTriangle) +
+         (spare > 0 ? " and " + std::to_string(spare) + " bytes more" : "") +
+         "; copy the file again, or export the surface again";
+}
+
 void add_corner(SurfaceSoup& out, std::uint32_t k, const Vec3& p) {
   if (k == 0) out.triangles.emplace_back();
   out.triangles.back()[k] = static_cast<std::uint32_t>(out.points.size());
@@ -212,6 +226,10 @@ bool read_surface_as(std::string_view bytes, const std::string& name, Error& err
     return true;
   }
   if (is_binary_stl(bytes)) return read_binary_stl(bytes, out);
+  if (is_cut_binary_stl(bytes)) {
+    error = {ErrorCode::kBadFile, name + wrong_length(bytes)};
+    return false;
+  }
   if (same_word(bytes.substr(0, 5), "solid")) return read_ascii_stl(in, out);
   const std::string_view first = trim(bytes);
   if (first.substr(0, 3) == "OFF") return read_off(in, out);

@@ -3,6 +3,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "incise/io/surface_file.h"
 
@@ -87,6 +89,23 @@ TEST(Surface, bad_surfaces_are_refused) {
     EXPECT_EQ(surface.error().message.rfind("a.obj", 0), 0U) << surface.error().message;
     EXPECT_NE(surface.error().message.find(';'), std::string::npos) << surface.error().message;
   }
+}
+
+TEST(Surface, a_binary_stl_of_the_wrong_length_is_told_what_its_header_counts) {
+  const fs::path path = fs::path(testing::TempDir()) / "incise_length.stl";
+  ASSERT_TRUE(io::write_surface(path, tetrahedron()).ok());
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const auto message = [](const std::string& text) { return io::read_surface_bytes(text, "a.stl").error().message; };
+  EXPECT_EQ(
+      message(bytes.substr(0, bytes.size() - 60)),
+      "a.stl: as a binary STL file its header counts 4 triangles, but the file holds 2 and 40 bytes more; copy the "
+      "file again, or export the surface again");
+  EXPECT_NE(message(bytes + std::string(100, '\0')).find("counts 4 triangles, but the file holds 6;"),
+            std::string::npos);
+  std::string solid = bytes.substr(0, bytes.size() - 50);  // as many programs begin their binary files
+  solid.replace(0, 5, "solid");
+  EXPECT_NE(message(solid).find("counts 4 triangles, but the file holds 3;"), std::string::npos) << message(solid);
 }
 
 TEST(Surface, surfaces_cut_at_any_byte_never_break_the_reader) {
