@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iomanip>
 #include <new>
+#include <numeric>
+#include <sstream>
 #include <utility>
 
 #include "image/mend_surface.h"
+#include "image/surface_cells.h"
 #include "image/winding_number.h"
 #include "incise/core/parallel.h"
 #include "incise/geom/box.h"
@@ -18,110 +21,57 @@ inline namespace v0 {
 namespace image {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
-
-/// Voxels left free around the surface.
-constexpr double kMargin = 1.5;
+/// Voxels left free around the surface; uneven, so that no plane that a designer would choose goes through their
+/// middles.
+const Vec3 kMargin(1.5151, 1.5233, 1.5087);
 /// A part lies wholly in another where that has this share of its voxels.
 constexpr double kWholly = 0.999;
 
-/// Triangles that shared points join, or all those with holes together.
-struct Part {
-  std::vector<Triangle> triangles;
-  double volume = 0;  ///< enclosed
-  bool is_open = false;
+/// Voxels side by side along i.
+struct VoxelRun {
+  std::size_t begin = 0, n = 0;
 };
 
-double volume_of(const io::SurfaceSoup& surface, const std::vector<Triangle>& triangles, const Vec3& middle) {
-  double sum = 0;
-  for (const Triangle& t : triangles) {
-    const Vec3 a = surface.points[t[0]] - middle, b = surface.points[t[1]] - middle, c = surface.points[t[2]] - middle;
-    sum += a.dot(b.cross(c)) / 6;
-  }
-  return std::abs(sum);
-}
-
-/// Edges that an odd number of triangles have.
-std::size_t count_open_edges(const std::vector<Triangle>& triangles) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const Triangle& t : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) edges.emplace_back(std::minmax(t[i], t[(i + 1) % 3]));
-  }
-  std::sort(edges.begin(), edges.end());
-  std::size_t open = 0;
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i;
-    while (end < edges.size() && edges[end] == edges[i]) ++end;
-    open += (end - i) % 2;
-    i = end;
-  }
-  return open;
-}
-
-std::vector<Part> find_parts(const io::SurfaceSoup& surface) {
-  std::vector<std::uint32_t> parent(surface.points.size());
-  for (std::uint32_t p = 0; p < parent.size(); ++p) parent[p] = p;
-  const auto root = [&](std::uint32_t p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
-  };
-  for (const Triangle& t : surface.triangles) {
-    for (std::size_t i = 1; i < 3; ++i) {
-      const std::uint32_t a = root(t[0]), b = root(t[i]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  }
-  std::vector<std::uint32_t> number(parent.size(), std::numeric_limits<std::uint32_t>::max());
-  std::vector<Part> parts;
-  for (const Triangle& t : surface.triangles) {
-    std::uint32_t& n = number[root(t[0])];
-    if (n == std::numeric_limits<std::uint32_t>::max()) {
-      n = static_cast<std::uint32_t>(parts.size());
-      parts.emplace_back();
-    }
-    parts[n].triangles.push_back(t);
-  }
-  return parts;
-}
+/// A cell, or all triangles of parts with holes together.
+struct SampledPart {
+  std::vector<VoxelRun> runs;  ///< of the voxels inside
+  double volume = 0;           ///< of what is inside
+};
 
 class SurfaceSampler {
  public:
   SurfaceSampler(io::SurfaceSoup surface, double voxel, unsigned threads)
       : surface_(std::move(surface)), voxel_(voxel), threads_(threads) {
     io::weld(surface_);
-    mend();
-    for (const Vec3& p : surface_.points) box_.extend(p);
+    if (const std::size_t repeated = drop_repeated(surface_.triangles); repeated > 0) {
+      out_.notes.push_back(std::to_string(repeated) + " triangles are there more than once: the first of each counts");
+    }
+    for (const Triangle& t : surface_.triangles) {
+      for (const std::uint32_t p : t) box_.extend(surface_.points[p]);
+    }
   }
 
   Result<SurfaceLabels> run() {
     if (!(voxel_ > 0) || !std::isfinite(voxel_)) return bad("voxels must be larger than 0; give a larger size");
-    if (surface_.triangles.empty()) return empty();
+    if (surface_.triangles.empty() || voxel_ >= (box_.hi - box_.lo).maxCoeff()) return empty();
     if (!lay_voxels())
       return bad("the size is too small for the surface: it would take too many voxels; give a larger one");
-    order_parts();
+    sample_parts();
     if (parts_.empty()) return empty();
-    sample();
+    label_voxels();
     out_.parts = parts_.size();
-    if (out_.image.labels.size() < 2) return empty();
     return std::move(out_);
   }
 
  private:
-  /// A triangle that is there twice would count twice, or not at all where the second one faces the other way.
-  void mend() {
-    if (const std::size_t repeated = drop_repeated(surface_.triangles); repeated > 0) {
-      out_.notes.push_back(std::to_string(repeated) + " triangles are there more than once: the first of each counts");
-    }
-    if (const std::size_t turned = turn_alike(surface_.triangles); turned > 0) {
-      out_.notes.push_back(std::to_string(turned) +
-                           " triangles faced other ways than those beside them, and are turned");
-    }
-  }
+  using Triangle = SurfaceCells::Triangle;
 
   static Error bad(const std::string& what) { return {ErrorCode::kBadArgument, what}; }
   [[nodiscard]] Error empty() const {
-    const double extent = surface_.points.empty() ? 0 : (box_.hi - box_.lo).maxCoeff();
-    return {ErrorCode::kBadFile, "the surface, " + std::to_string(extent) +
+    if (surface_.triangles.empty()) return {ErrorCode::kBadFile, "the surface has no triangles; export it again"};
+    std::ostringstream extent;
+    extent << std::setprecision(4) << (box_.hi - box_.lo).maxCoeff();
+    return {ErrorCode::kBadFile, "the surface, " + extent.str() +
                                      " long, encloses nothing of this size; close its holes, turn its triangles alike, "
                                      "or give a smaller size"};
   }
@@ -130,109 +80,132 @@ class SurfaceSampler {
     const Vec3 extent = box_.hi - box_.lo;
     double voxels = 1;
     for (std::size_t a = 0; a < 3; ++a) {
-      const double n = std::floor(extent[static_cast<Eigen::Index>(a)] / voxel_ + 2 * kMargin) + 1;
+      const auto c = static_cast<Eigen::Index>(a);
+      const double n = std::floor(extent[c] / voxel_ + 2 * kMargin[c]) + 1;
       voxels *= n;
       if (!(voxels <= kMostSurfaceVoxels)) return false;
       out_.image.size[a] = static_cast<std::size_t>(n);
       out_.image.step[a] *= voxel_;
     }
-    out_.image.origin = box_.lo - Vec3::Constant(kMargin * voxel_);
+    out_.image.origin = box_.lo - voxel_ * kMargin;
     return true;
   }
 
-  /// Closed parts one by one and open ones as one, the largest first, without those smaller than a voxel.
-  void order_parts() {
-    const Vec3 middle = 0.5 * (box_.lo + box_.hi);
-    Part open;
-    open.is_open = true;
+  /// Closed cells one by one and what is open as one, the largest first, without those smaller than a voxel.
+  void sample_parts() {
+    SurfaceCells cells = find_cells(surface_.points, surface_.triangles);
+    out_.open_edges = cells.open_edges;
     std::size_t left_out = 0;
-    for (Part& part : find_parts(surface_)) {
-      const std::size_t edges = count_open_edges(part.triangles);
-      out_.open_edges += edges;
-      if (edges > 0) {
-        open.triangles.insert(open.triangles.end(), part.triangles.begin(), part.triangles.end());
-        continue;
-      }
-      part.volume = volume_of(surface_, part.triangles, middle);
-      if (part.volume < voxel_ * voxel_ * voxel_) {
-        ++left_out;
-      } else {
-        parts_.push_back(std::move(part));
-      }
-    }
-    if (!open.triangles.empty()) {
-      open.volume = volume_of(surface_, open.triangles, middle);
-      parts_.push_back(std::move(open));
-      out_.notes.push_back("has " + std::to_string(out_.open_edges) +
-                           " edges without a second triangle: holes are bridged");
-    }
+    for (const SurfaceCells::Cell& cell : cells.closed) left_out += add_part(cell.triangles, cell.volume) ? 0U : 1U;
     if (left_out > 0) out_.notes.push_back(std::to_string(left_out) + " parts smaller than a voxel are left out");
-    std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.volume > b.volume; });
+    if (!cells.open.empty()) add_open(cells.open);
+    std::stable_sort(parts_.begin(), parts_.end(),
+                     [](const SampledPart& a, const SampledPart& b) { return a.volume > b.volume; });
     if (parts_.size() >= kMostLabels) {
       out_.notes.push_back("has more than " + std::to_string(kMostLabels - 1) + " parts: the smallest are left out");
       parts_.resize(kMostLabels - 1);
     }
   }
 
-  void sample() {
+  void add_open(std::vector<Triangle>& triangles) {
+    if (const std::size_t turned = turn_alike(triangles); turned > 0) {
+      out_.notes.push_back(std::to_string(turned) +
+                           " triangles faced other ways than those beside them, and are turned");
+    }
+    const std::string edges = std::to_string(out_.open_edges) + " edges without a second triangle";
+    const bool is_bridged = add_part(triangles, 0);
+    out_.notes.push_back("has " + edges + (is_bridged ? ": holes are bridged" : ": what has them encloses nothing"));
+  }
+
+  /// False where nothing is inside. `signed_volume`: how often the triangles wind around each place, over space.
+  bool add_part(const std::vector<Triangle>& triangles, double signed_volume) {
+    Box box;
+    for (const Triangle& t : triangles) {
+      for (const std::uint32_t p : t) box.extend(surface_.points[p]);
+    }
+    std::array<std::size_t, 3> first{}, n{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto c = static_cast<Eigen::Index>(a);
+      const double low = std::ceil((box.lo[c] - out_.image.origin[c]) / voxel_);
+      const double high = std::floor((box.hi[c] - out_.image.origin[c]) / voxel_);
+      first[a] = static_cast<std::size_t>(std::max(0.0, low));
+      n[a] = static_cast<std::size_t>(std::max(0.0, high - low + 1));
+      n[a] = std::min(n[a], out_.image.size[a] - std::min(out_.image.size[a], first[a]));
+    }
+    const std::vector<std::int8_t> windings = wind(triangles, first, n);
+    SampledPart part;
+    std::int64_t inside = 0, more = 0;
+    for (std::size_t v = 0; v < windings.size(); ++v) {
+      if (windings[v] == 0) continue;
+      ++inside;
+      more += windings[v] - 1;
+      const std::size_t at =
+          out_.image.index(first[0] + v % n[0], first[1] + v / n[0] % n[1], first[2] + v / n[0] / n[1]);
+      if (part.runs.empty() || part.runs.back().begin + part.runs.back().n != at) part.runs.push_back({at, 0});
+      ++part.runs.back().n;
+    }
+    // Exact where each place inside is wound around once; where it is not, as the voxels tell.
+    const double voxel_volume = voxel_ * voxel_ * voxel_;
+    part.volume = signed_volume > 0 ? signed_volume - static_cast<double>(more) * voxel_volume
+                                    : static_cast<double>(inside) * voxel_volume;
+    if (part.volume < voxel_volume) return false;
+    parts_.push_back(std::move(part));
+    return true;
+  }
+
+  /// How often the triangles wind around each voxel of a box, i fastest.
+  [[nodiscard]] std::vector<std::int8_t> wind(const std::vector<Triangle>& triangles,
+                                              const std::array<std::size_t, 3>& first,
+                                              const std::array<std::size_t, 3>& n) const {
+    constexpr double kMost = 100;
+    const WindingNumber winding(surface_.points, triangles);
+    std::vector<std::int8_t> out(n[0] * n[1] * n[2]);
+    parallel_blocks(out.size(), threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const Vec3 at(static_cast<double>(first[0] + v % n[0]), static_cast<double>(first[1] + v / n[0] % n[1]),
+                      static_cast<double>(first[2] + v / n[0] / n[1]));
+        const double turns = std::floor(winding(out_.image.origin + voxel_ * at) + 0.5);
+        out[v] = static_cast<std::int8_t>(std::clamp(turns, -kMost, kMost));
+      }
+    });
+    return out;
+  }
+
+  /// Smaller parts come later, and overwrite those around them.
+  void label_voxels() {
     LabelImage& image = out_.image;
     image.voxels.assign(image.size[0] * image.size[1] * image.size[2], 0);
     image.labels = {0};
     out_.volumes = {0};
-    for (std::size_t n = 0; n < parts_.size(); ++n) {
-      image.labels.push_back(static_cast<std::int32_t>(n + 1));
-      out_.volumes.push_back(parts_[n].is_open ? 0 : parts_[n].volume);
-      sample_part(parts_[n], static_cast<std::uint16_t>(n + 1));
-      take_from_those_around(parts_[n].volume, static_cast<std::uint16_t>(n + 1));
-    }
-  }
-
-  /// A part that lies wholly in another takes its volume from it; where parts overlap volumes are not known.
-  void take_from_those_around(double volume, std::uint16_t label) {
-    std::vector<std::uint64_t> taken(label, 0);
-    std::uint64_t all = 0;
-    for (std::size_t v = 0; v < before_.size(); ++v) {
-      if (out_.image.voxels[v] != label) continue;
-      ++taken[before_[v]];
-      ++all;
-    }
-    const auto most = std::max_element(taken.begin(), taken.end());
-    if (static_cast<double>(*most) >= kWholly * static_cast<double>(all)) {
-      double& around = out_.volumes[static_cast<std::size_t>(most - taken.begin())];
-      if (most != taken.begin()) around = std::max(0.0, around - volume);
-      return;
-    }
-    for (std::size_t l = 0; l < taken.size(); ++l) {
-      if (taken[l] > 0) out_.volumes[l] = 0;
-    }
-  }
-
-  /// Smaller parts come later, and overwrite those around them.
-  void sample_part(const Part& part, std::uint16_t label) {
-    LabelImage& image = out_.image;
-    before_ = image.voxels;
-    const WindingNumber winding(surface_.points, part.triangles);
-    Box box;
-    for (const Triangle& t : part.triangles) {
-      for (const std::uint32_t p : t) box.extend(surface_.points[p]);
-    }
-    parallel_blocks(image.voxels.size(), threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        const std::size_t i = v % image.size[0], j = v / image.size[0] % image.size[1],
-                          k = v / image.size[0] / image.size[1];
-        const Vec3 p =
-            image.origin + voxel_ * Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
-        if (box.distance2(p) == 0 && std::abs(winding(p)) > 0.5) image.voxels[v] = label;
+    for (const SampledPart& part : parts_) {
+      const auto label = static_cast<std::uint16_t>(image.labels.size());
+      image.labels.push_back(label);
+      std::vector<std::uint64_t> taken(label, 0);
+      for (const VoxelRun& run : part.runs) {
+        for (std::size_t v = run.begin; v < run.begin + run.n; ++v) ++taken[std::exchange(image.voxels[v], label)];
       }
-    });
+      take_from_those_around(part, taken);
+      out_.volumes.push_back(part.volume);
+    }
+  }
+
+  /// A part takes its volume from that which it lies in wholly; where parts overlap, that of the voxels of both.
+  void take_from_those_around(const SampledPart& part, const std::vector<std::uint64_t>& taken) {
+    const std::uint64_t all = std::accumulate(taken.begin(), taken.end(), std::uint64_t{0});
+    const auto most = std::max_element(taken.begin(), taken.end());
+    const bool is_within = static_cast<double>(*most) >= kWholly * static_cast<double>(all);
+    for (std::size_t l = 1; l < taken.size(); ++l) {
+      double loss = static_cast<double>(taken[l]) * voxel_ * voxel_ * voxel_;
+      if (is_within) loss = taken.begin() + static_cast<std::ptrdiff_t>(l) == most ? part.volume : 0;
+      if (all > 0) out_.volumes[l] = std::max(0.0, out_.volumes[l] - loss);
+    }
   }
 
   io::SurfaceSoup surface_;
   double voxel_;
   unsigned threads_;
   Box box_;
-  std::vector<Part> parts_;
-  std::vector<std::uint16_t> before_;  // the voxels before the last part
+  std::vector<SampledPart> parts_;
   SurfaceLabels out_;
 };
 

@@ -108,6 +108,88 @@ TEST(SurfaceLabels, surfaces_that_pass_through_themselves_are_survived) {
   EXPECT_GT(share_of(labels->image, 1), 0.5 * ball(8));
 }
 
+/// The volume of a label is that of its voxels within what these can tell, and so is the one that is told.
+void expect_volume(const image::SurfaceLabels& labels, std::int32_t label, double volume) {
+  EXPECT_NEAR(share_of(labels.image, label) / volume, 1, 0.02) << label;
+  EXPECT_NEAR(labels.volumes[labels.image.find_label(label)] / volume, 1, 0.01) << label;
+}
+
+/// What two balls share whose middles are `apart`.
+double lens(double a, double b, double apart) {
+  const double sum = a + b - apart;
+  return kPi * sum * sum * (apart * apart + 2 * apart * (a + b) - 3 * (a - b) * (a - b)) / (12 * apart);
+}
+
+TEST(SurfaceLabels, a_part_that_passes_through_itself_has_the_volume_of_what_is_inside) {
+  for (const double dent : {4.0, 5.0}) {  // one end of the ball goes in, and comes out of the other end inside out
+    io::SurfaceSoup soup;
+    add_sphere(soup, Vec3(0, 0, 0), 8, 60);
+    for (Vec3& p : soup.points) {
+      if (p.x() > dent) p.x() = dent - 6 * (p.x() - dent);
+    }
+    const auto labels = label_surface(soup, 0.4);
+    ASSERT_TRUE(labels.ok()) << labels.error().message;
+    ASSERT_EQ(labels->parts, 1U);
+    EXPECT_NEAR(labels->volumes[1] / share_of(labels->image, 1), 1, 0.01) << dent;
+  }
+}
+
+TEST(SurfaceLabels, overlapping_parts_have_the_volumes_of_their_regions) {
+  for (const bool share_a_point : {false, true}) {
+    for (const bool is_turned : {false, true}) {
+      io::SurfaceSoup soup;
+      add_sphere(soup, Vec3(0, 0, 0), 8, 40);
+      const std::size_t first = soup.triangles.size();
+      add_sphere(soup, share_a_point ? Vec3(0, 0, 2) : Vec3(5, 0, 3), 6, 40);  // the poles meet, or not
+      for (std::size_t t = first; is_turned && t < soup.triangles.size(); ++t) {
+        std::swap(soup.triangles[t][0], soup.triangles[t][1]);
+      }
+      const double common = share_a_point ? ball(6) : lens(8, 6, std::sqrt(34.0));
+      const auto labels = label_surface(soup, 0.4);
+      ASSERT_TRUE(labels.ok()) << labels.error().message;
+      ASSERT_EQ(labels->parts, 2U);
+      expect_volume(*labels, 1, ball(8) - common);
+      expect_volume(*labels, 2, ball(6));
+    }
+  }
+}
+
+/// Boxes from a corner to another.
+void add_box(io::SurfaceSoup& soup, const Vec3& lo, const Vec3& hi) {
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  for (unsigned c = 0; c < 8; ++c) {
+    soup.points.emplace_back((c & 1U) != 0 ? hi.x() : lo.x(), (c & 2U) != 0 ? hi.y() : lo.y(),
+                             (c & 4U) != 0 ? hi.z() : lo.z());
+  }
+  constexpr std::uint32_t kSides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                          {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (const auto& s : kSides) {
+    soup.triangles.push_back({first + s[0], first + s[1], first + s[2]});
+    soup.triangles.push_back({first + s[0], first + s[2], first + s[3]});
+  }
+}
+
+TEST(SurfaceLabels, boxes_that_share_a_face_are_two_regions) {
+  io::SurfaceSoup soup;
+  add_box(soup, Vec3(0, 0, 0), Vec3(20, 20, 30));
+  add_box(soup, Vec3(20, 0, 0), Vec3(30, 20, 30));
+  for (const double voxel : {1.0, 0.7, 2.0}) {
+    const auto labels = label_surface(soup, voxel);
+    ASSERT_TRUE(labels.ok()) << labels.error().message;
+    ASSERT_EQ(labels->parts, 2U);
+    EXPECT_EQ(labels->open_edges, 0U);
+    EXPECT_NEAR(labels->volumes[1], 12000, 1e-6);
+    EXPECT_NEAR(labels->volumes[2], 6000, 1e-6);
+    const Vec3& origin = labels->image.origin;
+    for (const double x : {19.0, 21.0}) {
+      const auto at = [&](double to, double from) {
+        return static_cast<std::size_t>(std::lround((to - from) / voxel));
+      };
+      EXPECT_NE(labels->image.label(at(x, origin.x()), at(10, origin.y()), at(15, origin.z())), 0) << x;
+    }
+  }
+}
+
 TEST(SurfaceLabels, triangles_of_any_turn) {
   io::SurfaceSoup soup;
   add_sphere(soup, Vec3(0, 0, 0), 8, 30);
@@ -132,21 +214,38 @@ TEST(SurfaceLabels, triangles_that_are_there_twice_count_once) {
   }
 }
 
-TEST(SurfaceLabels, triangles_that_face_this_way_and_that_are_turned_alike) {
+TEST(SurfaceLabels, triangles_that_face_this_way_and_that_do_no_harm) {
+  for (const bool has_hole : {false, true}) {
+    io::SurfaceSoup soup;
+    add_sphere(soup, Vec3(0, 0, 0), 10, 40);
+    if (has_hole) soup.triangles.erase(soup.triangles.begin() + 1000, soup.triangles.begin() + 1002);
+    std::uint32_t state = 1;
+    for (auto& triangle : soup.triangles) {
+      state = state * 1664525U + 1013904223U;
+      if (state >> 31U != 0) std::swap(triangle[0], triangle[1]);
+    }
+    const auto labels = label_surface(soup, 0.5);
+    ASSERT_TRUE(labels.ok()) << labels.error().message;
+    EXPECT_NEAR(share_of(labels->image, 1) / ball(10), 1, 0.02);
+    EXPECT_NEAR(labels->volumes[1] / ball(10), 1, 0.02);
+    ASSERT_EQ(labels->notes.size(), has_hole ? 2U : 0U);
+    if (has_hole) {
+      EXPECT_NE(labels->notes[0].find("are turned"), std::string::npos) << labels->notes[0];
+    }
+  }
+}
+
+TEST(SurfaceLabels, a_sheet_encloses_nothing_and_is_said_to) {
   io::SurfaceSoup soup;
   add_sphere(soup, Vec3(0, 0, 0), 10, 40);
-  std::uint32_t state = 1;
-  for (auto& triangle : soup.triangles) {
-    state = state * 1664525U + 1013904223U;
-    if (state >> 31U != 0) std::swap(triangle[0], triangle[1]);
-  }
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  soup.points.insert(soup.points.end(), {Vec3(20, 0, 0), Vec3(30, 0, 0), Vec3(20, 10, 0)});
+  soup.triangles.push_back({first, first + 1, first + 2});
   const auto labels = label_surface(soup, 0.5);
   ASSERT_TRUE(labels.ok()) << labels.error().message;
-  EXPECT_EQ(labels->open_edges, 0U);
-  EXPECT_NEAR(share_of(labels->image, 1) / ball(10), 1, 0.02);
-  EXPECT_NEAR(labels->volumes[1] / ball(10), 1, 0.02);
+  EXPECT_EQ(labels->parts, 1U);
   ASSERT_EQ(labels->notes.size(), 1U);
-  EXPECT_NE(labels->notes[0].find("are turned"), std::string::npos) << labels->notes[0];
+  EXPECT_NE(labels->notes[0].find("what has them encloses nothing"), std::string::npos) << labels->notes[0];
 }
 
 TEST(SurfaceLabels, what_is_meshed_has_the_surfaces_volume) {
@@ -165,11 +264,13 @@ TEST(SurfaceLabels, what_is_meshed_has_the_surfaces_volume) {
 
 TEST(SurfaceLabels, says_what_is_wrong) {
   io::SurfaceSoup soup;
-  EXPECT_NE(label_surface(soup, 1).error().message.find("encloses nothing"), std::string::npos);
+  EXPECT_NE(label_surface(soup, 1).error().message.find("has no triangles"), std::string::npos);
   add_sphere(soup, Vec3(0, 0, 0), 1, 10);
   EXPECT_NE(label_surface(soup, 0).error().message.find("larger size"), std::string::npos);
   EXPECT_NE(label_surface(soup, 1e-4).error().message.find("too many voxels"), std::string::npos);
-  EXPECT_NE(label_surface(soup, 10).error().message.find("encloses nothing"), std::string::npos);
+  for (const double voxel : {10.0, 1e300}) {
+    EXPECT_NE(label_surface(soup, voxel).error().message.find("encloses nothing"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace image {
 /// What is inside a surface, voxel by voxel.
 struct SurfaceLabels {
   LabelImage image;                ///< along the axes of the surface's coordinates, in its length unit
-  std::size_t parts = 0;           ///< closed parts that became labels: 1 for the largest, then the smaller ones
-  std::vector<double> volumes;     ///< of each of `image.labels`, less the parts inside; 0 where that is not known
+  std::size_t parts = 0;           ///< that became labels: 1 for the largest, then the smaller ones
+  std::vector<double> volumes;     ///< of each of `image.labels`, less what smaller parts take of it
   std::size_t open_edges = 0;      ///< edges without a second triangle: holes, bridged
   std::vector<std::string> notes;  ///< what was bridged or left out, in words
 };
@@ -28,9 +28,11 @@ inline constexpr double kMostSurfaceVoxels = 4e8;
 /// Samples what a triangle surface encloses, by winding numbers: nearly closed surfaces have their holes bridged, and
 /// surfaces that meet themselves, or lie in each other, are survived.
 ///
-/// A part is what triangles form through shared points. Each closed part becomes a label, the largest 1, the next 2,
-/// and so on; a point in several belongs to the smallest. Parts with holes count together as one. Parts smaller than a
-/// voxel are left out, and noted. Triangles may turn either way, but all of a part the same.
+/// A part is a cell that triangles wall in without a hole: cells that share a face, an edge or a point are told apart,
+/// and triangles may turn either way. Each becomes a label, the largest 1, the next 2, and so on; a point in several
+/// belongs to the smallest. All that has holes counts together as one part. Parts smaller than a voxel are left out,
+/// and noted. Volumes are those of what is inside, that is, of where the winding number rounds to other than 0: exact
+/// where it is 1, and counted in voxels where it is not, and where parts overlap.
 /// @param surface  finite points; equal ones are taken for one.
 /// @param voxel    edge of the voxels, in the surface's length unit, above 0.
 /// Errors: kBadArgument for a bad voxel, or one so small that there would be more than `kMostSurfaceVoxels`; kBadFile
