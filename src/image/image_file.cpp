@@ -151,11 +151,7 @@ Result<ImageFile> read_labels(const fs::path& path) {
   const io::SiblingLoader sibling = [&](const std::string& name) {
     return io::load_file(present(header.parent_path() / name), kLimits);
   };
-  std::string name = header.string();
-  if (is_gzip(*bytes) && lower_case(header.extension().string()) == ".gz")
-    name = fs::path(header).replace_extension().string();
-  Result<ImageFile> read = read_labels_bytes(*bytes, name, sibling);
-  return read;
+  return read_labels_bytes(*bytes, header.string(), sibling);
 }
 
 }  // namespace image

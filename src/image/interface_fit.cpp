@@ -25,6 +25,10 @@ constexpr double kDamping = 0.03;
 /// bring the volumes about.
 constexpr double kMostDifference = 0.6, kMostChange = 0.1, kEager = 0.8;
 constexpr int kBalanceSweeps = 60;
+/// Faces around a point make an edge where the normal of one of them is turned so far from their mean (cosine). Planes
+/// are taken near the middles of the faces, the point counting so much beside their other corners; planes that are
+/// alike do not move the point along them (damping, relative), nor do any by more than this share of the mean edge.
+constexpr double kCrease = 0.8, kCreaseNear = 0.5, kCreaseDamping = 0.03, kMostToCrease = 0.6;
 
 /// Whether a tet is within the bounds.
 bool is_sound(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const ShapeBounds& bounds) {
@@ -234,6 +238,80 @@ Vec3 InterfaceFit::projected(const Vec3& from, const Class& labels, double edge)
   return x;
 }
 
+/// Calls back with the other two corners of each face around a point that parts labels, turned alike.
+template <class Work>
+void InterfaceFit::for_each_face(std::size_t p, const Work& work) const {
+  for (const std::uint32_t t : stars_[p]) {
+    const auto& tet = mesh_.tets[t];
+    for (std::size_t s = 0; s < 4; ++s) {
+      const std::uint32_t other = neighbours_[t][s];
+      if (tet[s] == p || (other != kNoTet && mesh_.labels[other] >= mesh_.labels[t])) continue;
+      const auto& order = kSideCorners[s];
+      std::size_t i = 0;
+      while (tet[order[i]] != p) ++i;
+      work(mesh_.points[tet[order[(i + 1) % 3]]], mesh_.points[tet[order[(i + 2) % 3]]]);
+    }
+  }
+}
+
+/// Whether a point has two labels, and the faces around it make an edge or a corner.
+bool InterfaceFit::is_creased(std::size_t p) const {
+  if (class_[p].n != 2) return false;
+  const Vec3& at = mesh_.points[p];
+  Vec3 sum = Vec3::Zero();
+  for_each_face(p, [&](const Vec3& a, const Vec3& b) { sum += (a - at).cross(b - at); });
+  const double length = sum.norm();
+  bool is_creased = false;
+  for_each_face(p, [&](const Vec3& a, const Vec3& b) {
+    const Vec3 normal = (a - at).cross(b - at);
+    is_creased = is_creased || normal.dot(sum) < kCrease * normal.norm() * length;
+  });
+  return is_creased;
+}
+
+/// The plane of an interface of two labels near a point: false where it is not found.
+bool InterfaceFit::find_plane(const Vec3& near, const Class& labels, double edge, Vec3& at, Vec3& normal) const {
+  at = projected(near, labels, edge);
+  Shares shares;
+  field_.sample(at, kNarrow * edge, shares);
+  const Share *mine = shares.find(labels.label[0]), *theirs = shares.find(labels.label[1]);
+  if (mine == nullptr || theirs == nullptr) return false;
+  normal = mine->slope - theirs->slope;
+  const double length = normal.norm();
+  if (!(length > 0)) return false;
+  normal /= length;
+  return true;
+}
+
+/// Where the planes of the interface around a point of two labels meet: on the edge or corner that they make.
+Vec3 InterfaceFit::sharpened(std::size_t p, const Vec3& from) const {
+  std::array<std::array<double, 3>, 3> m{};
+  std::array<double, 3> step{};
+  double planes = 0;
+  for_each_face(p, [&](const Vec3& a, const Vec3& b) {
+    Vec3 at, normal;
+    if (!find_plane((kCreaseNear * from + a + b) / (kCreaseNear + 2), class_[p], edge_[p], at, normal)) return;
+    const double away = normal.dot(at - from);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double along = normal[static_cast<Eigen::Index>(i)];
+      for (std::size_t j = 0; j < 3; ++j) m[i][j] += along * normal[static_cast<Eigen::Index>(j)];
+      step[i] += away * along;
+    }
+    planes += 1;
+  });
+  if (planes == 0) return from;
+  for (std::size_t i = 0; i < 3; ++i) m[i][i] += kCreaseDamping * planes;
+  solve(m, step, 3);
+  const Vec3 by(step[0], step[1], step[2]);
+  return by.norm() > kMostToCrease * edge_[p] ? from : Vec3(from + by);
+}
+
+/// Where a point of an interface belongs that is near `from`.
+Vec3 InterfaceFit::placed(std::size_t p, const Vec3& from) const {
+  const Vec3 at = projected(from, class_[p], edge_[p]);
+  return is_creased(p) ? sharpened(p, at) : at;
+}
+
 void InterfaceFit::move_interface_point(std::size_t p, double spread) {
   const Vec3 from = mesh_.points[p];
   const std::size_t n = first_beside_[p + 1] - first_beside_[p];
@@ -241,8 +319,9 @@ void InterfaceFit::move_interface_point(std::size_t p, double spread) {
     Vec3 middle = Vec3::Zero();
     for (std::size_t i = first_beside_[p]; i < first_beside_[p + 1]; ++i) middle += mesh_.points[beside_[i]];
     const Vec3 target = from + spread * (middle / static_cast<double>(n) - from);
-    if (go_towards(p, projected(target, class_[p], edge_[p]), 2)) return;
+    if (go_towards(p, placed(p, target), 2)) return;
   }
+  if (go_towards(p, placed(p, from), 4) || !is_creased(p)) return;
   (void)go_towards(p, projected(from, class_[p], edge_[p]), 4);
 }
 

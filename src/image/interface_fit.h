@@ -19,10 +19,13 @@ struct ShapeBounds {
 
 /// Moves the points of interfaces onto them, evenly spread, and those near them where that makes tets better.
 ///
-/// A point of two labels goes to where they are alike, one of three to the line of the three. No tet leaves the bounds
+/// A point of two labels goes to where they are alike, one of three to the line of the three. Where the faces around a
+/// point of two labels make an edge or a corner it goes to where the interface's planes meet, so that blocks keep their
+/// edges, and no bias has to make up for chamfers. No tet leaves the bounds
 /// of `ShapeBounds` if it was within: points stop short of the interface instead. In between the labels' biases are set
 /// so that each label has its volume. The result does not depend on threads.
-/// **Source:** J. Bronson, J. Levine, R. Whitaker, "Lattice cleaving", 2014 (interfaces of indicators).
+/// **Source:** J. Bronson, J. Levine, R. Whitaker, "Lattice cleaving", 2014 (interfaces of indicators); T. Ju et al.,
+/// "Dual contouring of Hermite data", 2002 (edges by the planes around).
 class InterfaceFit {
  public:
   /// `volumes`: of each label, mm³, those of the background are not asked for. The mesh has no background any more.
@@ -55,6 +58,12 @@ class InterfaceFit {
   void move_inner_point(std::size_t p);
   bool go_towards(std::size_t p, const Vec3& target, int halvings);
   [[nodiscard]] Vec3 projected(const Vec3& from, const Class& labels, double edge) const;
+  [[nodiscard]] Vec3 placed(std::size_t p, const Vec3& from) const;
+  [[nodiscard]] bool is_creased(std::size_t p) const;
+  [[nodiscard]] Vec3 sharpened(std::size_t p, const Vec3& from) const;
+  bool find_plane(const Vec3& near, const Class& labels, double edge, Vec3& at, Vec3& normal) const;
+  template <class Work>
+  void for_each_face(std::size_t p, const Work& work) const;
   [[nodiscard]] bool is_star_sound(std::size_t p, const Vec3& at) const;
   [[nodiscard]] double worst_ratio(std::size_t p, const Vec3& at) const;
 

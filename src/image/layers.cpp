@@ -33,6 +33,11 @@ Error bad(const std::string& what) {
   return {ErrorCode::kBadArgument, what};
 }
 
+/// Of an image for which the options, good for others, are not.
+Error bad_for_image(const std::string& what) {
+  return {ErrorCode::kBadFile, what};
+}
+
 std::string in_mm(double length) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.4g mm", length);
@@ -249,7 +254,7 @@ Status count_layers(const LayerOptions& options, const std::vector<std::uint64_t
     out.voxels.push_back(counts[out.image.find_label(out.labels[l])]);
     if (out.voxels.back() > 0) continue;
     const bool has_surface = counts.size() > 1 && out.cut_off == 0;
-    return bad(
+    return bad_for_image(
         described(options.layers[l]) +
         (has_surface || l > 0 ? " lies deeper than the body is thick anywhere" : " has no surface to grow from") +
         "; leave it out, or name the labels that it may grow in");
@@ -279,7 +284,7 @@ Result<LayeredImage> grow_layers(const LabelImage& image, const LayerOptions& op
   if (const Status status = check_options(options); !status.ok()) return status.error();
   const bool has_numbers = image.labels.size() + options.layers.size() <= kMostLabels &&
                            (image.labels.empty() || image.labels.back() < 0x7FFFFFFF - 4096);
-  if (!has_numbers) return bad("there are no numbers left for further labels; merge some");
+  if (!has_numbers) return bad_for_image("there are no numbers left for further labels; merge some");
 #if defined(__cpp_exceptions)
   try {
     return grow(image, options);

@@ -43,6 +43,11 @@ Error bad_option(const std::string& what) {
   return {ErrorCode::kBadArgument, what};
 }
 
+/// Of an image for which the options, good for others, are not.
+Error bad_image(const std::string& what) {
+  return {ErrorCode::kBadFile, what};
+}
+
 Status check_options(const MeshLabelsOptions& o) {
   if (!(o.size > 0) || !std::isfinite(o.size))
     return bad_option("the size of tets must be above 0 mm; give a larger one");
@@ -64,21 +69,21 @@ Status check_amount(const LabelVolume& volume, const MeshLabelsOptions& options)
   double voxels = 0;
   for (std::size_t l = 1; l < counts.size(); ++l) voxels += static_cast<double>(counts[l]);
   if (voxels == 0) {
-    return bad_option(
+    return bad_image(
         "the image has no voxel of a label other than 0 that could be meshed; choose other labels, or a smaller size");
   }
   const Vec3& s = volume.spacing();
   if (const double least = kLeastSize * s.minCoeff(); options.size < (1.0 - 1e-6) * least) {
-    return bad_option("tets of size " + fmt_length(options.size) + " mm are smaller than half a voxel; give " +
-                      fmt_length(least) + " or more, or an image in the right unit");
+    return bad_image("tets of size " + fmt_length(options.size) + " mm are smaller than half a voxel; give " +
+                     fmt_length(least) + " or more, or an image in the right unit");
   }
   const double cubes = voxels * s.x() * s.y() * s.z() / (options.size * options.size * options.size);
   if (options.grade == 0 && kTetsPerCube * cubes > kMostTets) {
-    return bad_option("tets of size " + std::to_string(options.size) +
-                      " mm would be more than 100 million; give a larger size");
+    return bad_image("tets of size " + fmt_length(options.size) +
+                     " mm would be more than 100 million; give a larger size");
   }
   if (cubes_along(volume, options.size) > kMostCubes) {
-    return bad_option("the size of tets is too small for the image; give a larger one");
+    return bad_image("the size of tets is too small for the image; give a larger one");
   }
   return {};
 }
@@ -96,8 +101,8 @@ class LabelMesher {
     progress();
     make_tets();
     if (tets_.tets.empty()) {
-      return bad_option("no label is thick enough: of tets of " + std::to_string(options_.size) +
-                        " mm none lies mostly in one; give a smaller size, or a finer image");
+      return bad_image("no label is thick enough: of tets of " + fmt_length(options_.size) +
+                       " mm none lies mostly in one; give a smaller size, or a finer image");
     }
     fit_interfaces();
     Result<TetMesh> mesh = TetMesh::build(placed());

@@ -150,8 +150,11 @@ void place(const Reader& in, ImageHeader& header) {
   header.layout.origin *= in.unit_mm();
 }
 
+/// Beside a.hdr, or a.hdr.gz, lies a.img.
 std::string name_of_images(const std::string& header) {
-  return std::filesystem::path(header).stem().string() + ".img";
+  std::filesystem::path name = header;
+  if (lower_case(name.extension().string()) == ".gz") name.replace_extension();
+  return name.stem().string() + ".img";
 }
 
 }  // namespace

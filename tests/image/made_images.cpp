@@ -126,6 +126,16 @@ MadeImage large_organ() {
   return {"organ of 256^3", organ_at, 256, Vec3::Ones(), 0, {1, 2, 3, 4, 5}, {true, true, true, true, true}};
 }
 
+MadeImage block(bool is_turned) {
+  const Truth truth = [is_turned](const Vec3& p) {
+    Vec3 q = p - Vec3(32.5, 32.5, 32.5);
+    if (is_turned) q = Vec3(0.8 * q.x() + 0.6 * q.y(), 0.8 * q.y() - 0.6 * q.x(), q.z());
+    if (is_turned) q = Vec3(q.x(), 0.96 * q.y() + 0.28 * q.z(), 0.96 * q.z() - 0.28 * q.y());
+    return std::abs(q.x()) < 20 && std::abs(q.y()) < 14 && std::abs(q.z()) < 9 ? 1 : 0;
+  };
+  return {is_turned ? "block, turned" : "block", truth, 64, Vec3::Ones(), 0, {1}, {true}};
+}
+
 std::vector<MadeImage> made_images() {
   return {ball_in_ball(), triple_junctions(), thin_shell(), vessel_tree(), noisy_balls()};
 }

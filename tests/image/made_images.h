@@ -33,6 +33,8 @@ MadeImage vessel_tree();
 MadeImage noisy_balls();
 /// Two vertebrae (1) with a canal, the disc between them (2), and muscle around (3): a segment of a spine.
 MadeImage spine_segment();
+/// A block of 40 × 28 × 18 mm with sharp edges, along the axes or across them.
+MadeImage block(bool is_turned);
 /// Five labels in a box of 256 mm: an organ with two tumours, a vessel and a bone beside it.
 MadeImage large_organ();
 /// The first five.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "image/made_images.h"
 #include "image/organ_judge.h"
 #include "incise/mesh/bounds.h"
@@ -58,6 +60,16 @@ TEST(MeshLabels, noise) {
 
 TEST(MeshLabels, a_shell_of_two_voxels) {
   expect_good(thin_shell(18), of_size(4));
+}
+
+TEST(MeshLabels, a_block_keeps_its_edges_and_its_flat_sides) {
+  for (const bool is_turned : {false, true}) {
+    const MadeImage made = block(is_turned);
+    expect_good(made, of_size(4));
+    const OrganFigures figures = judge(made, mesh_labels(to_image(made), of_size(4))->mesh);
+    EXPECT_LE(figures.mean_error, 0.12);
+    EXPECT_LE(figures.p99_error, 0.6);
+  }
 }
 
 TEST(MeshLabels, without_grading_and_maintenance) {
@@ -147,6 +159,17 @@ TEST(MeshLabels, says_what_is_wrong) {
   EXPECT_NE(message(image, of_size(1e6)).find("a smaller size"), std::string::npos);
   image::keep_labels(image, {});
   EXPECT_NE(message(image, of_size(4)).find("choose other labels"), std::string::npos);
+}
+
+TEST(MeshLabels, what_the_image_is_not_fit_for_is_no_bad_argument) {
+  image::LabelImage image = small_ball();
+  EXPECT_EQ(mesh_labels(image, of_size(0)).error().code, ErrorCode::kBadArgument);
+  EXPECT_EQ(mesh_labels(image, of_size(0.2)).error().code, ErrorCode::kBadFile);
+  const Error huge = mesh_labels(image, of_size(1e300)).error();
+  EXPECT_EQ(huge.code, ErrorCode::kBadFile);
+  EXPECT_NE(huge.message.find("of 1e+300 mm"), std::string::npos) << huge.message;
+  std::fill(image.voxels.begin(), image.voxels.end(), std::uint16_t{0});
+  EXPECT_EQ(mesh_labels(image, of_size(2)).error().code, ErrorCode::kBadFile);
 }
 
 TEST(MeshLabels, a_line_of_voxels_is_said_to_be_too_thin) {
