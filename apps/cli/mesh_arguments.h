@@ -17,6 +17,7 @@ struct MeshArguments {
   std::vector<int> labels;
   std::vector<std::string> merges, layers;
   std::vector<int> layers_in;
+  std::vector<std::string> may_lose;  ///< labels, or "all"
   int halvings = 2;
   unsigned threads = 1;
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command `incise mesh`: a segmented scan, or a surface, becomes tets.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -27,16 +29,15 @@ namespace {
 using namespace incise;
 namespace fs = std::filesystem;
 
+constexpr const char* kAll = "all";  // labels
+
 /// What is wrong with the arguments, or nothing.
 std::string usage_problem(const MeshArguments& a) {
   for (const std::string& merge : a.merges) {
     if (!app::parse_merge(merge)) return "--merge " + merge + ": two labels are needed, as in --merge 2=1";
   }
-  for (const std::string& layer : a.layers) {
-    if (!app::parse_layer(layer)) {
-      return "--layers " + layer + ": a name and a thickness in mm are needed, as in --layers skin=1.5,fat=8";
-    }
-  }
+  if (!(a.size > 0) || !std::isfinite(a.size)) return "--size must be above 0 mm; give a larger one";
+  if (const std::string problem = app::problem_of_layers(a.layers); !problem.empty()) return problem;
   if (!a.layers_in.empty() && a.layers.empty()) return "--layers-in says where layers grow; give them by --layers";
   if (!a.picture.empty() && fs::path(a.picture).extension() != ".png") {
     return "--picture " + a.picture + ": unknown extension; pictures are .png";
@@ -111,6 +112,17 @@ Status write_outputs(const MeshArguments& a, const MeshReport& report, const Ter
   return write_report(a, report, terminal);
 }
 
+/// Labels that are lost and may not be, with commas between.
+std::string lost_labels(const MeshArguments& a, const app::Organ& organ) {
+  std::string lost;
+  for (const std::int32_t label : organ.lost) {
+    const bool may_be = std::any_of(a.may_lose.begin(), a.may_lose.end(),
+                                    [&](const std::string& text) { return text == kAll || std::stol(text) == label; });
+    if (!may_be) lost += (lost.empty() ? "" : ",") + std::to_string(label);
+  }
+  return lost;
+}
+
 /// Milliseconds since the last call.
 class Watch {
  public:
@@ -140,10 +152,7 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   report.read_ms = watch.lap();
   print_notes(input->file.notes, arguments.input, terminal);
   const Result<app::Organ> organ = make_organ(job, *input, terminal);
-  if (!organ.ok()) {
-    const bool is_usage = organ.error().code == ErrorCode::kBadArgument;
-    return fail(terminal, organ.error(), is_usage ? kUsage : exit_of(organ.error()));
-  }
+  if (!organ.ok()) return fail(terminal, organ.error(), exit_of(organ.error()));
   report.organ = &*organ;
   report.mesh_ms = watch.lap();
   report.is_valid = validate(organ->made.mesh, ValidateLevel::kGeometry).ok;
@@ -157,7 +166,12 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
     return fail(terminal, status.error(), status.error().code == ErrorCode::kBadArgument ? kUsage : kFailure);
   }
   if (!arguments.has_report_on_stdout()) terminal.summary(to_text(report), arguments.output.is_stdout());
-  return kDone;
+  const std::string lost = lost_labels(arguments, *organ);
+  if (lost.empty()) return kDone;
+  return fail(terminal,
+              arguments.input + ": less than half came out of label " + lost +
+                  "; use a smaller --size, choose others (--labels), merge (--merge), or allow it: --may-lose " + lost,
+              kCheckFailed);
 }
 
 }  // namespace
@@ -182,19 +196,27 @@ Command add_mesh(CLI::App& root) {
       ->required();
   add_format(*mesh, a.output.format);
   mesh->add_option("--size", a.size, "Size of the tets where labels meet, mm; finer where a label is thin")->required();
-  mesh->add_option("--labels", a.labels, "Mesh these labels alone: 1,3")->delimiter(',');
+  mesh->add_option("--labels", a.labels, "Mesh these labels alone: 1,3")->delimiter(',')->check(app::problem_of_label);
   mesh->add_option("--merge", a.merges, "A=B: give label A's voxels to label B first; 2=1,3=1 for several")
       ->delimiter(',');
   mesh->add_option("--layers", a.layers,
                    "NAME=MM: layers from the surface inwards, as regions of their own: skin=1.5,fat=8")
       ->delimiter(',');
-  mesh->add_option("--layers-in", a.layers_in, "Labels that layers may take from (default: all): 1,3")->delimiter(',');
+  mesh->add_option("--layers-in", a.layers_in, "Labels that layers may take from (default: all): 1,3")
+      ->delimiter(',')
+      ->check(app::problem_of_label);
   mesh->add_option("--names", a.names, "Text file: a label and its name on each line");
   mesh->add_option("--smooth", a.smooth, "Smoothing of the voxels' steps, voxels, 0.4 to 10 (default 0.7)");
   mesh->add_option("--grade", a.grade,
                    "Growth of the tets per mm of distance from where labels meet, 0 to 10 (default 0.5)");
   mesh->add_option("--halvings", a.halvings,
                    "How often the size may be halved where a label is thin, 0 to 4 (default 2); never below a voxel");
+  mesh->add_option(
+          "--may-lose", a.may_lose,
+          "Labels of which less than half may come out, or all; without it such a mesh is written, but the exit "
+          "code is 4")
+      ->delimiter(',')
+      ->check([](const std::string& text) { return text == kAll ? "" : app::problem_of_label(text); });
   add_report(*mesh, a.report, a.as_json);
   mesh->add_option(
       "--picture", a.picture,

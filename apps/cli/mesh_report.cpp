@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "incise/mesh/bounds.h"
@@ -38,6 +39,10 @@ Json input_json(const MeshReport& report) {
           {"notes", report.input->file.notes}};
 }
 
+bool is_among(const std::vector<std::int32_t>& labels, std::int32_t label) {
+  return std::find(labels.begin(), labels.end(), label) != labels.end();
+}
+
 Json labels_of(const MeshReport& report) {
   Json labels = Json::array();
   for (const image::LabelOutcome& l : report.organ->made.labels) {
@@ -47,7 +52,8 @@ Json labels_of(const MeshReport& report) {
                       {"image_volume_mm3", l.image_volume},
                       {"tets", l.tets},
                       {"volume_mm3", l.volume},
-                      {"relative_error", relative_error(l)}});
+                      {"relative_error", relative_error(l)},
+                      {"is_lost", is_among(report.organ->lost, l.label)}});
   }
   return labels;
 }
@@ -90,6 +96,7 @@ std::string to_json(const MeshReport& report) {
                  {"merge", a.merges},
                  {"layers", a.layers},
                  {"layers_in", a.layers_in},
+                 {"may_lose", a.may_lose},
                  {"threads", a.threads}}},
                {"coordinates", report.input->is_scan ? "RAS, mm" : "of the surface"},
                {"mesh",
@@ -98,6 +105,7 @@ std::string to_json(const MeshReport& report) {
                  {"components", find_components(mesh).count()},
                  {"bounds", {to_json(box.lo), to_json(box.hi)}}}},
                {"labels", labels_of(report)},
+               {"lost_labels", report.organ->lost},
                {"layers", layers_of(report)},
                {"island_voxels", made.island_voxels},
                {"relabelled_tets", made.relabelled_tets},

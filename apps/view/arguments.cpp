@@ -63,8 +63,12 @@ void add_input(CLI::App& root, Arguments& a) {
 void add_scan(CLI::App& root, Arguments& a) {
   root.add_option("--layers", a.layers, "Scan: NAME=MM, layers from the surface inwards: skin=1.5,fat=8")
       ->delimiter(',');
-  root.add_option("--layers-in", a.layers_in, "Scan: labels that layers may take from (default: all)")->delimiter(',');
-  root.add_option("--labels", a.labels, "Scan: mesh these labels alone: 1,3")->delimiter(',');
+  root.add_option("--layers-in", a.layers_in, "Scan: labels that layers may take from (default: all)")
+      ->delimiter(',')
+      ->check(app::problem_of_label);
+  root.add_option("--labels", a.labels, "Scan: mesh these labels alone: 1,3")
+      ->delimiter(',')
+      ->check(app::problem_of_label);
   root.add_option("--names", a.names, "Scan: text file, a label and its name on each line; names choose materials");
   root.add_option("--halvings", a.halvings, "Scan: how often the size may be halved where a label is thin (default 2)")
       ->check(CLI::Range(0, 4));
@@ -199,11 +203,7 @@ std::string scan_problem(const Arguments& a) {
   const bool has_scan = a.has_scan();
   if (has_scan && !(a.tet_size > 0))
     return a.file + ": a scan is meshed first; say by --size MM how large its tets are";
-  for (const std::string& layer : a.layers) {
-    if (!app::parse_layer(layer)) {
-      return "--layers " + layer + ": a name and a thickness in mm are needed, as in --layers skin=1.5,fat=8";
-    }
-  }
+  if (const std::string problem = app::problem_of_layers(a.layers); !problem.empty()) return problem;
   const bool asks = !a.layers.empty() || !a.layers_in.empty() || !a.labels.empty() || !a.names.empty() ||
                     !a.mesh.empty() || a.tet_size > 0;
   if (asks && !has_scan)

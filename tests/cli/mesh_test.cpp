@@ -145,8 +145,19 @@ TEST(CliMesh, tells_of_labels_that_did_not_come_out_as_they_are) {
   const std::size_t voxels = bytes.size() - 24 * 24 * 24;
   for (std::size_t i = 0; i < 24; ++i) bytes[voxels + (2 * 24 + 2) * 24 + i] = '\3';  // a line of voxels
   const std::string image = folder.write("line.mha", bytes), out = folder / "line.mesh";
-  const Outcome made = run({"mesh", image, "-o", out, "--size", "1"});
-  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string report = folder / "line.json";
+  const Outcome made = run({"mesh", image, "-o", out, "--size", "1", "--report", report});
+  ASSERT_EQ(made.code, 4) << made.err;
+  EXPECT_NE(made.err.find("error: " + image + ": less than half came out of label 3; "), std::string::npos) << made.err;
+  const json figures = json::parse(read(report));
+  EXPECT_EQ(figures["lost_labels"], json::parse("[3]"));
+  EXPECT_EQ(figures["labels"][2]["is_lost"], true);
+  EXPECT_EQ(figures["labels"][0]["is_lost"], false);
+  EXPECT_TRUE(incise::io::read_mesh(out).ok());
+  for (const char* allowed : {"3", "all", "1,3"}) {
+    EXPECT_EQ(run({"mesh", image, "-o", out, "--size", "1", "--may-lose", allowed}).code, 0) << allowed;
+  }
+  EXPECT_EQ(run({"mesh", image, "-o", out, "--size", "1", "--may-lose", "1"}).code, 4);
   EXPECT_NE(made.err.find("label 3 is too small or too thin to be there"), std::string::npos) << made.err;
   EXPECT_EQ(made.err.find("label 1"), std::string::npos) << made.err;
 }
@@ -183,11 +194,24 @@ TEST(CliMesh, says_what_is_wrong_and_writes_nothing) {
   expect(2, "layer skin of 0.5 mm is thinner than 1.2 times the finest tets", {"--layers", "skin=0.5"});
   expect(2, "give them by --layers", {"--layers-in", "1"});
   expect(3, "has no label 5", {"--layers", "skin=2", "--layers-in", "5"});
+  expect(2, "there is a layer of this name already", {"--layers", "skin=3,Skin=2"});
+  expect(2, "'' is no label", {"--labels", ""});
+  expect(2, "'1x' is no label", {"--labels", "1,1x"});
+  expect(2, "'' is no label", {"--layers", "skin=2", "--layers-in", ""});
   expect(2, "two files of this command", {"--report", out});
   expect(3, "names.txt:1: a label and its name are needed", {"--names", folder.write("names.txt", "liver 1\n")});
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"balls.mha", "names.txt"}));
-  EXPECT_NE(run({"mesh", image, "-o", out, "--size", "0"}).err.find("larger one"), std::string::npos);
+  const auto expect_size = [&](const std::string& size, int code, const std::string& part) {
+    const Outcome mesh = run({"mesh", image, "-o", out, "--size", size});
+    EXPECT_EQ(mesh.code, code) << mesh.err;
+    EXPECT_NE(mesh.err.find(part), std::string::npos) << mesh.err;
+  };
+  expect_size("0", 2, "larger one");
+  expect_size("1e300", 3, image + ": no label is thick enough: of tets of 1e+300 mm");
+  expect_size("0.1", 3, image + ": tets of size 0.1 mm are smaller than half a voxel");
   EXPECT_EQ(run({"mesh", image, "-o", folder / "a.xyz", "--size", "2"}).code, 2);
+  const std::string cut = folder.write("cut.nii.gz", std::string("\x1f\x8b\x08\0\0\0\0\0\0\3abc", 13));
+  EXPECT_NE(run({"mesh", cut, "-o", out, "--size", "2"}).err.find(cut + ": "), std::string::npos);
   EXPECT_EQ(run({"mesh", folder.write("a.nii", "none"), "-o", out, "--size", "2"}).code, 3);
 }
 

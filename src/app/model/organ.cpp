@@ -2,6 +2,7 @@
 #include "app/model/organ.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -124,22 +125,33 @@ Status add_layers(const OrganJob& job, OrganInput& input, Organ& organ, double& 
   return {};
 }
 
-/// Labels that did not come out as the image has them.
+/// Labels that did not come out as the image has them. What islands lost counts for those that are lost, not for those
+/// that are off: specks are noise.
 void note_labels(const OrganJob& job, const image::LabelImage& image, Organ& organ) {
-  constexpr double kMostLost = 0.05;  // of a label's volume
+  constexpr double kMostLost = 0.05, kLost = 0.5;  // of a label's volume
+  constexpr std::size_t kMostTold = 8;
   const std::vector<std::uint64_t> counts = image.count_voxels();
+  std::size_t told = 0;
   for (const image::LabelOutcome& label : organ.made.labels) {
     const std::size_t index = image.find_label(label.label);
     if (index == counts.size() || counts[index] == 0) continue;  // layers took all of it
+    const double had = std::max(label.image_volume, static_cast<double>(counts[index]) * image.voxel_volume());
+    if (label.volume < kLost * had) organ.lost.push_back(label.label);
     const double error = label.image_volume > 0 ? label.volume / label.image_volume - 1 : 0;
     const std::string which = job.input + ": label " + std::to_string(label.label);
+    if (label.tets > 0 && std::abs(error) <= kMostLost) continue;
+    if (++told > kMostTold) continue;
     if (label.tets == 0) {
       organ.notes.push_back(which + " is too small or too thin to be there; use a smaller --size, or a finer image");
-    } else if (std::abs(error) > kMostLost) {
+    } else {
       organ.notes.push_back(which + " is " + std::to_string(std::lround(100 * std::abs(error))) + " % " +
                             (error > 0 ? "larger" : "smaller") +
                             " than in the image; use a smaller --size, or more --halvings");
     }
+  }
+  if (told > kMostTold) {
+    organ.notes.push_back(job.input + ": and so are " + std::to_string(told - kMostTold) +
+                          " more labels; the report names all (--report)");
   }
 }
 
@@ -191,6 +203,27 @@ std::optional<image::Layer> parse_layer(const std::string& text) {
   return layer;
 }
 
+std::string problem_of_layers(const std::vector<std::string>& layers) {
+  std::vector<std::string> names;
+  for (const std::string& text : layers) {
+    const std::optional<image::Layer> layer = parse_layer(text);
+    if (!layer) return "--layers " + text + ": a name and a thickness in mm are needed, as in --layers skin=1.5,fat=8";
+    std::string name = layer->name;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (std::find(names.begin(), names.end(), name) != names.end()) {
+      return "--layers " + text + ": there is a layer of this name already; give each a name of its own";
+    }
+    names.push_back(std::move(name));
+  }
+  return {};
+}
+
+std::string problem_of_label(const std::string& text) {
+  std::int32_t label = 0;
+  return parse_label(text, label) ? "" : "'" + text + "' is no label: whole numbers are needed, as in 1,3";
+}
+
 Result<OrganInput> read_organ(const OrganJob& job) {
   OrganInput input;
   input.is_scan = !is_surface_file(job.input);
@@ -221,7 +254,7 @@ Result<Organ> mesh_organ(const OrganJob& job, OrganInput& input) {
   options.volumes = input.volumes;
   options.progress = job.progress;
   Result<image::LabelMesh> made = image::mesh_labels(input.file.image, options);
-  if (!made.ok()) return made.error();
+  if (!made.ok()) return Error{made.error().code, job.input + ": " + made.error().message};
   organ.made = std::move(made).value();
   note_labels(job, input.file.image, organ);
   note_mesh(job, organ);

@@ -56,6 +56,7 @@ struct Organ {
   std::vector<std::int32_t> layers;           ///< labels of the layers
   std::array<std::size_t, 3> finer{1, 1, 1};  ///< as in `image::LayeredImage`
   std::vector<std::string> notes;             ///< what the user may want to know, in words
+  std::vector<std::int32_t> lost;             ///< labels of which less than half came out; a note says so of each
 };
 
 /// Whether a file is a triangle surface, or a label image, by its extension (also before `.gz`).
@@ -66,6 +67,12 @@ struct Organ {
 [[nodiscard]] std::optional<LabelMerge> parse_merge(const std::string& text);
 /// "skin=1.5"; nothing where it is something else. Its thickness may be out of range.
 [[nodiscard]] std::optional<image::Layer> parse_layer(const std::string& text);
+
+/// What is wrong with layers as given on a command line, with the option's name, or nothing: each needs a name of its
+/// own (case does not count) and a thickness.
+[[nodiscard]] std::string problem_of_layers(const std::vector<std::string>& layers);
+/// What is wrong with one label of a list, or nothing.
+[[nodiscard]] std::string problem_of_label(const std::string& text);
 
 /// Reads names and image, or samples the surface, and chooses labels.
 /// Errors: of the readers; kBadFile for a label that is not there. They name the file.
