@@ -13,6 +13,7 @@
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/validate.h"
+#include "support/bodies.h"
 #include "support/mirror_checks.h"
 #include "support/random.h"
 
@@ -252,6 +253,45 @@ TEST(Continuation, of_one_stroke_back_to_its_start_cuts_a_core_out) {
       EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
       EXPECT_LE(measure_quality(engine.mesh()).lr_max, 60.0);
     }
+  }
+}
+
+/// Strokes that overlap by half an element each: what lies a little beyond the last one's end is cut by the next, though
+/// that ends in the same tet an element further on.
+TEST(Continuation, of_strokes_that_overlap_cuts_what_lies_between_their_ends) {
+  Engine engine = Engine::create(TetMesh::build(jittered_cube(4, 1)).value()).value();
+  const Vec3 from(0.7227295, 2.3809363, -1.0594947), to(1.5339349, 0.1533637, 2.7693258);
+  const Vec3 forwards(-0.3919509, -0.8288694, -0.3991867);
+  const auto at = [&](double way) { return BladePose{{from + way * forwards, to + way * forwards}, forwards}; };
+  for (unsigned i = 0; i < 6; ++i) {
+    const double end = 0.341273 + 0.341273 * i, begin = i == 0 ? 0.0 : end - 0.491093;
+    ASSERT_TRUE(engine.begin_stroke(at(begin)).ok());
+    ASSERT_TRUE(engine.step(at(0.5 * (begin + end))).ok());
+    ASSERT_TRUE(engine.step(at(end)).ok());
+    ASSERT_TRUE(engine.end_stroke().ok());
+  }
+  EXPECT_EQ(find_components(engine.mesh()).count(), 2U);
+}
+
+/// Five passes up to a quarter of an element beside one another are one wall, its rim included.
+TEST(Continuation, of_passes_beside_one_another_adds_next_to_nothing) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const RandomPlane plane(seed);
+    Random random(seed);
+    Engine engine = engine_of_cube();
+    const std::size_t before = engine.mesh().tet_count();
+    std::size_t once = 0;
+    for (unsigned pass = 0; pass < 5; ++pass) {
+      RandomPlane beside = plane;
+      beside.centre += random.real(-0.12, 0.12) * kElement * plane.along.cross(plane.forwards);
+      ASSERT_TRUE(engine.begin_stroke(beside.at(-1.0)).ok());
+      for (unsigned i = 1; i <= 8; ++i) ASSERT_TRUE(engine.step(beside.at(-1.0 + 0.125 * i)).ok());
+      ASSERT_TRUE(engine.end_stroke().ok());
+      if (pass == 0) once = engine.mesh().tet_count();
+    }
+    const double few = 40, added = static_cast<double>(engine.mesh().tet_count()) - static_cast<double>(before);
+    EXPECT_LE(added, 1.6 * std::max(few, static_cast<double>(once) - static_cast<double>(before)));
   }
 }
 
