@@ -256,8 +256,8 @@ TEST(Continuation, of_one_stroke_back_to_its_start_cuts_a_core_out) {
   }
 }
 
-/// Strokes that overlap by half an element each: what lies a little beyond the last one's end is cut by the next, though
-/// that ends in the same tet an element further on.
+/// Strokes that overlap by half an element each: what lies a little beyond the last one's end is cut by the next,
+/// though that ends in the same tet an element further on.
 TEST(Continuation, of_strokes_that_overlap_cuts_what_lies_between_their_ends) {
   Engine engine = Engine::create(TetMesh::build(jittered_cube(4, 1)).value()).value();
   const Vec3 from(0.7227295, 2.3809363, -1.0594947), to(1.5339349, 0.1533637, 2.7693258);
