@@ -357,7 +357,7 @@ TEST_F(Simulate, refuses_what_cannot_be_replayed) {
   expect("\"radius\":0.2},{\"kind\":\"rod\"", "\"radius\":-0.2},{\"kind\":\"rod\"",
          "log.jsonl:3: the call \"frame\" cannot be made");
   expect("\"cells\":[3,2,2]", "\"cells\":[3,2,3]", "is not the model of the recording");
-  expect("\"damping\":1.5", "\"damping\":-1.5", "log.jsonl:1: damping is -1.5");
+  expect("\"damping\":1.5", "\"damping\":-1.5", "log.jsonl:1: scene.damping is -1.5");
   expect("\"version\":1", "\"version\":2", "log.jsonl:1: version is 2");
 }
 
