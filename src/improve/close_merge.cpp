@@ -73,8 +73,7 @@ bool CloseMerger::begin(Care& care) {
   const TetMesh& mesh = care.mesh;
   star_ = plan_.fan;
   star_.insert(star_.end(), plan_.around.begin(), plan_.around.end());
-  const auto has_region = [&](TetId tet) { return mesh.region(tet) == mesh.region(star_.front()); };
-  if (!care.may_change(star_) || !std::all_of(star_.begin(), star_.end(), has_region)) return false;
+  if (!care.may_change(star_) || !has_one_region(mesh, star_)) return false;
   worst_ = worst_of(care, star_);
   double sum = 0;
   std::size_t count = 0;

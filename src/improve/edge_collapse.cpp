@@ -226,12 +226,34 @@ bool EdgeCollapser::keep_volume(const Care& care) {
     lost6[at] += patches_[i].lost6;
   }
   Vec3 step = Vec3::Zero();
-  if (!find_volume_step(merged, lost6, step)) {
+  if (!find_volume_step(care.mesh, merged, lost6, step)) {
     return false;
   }
   place_ += step;
   collect_after(care);
   return step.norm() <= kGreatestStep * longest_;
+}
+
+/// The step of the merged vertex that gives every surface its volume back, and where regions meet each of these. No
+/// vertex of a border is merged into another: what is lost is one region's.
+bool EdgeCollapser::find_volume_step(const TetMesh& mesh, const VertexSurfaces& merged,
+                                     const std::array<double, 2>& lost6, Vec3& step) const {
+  if (has_one_region(mesh, star_) && has_one_region(mesh, around_)) {
+    return incise::find_volume_step(merged, lost6, step);
+  }
+  RegionVolumes volumes;
+  volumes.lose(mesh.region(star_.front()), patches_[0].lost6 + patches_[1].lost6);
+  for (const TetId tet : star_) {
+    if (mesh.corner_of(tet, plan_.into) == 4) add_tet(volumes, mesh, tet, plan_.from);
+  }
+  for (const TetId tet : around_) {
+    if (mesh.corner_of(tet, plan_.from) == 4) add_tet(volumes, mesh, tet, plan_.into);
+  }
+  for (unsigned i = 0; i < std::min(merged.count, 2U); ++i) {
+    const SurfaceAt& surface = merged.surfaces[i];
+    if (surface.tag != kBorderTag) volumes.add_surface(surface.vector_area, lost6[i]);
+  }
+  return has_one_region(mesh, star_) && merged.count <= 2 && volumes.find_step(step);
 }
 
 bool EdgeCollapser::is_short_enough(const Care& care) const {
@@ -283,20 +305,38 @@ bool EdgeCollapser::keeps_surfaces(const Care& care) {
       return false;
     }
   }
-  return !moves(care) || keeps_skin_beside(care);
+  return !moves(care) || (keeps_skin_beside(care) && keeps_borders_beside(care));
 }
 
-/// Whether the skin beside the merged faces stays in its place, too: their common vertex moves.
-bool EdgeCollapser::keeps_skin_beside(const Care& care) {
-  Piece before, after;
-  for_each_face(care.mesh, around_, plan_.into, plan_.from, [&](std::uint32_t tag, Side side) {
-    if (tag != 0) return;
+/// The faces with a tag around `into` that are not merged, before and after it moves.
+void EdgeCollapser::collect_beside(const Care& care, std::uint32_t tag, Piece& before, Piece& after) const {
+  for_each_face(care.mesh, around_, plan_.into, plan_.from, [&](std::uint32_t own, Side side) {
+    if (own != tag) return;
     Facet facet = facet_of(care.mesh, side, plan_.into);
     add_facet(before, facet);
     facet[0] = place_;
     add_facet(after, facet);
   });
+}
+
+/// Whether the skin beside the merged faces stays in its place, too: their common vertex moves.
+bool EdgeCollapser::keeps_skin_beside(const Care& care) {
+  Piece before, after;
+  collect_beside(care, 0, before, after);
   return care.references.skin().keeps(before, after, skin_share(care));
+}
+
+/// The same for borders between regions, which the step of one region's volume may move.
+bool EdgeCollapser::keeps_borders_beside(const Care& care) {
+  if (!care.mesh.has_regions()) {
+    return true;
+  }
+  Piece before, after;
+  collect_beside(care, kBorderTag, before, after);
+  Reach reach;
+  return before.facets.empty() ||
+         care.references.allows(kBorderTag, before, after,
+                                surface_tolerance(care, kBorderTag, plan_.into, mean_spoke(before)), reach);
 }
 
 /// Whether tets that stand upright now stay so, with the merged vertex where it will stand.

@@ -17,8 +17,8 @@ class EdgeCollapser {
   ///
   /// A vertex merges only into one that is part of all its surfaces, along an edge that lies on them: a corner never
   /// does. Accepted where the link condition holds, the worst L/r of the vertex's star falls, no new edge is much
-  /// longer than the star's, the surfaces stay in place and enclose the same volume (where they are curved `into` moves
-  /// by the little that this takes), and no tet is inverted, at rest or now. Cost: about 2 µs.
+  /// longer than the star's, the surfaces stay in place, and they and every region enclose the same volume (where they
+  /// are curved `into` moves by the little that this takes), and no tet is inverted, at rest or now. Cost: about 2 µs.
   /// **Source:** Paper §2.5. Differs: the full link condition, and quality decides, not two thresholds.
   bool improve(Care& care, TetId tet);
 
@@ -41,11 +41,15 @@ class EdgeCollapser {
   void collect_before(const Care& care);
   void collect_after(const Care& care);
   bool keep_volume(const Care& care);
+  [[nodiscard]] bool find_volume_step(const TetMesh& mesh, const VertexSurfaces& merged,
+                                      const std::array<double, 2>& lost6, Vec3& step) const;
   [[nodiscard]] bool is_short_enough(const Care& care) const;
   [[nodiscard]] bool is_curved() const { return surfaces_.count > 0 && !surfaces_.is_flat(); }
   [[nodiscard]] bool improves(Care& care) const;
   [[nodiscard]] bool keeps_surfaces(const Care& care);
   [[nodiscard]] bool keeps_skin_beside(const Care& care);
+  [[nodiscard]] bool keeps_borders_beside(const Care& care);
+  void collect_beside(const Care& care, std::uint32_t tag, Piece& before, Piece& after) const;
   [[nodiscard]] bool keeps_current(const Care& care) const;
   [[nodiscard]] bool moves(const Care& care) const { return place_ != care.mesh.rest(plan_.into); }
   bool carry_out(Care& care);

@@ -10,11 +10,6 @@ inline namespace v0 {
 
 namespace {
 
-bool has_one_region(const TetMesh& mesh, const std::vector<TetId>& tets) {
-  return !mesh.has_regions() || std::all_of(tets.begin(), tets.end(),
-                                            [&](TetId tet) { return mesh.region(tet) == mesh.region(tets.front()); });
-}
-
 /// Whether the two boundary faces at the ends of an open fan lie in one plane and carry one tag.
 bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
   const std::size_t last = ring.tets.size() - 1;

@@ -64,9 +64,8 @@ bool VertexInserter::open_edge(const Care& care, VertexId a, VertexId b) {
   const Side first(ring_.tets.front(), mesh.corner_of(ring_.tets.front(), ring_.vertices[1]));
   const Side second(ring_.tets.back(), mesh.corner_of(ring_.tets.back(), ring_.vertices[last]));
   const Vec3 n = vector_area2(mesh, first), m = vector_area2(mesh, second);
-  const auto has_region = [&](TetId tet) { return mesh.region(tet) == mesh.region(ring_.tets.front()); };
   const double least = least_cosine(mesh.link(first).tag(), mesh.link(second).tag());
-  if (!(n.dot(m) > least * n.norm() * m.norm()) || !std::all_of(ring_.tets.begin(), ring_.tets.end(), has_region) ||
+  if (!(n.dot(m) > least * n.norm() * m.norm()) || !has_one_region(mesh, ring_.tets) ||
       (mesh.shape_of(a) & mesh.shape_of(b) & shape::kFront) != 0) {
     return false;
   }

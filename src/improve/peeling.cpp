@@ -169,8 +169,12 @@ bool Peeler::ends_in_spike(const Care& care) {
 }
 
 /// The step of a vertex that restores the volume: of the surface that is continued, or of all that is open around a
-/// vertex at a spike.
+/// vertex at a spike; of each region where there are others than the tet's.
 bool Peeler::find_volume_step(const Care& care, VertexId vertex, Vec3& step) const {
+  const auto is_own = [&](TetId tet) { return care.mesh.region(tet) == care.mesh.region(tet_); };
+  if (!std::all_of(star_.begin(), star_.end(), is_own)) {
+    return find_step_of_regions(care, vertex, step);
+  }
   return is_spike_ ? find_step_at_spike(care, vertex, step) : find_step_of_surface(care.mesh, vertex, step);
 }
 
@@ -199,6 +203,31 @@ bool Peeler::find_step_at_spike(const Care& care, VertexId vertex, Vec3& step) c
 }
 
 bool Peeler::find_step_of_surface(const TetMesh& mesh, VertexId vertex, Vec3& step) const {
+  return v0::find_volume_step(surfaces_without(mesh, vertex), {mesh.rest_volume6(tet_), 0.0}, step);
+}
+
+/// Other regions, and borders with them, stay as they are; so do other surfaces that stand there.
+bool Peeler::find_step_of_regions(const Care& care, VertexId vertex, Vec3& step) const {
+  const TetMesh& mesh = care.mesh;
+  RegionVolumes volumes;
+  volumes.lose(mesh.region(tet_), mesh.rest_volume6(tet_));
+  for (const TetId tet : star_) {
+    if (tet != tet_) add_tet(volumes, mesh, tet, vertex);
+  }
+  if (!is_spike_) {
+    const VertexSurfaces surfaces = surfaces_without(mesh, vertex);
+    if (surfaces.count > 2) return false;
+    for (unsigned i = 0; i < surfaces.count; ++i) {
+      const SurfaceAt& surface = surfaces.surfaces[i];
+      if (surface.tag != kBorderTag) volumes.add_surface(surface.vector_area, i == 0 ? mesh.rest_volume6(tet_) : 0.0);
+    }
+  }
+  return volumes.find_step(step) &&
+         step.norm() <= kSlack * surface_tolerance(care, tag_, vertex, longest_length(mesh, tet_));
+}
+
+/// The surfaces at a vertex once the tet is gone: first the one that its inner sides continue.
+VertexSurfaces Peeler::surfaces_without(const TetMesh& mesh, VertexId vertex) const {
   VertexSurfaces surfaces;
   for (const unsigned s : inner_) {
     if (mesh.vertices(tet_)[s] != vertex) {
@@ -213,7 +242,7 @@ bool Peeler::find_step_of_surface(const TetMesh& mesh, VertexId vertex, Vec3& st
       }
     }
   }
-  return v0::find_volume_step(surfaces, {mesh.rest_volume6(tet_), 0.0}, step);
+  return surfaces;
 }
 
 /// Where a vertex must go to restore the volume; false where that makes the worst tet no better.

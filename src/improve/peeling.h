@@ -17,9 +17,9 @@ class Peeler {
   /// `care.changed` holds the tets around the vertex that moved for it, and the one behind.
   ///
   /// The faces that come to light continue the surface. One of their vertices moves by the little that restores the
-  /// volume. Accepted where the worst tet around becomes better, the surface stays in place and no edge gets more than
-  /// two boundary faces. Cost: about 2 µs. **Source:** a 2-2 swap of Klingner & Shewchuk 2007. Differs: surfaces may be
-  /// curved, since the volume is restored.
+  /// volume, of each region where there are several. Accepted where the worst tet around becomes better, the surface
+  /// stays in place and no edge gets more than two boundary faces. Cost: about 2 µs. **Source:** a 2-2 swap of Klingner
+  /// & Shewchuk 2007. Differs: surfaces may be curved, since the volume is restored.
   bool improve(Care& care, TetId tet);
 
  private:
@@ -35,6 +35,8 @@ class Peeler {
   [[nodiscard]] bool find_volume_step(const Care& care, VertexId vertex, Vec3& step) const;
   [[nodiscard]] bool find_step_at_spike(const Care& care, VertexId vertex, Vec3& step) const;
   [[nodiscard]] bool find_step_of_surface(const TetMesh& mesh, VertexId vertex, Vec3& step) const;
+  [[nodiscard]] bool find_step_of_regions(const Care& care, VertexId vertex, Vec3& step) const;
+  [[nodiscard]] VertexSurfaces surfaces_without(const TetMesh& mesh, VertexId vertex) const;
   [[nodiscard]] bool find_step(Care& care, VertexId vertex, Vec3& place);
   void take_away(Care& care);
 

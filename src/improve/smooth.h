@@ -47,7 +47,8 @@ class Smoother {
   /// Tries to improve the worst tet around `vertex` by moving it. Where it was accepted `care.changed` holds its star.
   ///
   /// Newton steps on `StarEnergy`, held to what the vertex is part of: interior free, on a surface orthogonal to the
-  /// vector area of its faces, where two surfaces meet orthogonal to both: the volume on either side stays. Accepted
+  /// vector area of its faces, where two surfaces meet orthogonal to both, and to the gradient of each region's
+  /// volume: what is on either side stays. Accepted
   /// where the worst L/r of the star falls, no surface leaves its place, and no tet is inverted, at rest or now; for a
   /// bad tet on a curved surface also half, a quarter or an eighth of the way. Cost: about 2 µs. **Source:** Paper §3.2
   /// and §3.4. Differs: no average decides; the optimum instead of the centre.

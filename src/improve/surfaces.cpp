@@ -68,6 +68,34 @@ void find_front(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& 
   }
 }
 
+/// Whether a vertex that moves as found changes no volume already.
+bool keeps_volumes(const VertexSurfaces& found, const RegionVolumes::Held& held) {
+  const auto keeps = [&](const Vec3& direction) {
+    return found.mobility == Mobility::kLine ? std::abs(direction.dot(found.along)) <= kFlat
+                                             : is_same_plane(direction, found.along);
+  };
+  return std::all_of(held.directions.begin(), held.directions.begin() + held.count, keeps);
+}
+
+/// Where regions meet each keeps its volume: the line of a border and curved skin would hold the sum alone. What is not
+/// free already has one direction left, or none.
+void hold_regions(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star, VertexSurfaces& found) {
+  if (found.mobility == Mobility::kFixed || has_one_region(mesh, star)) {
+    return;
+  }
+  RegionVolumes volumes;
+  for (const TetId tet : star) add_tet(volumes, mesh, tet, vertex);
+  const RegionVolumes::Held held = volumes.held();
+  if (keeps_volumes(found, held)) {
+    return;
+  }
+  found.mobility = held.count == 2 ? Mobility::kLine : Mobility::kFixed;
+  found.along = held.directions[0].cross(held.directions[1]).normalized();
+  for (SurfaceAt& surface : found.surfaces) {
+    surface.is_flat = surface.is_flat && std::abs(found.along.dot(surface.first_normal)) <= kFlat;
+  }
+}
+
 }  // namespace
 
 void add_face(VertexSurfaces& found, std::uint32_t tag, const Vec3& area2) {
@@ -122,6 +150,10 @@ Vec3 vector_area2(const TetMesh& mesh, Side side) {
   return (mesh.rest(v[1]) - mesh.rest(v[0])).cross(mesh.rest(v[2]) - mesh.rest(v[0]));
 }
 
+void add_tet(RegionVolumes& volumes, const TetMesh& mesh, TetId tet, VertexId vertex) {
+  volumes.add(mesh.region(tet), -vector_area2(mesh, {tet, mesh.corner_of(tet, vertex)}));
+}
+
 std::int64_t surface_tag(const TetMesh& mesh, Side side) {
   const Link link = mesh.link(side);
   if (link.is_boundary()) {
@@ -147,6 +179,7 @@ VertexSurfaces surfaces_at(const TetMesh& mesh, VertexId vertex, const std::vect
     }
   }
   decide_mobility(found);
+  hold_regions(mesh, vertex, star, found);
   if ((bits & shape::kFront) != 0) {
     find_front(mesh, vertex, star, found);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "improve/constants.h"
+#include "improve/region_volumes.h"
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise {
@@ -15,7 +16,7 @@ struct SurfaceAt {
   std::uint32_t tag = 0;             ///< of `Link`; `kBorderTag` for a border between regions
   Vec3 vector_area = Vec3::Zero();   ///< twice the sum of its faces' vector areas, outwards
   Vec3 first_normal = Vec3::Zero();  ///< unit
-  bool is_flat = true;               ///< all faces in one plane, within `kFlat`
+  bool is_flat = true;               ///< all faces in one plane, within `kFlat`, which moves do not leave
 };
 
 /// Tag of borders between regions.
@@ -63,11 +64,16 @@ void decide_mobility(VertexSurfaces& found);
 /// Twice the vector area of a side, outwards.
 Vec3 vector_area2(const TetMesh& mesh, Side side);
 
+/// Adds what a tet at a vertex has to do with the volume of its region.
+void add_tet(RegionVolumes& volumes, const TetMesh& mesh, TetId tet, VertexId vertex);
+
 /// The tag of a side as maintenance sees it: of the boundary, `kBorderTag`, or -1 for an inner face.
 std::int64_t surface_tag(const TetMesh& mesh, Side side);
 
 /// Finds the surfaces at a vertex from its star. Moving it orthogonally to the vector area of every surface keeps the
-/// volume on either side exactly: the volume is linear in the vertex, with that gradient. Cost: O(star), about 0.2 µs.
+/// volume on either side exactly: the volume is linear in the vertex, with that gradient. Where regions meet it moves
+/// orthogonally to the gradient of each region's volume instead, which is the same unless a border meets something
+/// curved. Cost: O(star), about 0.2 µs.
 /// **Source:** Paper §2.5 (inside, surface and contour vertices). Differs: what a vertex may do follows from the faces
 /// around it, sharp edges of the skin included.
 VertexSurfaces surfaces_at(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& star);

@@ -3,6 +3,8 @@
 #include "improve/peeling.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 
 #include "improve/support.h"
 
@@ -42,8 +44,24 @@ TetSoup cube_with_filled_valley(double height) {
   return soup;
 }
 
+/// Which of two regions a tet belongs to, by its centroid.
+using IsFirst = std::function<bool(const Vec3&)>;
+
+void label(TetSoup& soup, const IsFirst& is_first) {
+  for (const auto& [a, b, c, d] : soup.tets) {
+    soup.regions.push_back(is_first(0.25 * (soup.points[a] + soup.points[b] + soup.points[c] + soup.points[d])) ? 1
+                                                                                                                : 2);
+  }
+}
+
+std::array<double, 2> region_volumes6(const TetMesh& mesh) {
+  std::array<double, 2> volumes{};
+  mesh.for_each_tet([&](TetId tet) { volumes[mesh.region(tet) == 1 ? 0 : 1] += mesh.rest_volume6(tet); });
+  return volumes;
+}
+
 /// A cube with a spike on a small triangle of its top, of this width and of 0.6 in length; its sides have this tag.
-TetMesh cube_with_spike(double width, std::uint32_t tag) {
+TetMesh cube_with_spike(double width, std::uint32_t tag, const IsFirst& is_first = {}) {
   TetSoup soup = kuhn_cube(4);
   const std::uint32_t a = point_of(1, 1, 4), b = point_of(2, 1, 4), c = point_of(2, 2, 4);
   const auto holds = [](const std::array<std::uint32_t, 4>& t, std::uint32_t v) {
@@ -66,6 +84,7 @@ TetMesh cube_with_spike(double width, std::uint32_t tag) {
   }
   add_positive(soup, {n, n + 1, n + 2, d});
   add_positive(soup, {n, n + 1, n + 2, n + 3});
+  if (is_first) label(soup, is_first);
   TetMesh mesh = build(std::move(soup));
   const TetId spike(static_cast<std::uint32_t>(mesh.tet_count() - 1));
   Transaction transaction(mesh);
@@ -163,6 +182,29 @@ TEST(Peeling, leaves_borders_between_regions) {
   TetMesh mesh = build(std::move(soup));
   EXPECT_FALSE(peel(mesh, worst_tet(mesh)));
   expect_valid(mesh, volume_of(mesh));
+}
+
+TEST(Peeling, beside_borders_keeps_the_volume_of_each_region) {
+  const std::array<IsFirst, 5> kinds = {
+      [](const Vec3& p) { return p.x() > 0.25; }, [](const Vec3& p) { return p.x() < 0.5; },
+      [](const Vec3& p) { return p.x() < 0.418; }, [](const Vec3& p) { return p.x() > 0.416; },
+      [](const Vec3& p) { return p.z() > 0.76; }};
+  std::array<unsigned, 2> peeled{};
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    TetSoup tip = cube_with_tip(0.004);
+    label(tip, [&](const Vec3& p) { return p.z() > 0.95 || kinds[kind](p); });
+    for (TetMesh mesh : {build(tip), cube_with_spike(0.003, 5, kinds[kind])}) {
+      const double volume = volume_of(mesh);
+      const std::array<double, 2> before = region_volumes6(mesh);
+      peeled[mesh.tet_count() > 386 ? 1 : 0] += peel(mesh, worst_tet(mesh)) ? 1U : 0U;
+      const std::array<double, 2> after = region_volumes6(mesh);
+      EXPECT_NEAR(after[0], before[0], 1e-14) << kind;
+      EXPECT_NEAR(after[1], before[1], 1e-14) << kind;
+      expect_valid(mesh, volume, 1e-14);
+    }
+  }
+  EXPECT_GT(peeled[0], 0U);
+  EXPECT_GT(peeled[1], 0U);
 }
 
 TEST(Peeling, leaves_tets_inside_and_those_with_one_boundary_face) {
