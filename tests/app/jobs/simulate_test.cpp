@@ -128,7 +128,7 @@ TEST_F(Simulate, a_wound_is_closed_by_sutures) {
     ASSERT_TRUE(simulation.frame(scene_input(scene, i)).ok());
   }
   EXPECT_GT(open, closed + 5);
-  for (const double x : {30.0, 40.0, 50.0}) EXPECT_LT(gape(x), closed + 0.3 * (open - closed)) << x;
+  for (const double x : {30.0, 40.0, 50.0}) EXPECT_LT(gape(x), closed + 0.33 * (open - closed)) << x;
   for (const SutureState& suture : simulation.sutures()) {
     EXPECT_EQ(suture.status, SutureStatus::kHolds);
     EXPECT_GT(suture.force, 0.02);
