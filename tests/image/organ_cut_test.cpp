@@ -98,7 +98,7 @@ class Borders {
 void expect_borders_stay(const Borders& before, const TetMesh& mesh) {
   const std::vector<double> distances = before.distances(mesh);
   ASSERT_GT(distances.size(), 100U);
-  EXPECT_LT(distances[distances.size() * 99 / 100], 0.05);
+  EXPECT_LT(distances[distances.size() * 99 / 100], 0.04);
   EXPECT_LT(distances.back(), 0.25);
 }
 
