@@ -25,6 +25,7 @@ incise_haptic_options to_c(const HapticToolOptions& options) {
   c.max_stretch = options.max_stretch;
   c.max_force = options.max_force;
   c.physics_period = options.physics_period;
+  c.link_delay = options.passivity.link_delay;
   return c;
 }
 
@@ -36,6 +37,7 @@ HapticToolOptions tool_options(const incise_haptic_options& c) {
   options.max_stretch = c.max_stretch;
   options.max_force = c.max_force;
   options.physics_period = c.physics_period;
+  options.passivity.link_delay = c.link_delay;
   return options;
 }
 

@@ -549,6 +549,7 @@ namespace Incise
             public double max_stretch;
             public double max_force;
             public double physics_period;
+            public double link_delay;
         }
 
         /// <summary>What a worker does.</summary>

@@ -288,11 +288,8 @@ TEST(CSimulation, bad_scenes_are_errors) {
   EXPECT_EQ(simulation, nullptr);
 }
 
-TEST(CHaptics, the_tool_pushes_back) {
-  incise_haptic_tool* tool = nullptr;
-  auto options = sized<incise_haptic_options>();
-  ASSERT_EQ(incise_default_haptic_options(&options, sizeof options), INCISE_OK);
-  ASSERT_EQ(incise_haptic_tool_create(&options, &tool), INCISE_OK) << incise_last_error();
+/// The force of a tool that has cut in by some way, and where it is then.
+void press(incise_haptic_tool* tool, double (&force)[3], double (&place)[3]) {
   const SimulationHandle simulation = hanging_cube();
   auto snapshot = sized<incise_haptic_snapshot>();
   ASSERT_EQ(incise_simulation_haptic_snapshot(simulation.get(), &snapshot), INCISE_OK);
@@ -307,11 +304,19 @@ TEST(CHaptics, the_tool_pushes_back) {
   snapshot.engaged_length = 0.01;
   ASSERT_EQ(incise_haptic_tool_accept(tool, &snapshot), INCISE_OK) << incise_last_error();
   EXPECT_EQ(incise_haptic_tool_accept(tool, &snapshot), INCISE_BAD_ARGUMENT) << "not newer";
-  double force[3] = {}, place[3] = {};
   for (int i = 0; i <= 40; ++i) {
     const double position[3] = {1e-4 * i, 0, 0}, velocity[3] = {0.1, 0, 0};
     ASSERT_EQ(incise_haptic_tool_tick(tool, 1e-3, position, velocity, force, place), INCISE_OK);
   }
+}
+
+TEST(CHaptics, the_tool_pushes_back) {
+  incise_haptic_tool* tool = nullptr;
+  auto options = sized<incise_haptic_options>();
+  ASSERT_EQ(incise_default_haptic_options(&options, sizeof options), INCISE_OK);
+  ASSERT_EQ(incise_haptic_tool_create(&options, &tool), INCISE_OK) << incise_last_error();
+  double force[3] = {}, place[3] = {};
+  press(tool, force, place);
   EXPECT_LT(force[0], 0);
   EXPECT_GT(place[0], 0);
   const double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -329,6 +334,25 @@ TEST(CHaptics, the_tool_pushes_back) {
   EXPECT_EQ(incise_haptic_tool_free(tool), INCISE_OK);
   options.max_force = -1;
   EXPECT_EQ(incise_haptic_tool_create(&options, &tool), INCISE_BAD_ARGUMENT);
+}
+
+TEST(CHaptics, a_link_that_is_late_is_told) {
+  incise_haptic_tool *here = nullptr, *far = nullptr;
+  auto options = sized<incise_haptic_options>();
+  ASSERT_EQ(incise_default_haptic_options(&options, sizeof options), INCISE_OK);
+  EXPECT_EQ(options.link_delay, 0);
+  ASSERT_EQ(incise_haptic_tool_create(&options, &here), INCISE_OK) << incise_last_error();
+  options.link_delay = 3e-3;
+  ASSERT_EQ(incise_haptic_tool_create(&options, &far), INCISE_OK) << incise_last_error();
+  double force_here[3] = {}, force_far[3] = {}, place[3] = {};
+  press(here, force_here, place);
+  press(far, force_far, place);
+  EXPECT_NE(force_here[0], force_far[0]);
+  EXPECT_EQ(incise_haptic_tool_free(here), INCISE_OK);
+  EXPECT_EQ(incise_haptic_tool_free(far), INCISE_OK);
+  options.link_delay = 0.06;
+  EXPECT_EQ(incise_haptic_tool_create(&options, &far), INCISE_BAD_ARGUMENT);
+  EXPECT_NE(std::string(incise_last_error()).find("delay"), std::string::npos) << incise_last_error();
 }
 
 }  // namespace

@@ -508,6 +508,7 @@ class incise_haptic_options(Structure):
         ("max_stretch", c_double),
         ("max_force", c_double),
         ("physics_period", c_double),
+        ("link_delay", c_double),
     ]
 
 

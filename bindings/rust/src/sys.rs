@@ -493,6 +493,7 @@ pub struct incise_haptic_options {
     pub max_stretch: f64,
     pub max_force: f64,
     pub physics_period: f64,
+    pub link_delay: f64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]

@@ -820,6 +820,7 @@ typedef struct incise_haptic_options {
   double max_stretch;        /* m, above 0 */
   double max_force;          /* N, above 0 */
   double physics_period;     /* s */
+  double link_delay;         /* s, one way between hand and tissue; 0 to 0.05; docs/haptics.md */
 } incise_haptic_options;
 /* Writes the first `size` bytes of the default options. */
 INCISE_API incise_status incise_default_haptic_options(incise_haptic_options* options, uint32_t size);
