@@ -78,7 +78,8 @@ TEST(Wound, LipsThatWereDrawnApartMeetAgain) {
     ASSERT_TRUE(simulation.frame({}).ok());
     double energy = simulation.body().energy().total();
     for (const detail::ContactTerm& term : simulation.body().state().contact.terms()) {
-      energy += detail::contact_energy(term, simulation.body().state().floats.data());
+      energy +=
+          detail::contact_energy(term, simulation.body().state().floats.data(), simulation.body().state().rows.rows());
     }
     rise = std::max(rise, energy - last);
     last = energy;

@@ -166,6 +166,33 @@ TEST(Body, TheSameCallsGiveTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(run_and_cut(2), hash);
 }
 
+/// The places at rest of the vertices in the order in which they are visited.
+std::vector<Vec3> visited_places(TetSoup soup) {
+  const TetMesh mesh = *TetMesh::build(std::move(soup));
+  DeformableBody body = make_body(mesh, {});
+  EXPECT_TRUE(body.advance(kStep).ok());
+  const auto& s = body.state();
+  std::vector<Vec3> places;
+  for (const auto part : {detail::SweepOrder::Part::kFirst, detail::SweepOrder::Part::kSecond}) {
+    for (const std::uint32_t v : s.order.awake(part)) places.push_back(s.rest[VertexId(v)]);
+  }
+  return places;
+}
+
+TEST(Body, VerticesAreVisitedInOneOrderWhateverThatOfTheFile) {
+  TetSoup soup = beam_soup(kBeam), shuffled = soup;
+  const auto count = static_cast<std::uint32_t>(soup.points.size());
+  const auto place = [&](std::uint32_t v) { return (v * 37 + 11) % count; };
+  ASSERT_NE(count % 37, 0U);
+  for (std::uint32_t v = 0; v < count; ++v) shuffled.points[place(v)] = soup.points[v];
+  for (auto& tet : shuffled.tets) {
+    for (std::uint32_t& v : tet) v = place(v);
+  }
+  const std::vector<Vec3> expected = visited_places(soup);
+  EXPECT_GT(expected.size(), count / 2);
+  EXPECT_EQ(visited_places(shuffled), expected);
+}
+
 // --- cuts under load
 
 /// A beam that is stretched by a fifth and cut across opens within one frame.

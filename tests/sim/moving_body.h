@@ -167,7 +167,7 @@ class MovingBody {
       ASSERT_NEAR(a.motions[v].reach, b.motions[v].reach, 1e-5F * b.motions[v].reach);
     }
     const double energy = fresh.energy().elastic;
-    ASSERT_NEAR(body_.energy().elastic, energy, 1e-10 * energy + 1e-16);
+    ASSERT_NEAR(body_.energy().elastic, energy, 1e-10 * std::abs(energy) + 1e-16);
   }
   /// The masses are those of the mesh: so it is where the density is the same everywhere.
   void expect_masses_of_fresh(double tolerance) {

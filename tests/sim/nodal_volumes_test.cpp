@@ -43,6 +43,7 @@ struct Scene {
   DeformableBody::State& state() {
     auto& s = const_cast<DeformableBody::State&>(body->state());  // NOLINT: tests look inside
     s.order.refresh();
+    s.list_awake_rows();
     s.list_pressed();
     for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
       s.motions[VertexId(v)].weight = 0;
@@ -64,7 +65,7 @@ TEST(NodalVolumes, AVisitSeesTheSlopeAndTheCurvatureOfTheEnergy) {
   std::vector<float> slopes(std::size_t{4} * scene.mesh.vertex_slots());
   s.find_slopes(slopes.data());
   for (std::uint32_t v = 0; v < scene.mesh.vertex_slots(); v += 3) {
-    const detail::Quadratic q = detail::quadratic_of(s.descent(), v);
+    const detail::Quadratic q = detail::quadratic_of(s.descent(), s.rows.of(VertexId(v)));
     const Mat3 stiffness = scene.body->local_stiffness(VertexId(v));
     const Vec3 place = s.places[v];
     for (int i = 0; i < 3; ++i) {

@@ -17,6 +17,8 @@ struct PlainDescent {
   const std::uint32_t* neighbour_slots = nullptr;
   const std::uint16_t* rings = nullptr;
   const void *stiffening = nullptr, *fibres = nullptr;
+  const std::uint32_t *rows = nullptr, *slots = nullptr;
+  const void *packed = nullptr, *parts = nullptr, *near = nullptr, *tets = nullptr;
 };
 
 void plain_sweep(const PlainDescent& descent, std::span<const std::uint32_t> order, bool is_backward);

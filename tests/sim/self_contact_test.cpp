@@ -115,6 +115,8 @@ TEST(ContactTerms, SlopesAreThoseOfTheEnergy) {
     detail::Descent descent;
     descent.places = places.data();
     descent.contact_terms = &term;
+    const std::array<std::uint32_t, 4> rows = {0, 1, 2, 3};
+    descent.rows = rows.data();
     for (std::uint32_t corner = 0; corner < 4; ++corner) {
       const detail::ContactUse use = corner;
       descent.contact_uses = &use;
@@ -125,8 +127,8 @@ TEST(ContactTerms, SlopesAreThoseOfTheEnergy) {
         std::vector<float> up = places, down = places;
         up[4 * corner + k] += step;
         down[4 * corner + k] -= step;
-        const double slope = (detail::contact_energy(term, up.data()) - detail::contact_energy(term, down.data())) /
-                             (2 * static_cast<double>(step));
+        const auto energy = [&](const auto& at) { return detail::contact_energy(term, at.data(), rows.data()); };
+        const double slope = (energy(up) - energy(down)) / (2 * static_cast<double>(step));
         EXPECT_NEAR(q.slope[k], slope, 0.05) << trial;
       }
       EXPECT_GE(q.curvature[0], 0);
@@ -172,7 +174,7 @@ Vec3 top_of(const MovingBody& moving) {
 double energy_with_contacts(MovingBody& moving) {
   double energy = moving.body().energy().total();
   for (const detail::ContactTerm& term : moving.state().contact.terms()) {
-    energy += detail::contact_energy(term, moving.state().floats.data());
+    energy += detail::contact_energy(term, moving.state().floats.data(), moving.state().rows.rows());
   }
   return energy;
 }

@@ -12,7 +12,9 @@
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/tet_mesh.h"
 #include "plain_kernel.h"
+#include "sim/body/kernel_rows.h"
 #include "sim/body/nodal_volumes.h"
+#include "sim/body/packed_stars.h"
 #include "support/random.h"
 
 #if INCISE_WITH_HIGHWAY
@@ -32,9 +34,9 @@ struct Scene {
   static constexpr std::size_t kPulls = 12;
 
   explicit Scene(std::uint64_t seed, double size = 0.1, bool averages = false, double stiffening = 0, double fibres = 0)
+      : Scene(seed, jittered_cube(seed), size, averages, stiffening, fibres) {}
+  Scene(std::uint64_t seed, TetSoup soup, double size, bool averages = false, double stiffening = 0, double fibres = 0)
       : random(seed) {
-    TetSoup soup = kuhn_cube(3);
-    jitter(soup, 0.15, seed);
     mesh = *TetMesh::build(std::move(soup));
     stars.stiffens = stiffening > 0 || fibres > 0;
     stars.has_fibres = fibres > 0;
@@ -48,6 +50,9 @@ struct Scene {
       }
       stars.add(t, mesh.vertices(t), elements.back());
     });
+    rows.ensure(mesh.vertex_slots());
+    packed.ensure(mesh.vertex_slots());
+    for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) packed.update(VertexId(v), stars, rows);
     if (averages) average();
     for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
       const Vec3 place = mesh.rest(VertexId(v)) + random.point(-size, size);
@@ -59,6 +64,11 @@ struct Scene {
     add_pulls();
   }
 
+  static TetSoup jittered_cube(std::uint64_t seed) {
+    TetSoup soup = kuhn_cube(3);
+    jitter(soup, 0.15, seed);
+    return soup;
+  }
   [[nodiscard]] std::array<Vec3, 4> corners(TetId t, bool at_rest = false) const {
     std::array<Vec3, 4> p;
     for (unsigned c = 0; c < 4; ++c) p[c] = at_rest ? mesh.rest(mesh.vertices(t)[c]) : place(mesh.vertices(t)[c]);
@@ -113,10 +123,20 @@ struct Scene {
   }
   [[nodiscard]] Descent descent() {
     Descent d{places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
-    d.stiffening = stars.stiffening();
-    d.fibres = stars.fibres();
+    give_stars(d);
     if (nodal.is_on) give_nodes(d);
     return d;
+  }
+  template <class To>
+  void give_stars(To& d) {
+    d.rows = rows.rows();
+    d.slots = rows.slots();
+    d.packed = packed.all();
+    d.parts = packed.parts();
+    d.near = packed.near();
+    d.tets = packed.tets();
+    d.stiffening = stars.stiffening();
+    d.fibres = stars.fibres();
   }
   template <class To>
   void give_nodes(To& d) {
@@ -129,8 +149,7 @@ struct Scene {
   }
   [[nodiscard]] test::PlainDescent plain_descent() {
     test::PlainDescent d{places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
-    d.stiffening = stars.stiffening();
-    d.fibres = stars.fibres();
+    give_stars(d);
     if (nodal.is_on) give_nodes(d);
     return d;
   }
@@ -138,6 +157,8 @@ struct Scene {
   Random random;
   TetMesh mesh;
   detail::Stars stars;
+  detail::KernelRows rows;
+  detail::PackedStars packed;
   detail::NodalVolumes nodal;
   std::vector<detail::Element> elements;
   std::vector<float> places;
@@ -256,6 +277,53 @@ TEST(StarKernel, FibresHaveTheSlopeAndTheEnergyOfTheirElements) {
   }
 }
 
+/// A ball of tets that all meet in its middle, vertex 0.
+TetSoup urchin(std::uint32_t rings, std::uint32_t sectors) {
+  TetSoup soup;
+  soup.points = {Vec3::Zero(), Vec3(0, 0, 1), Vec3(0, 0, -1)};
+  const auto at = [&](std::uint32_t ring, std::uint32_t sector) { return 3 + ring * sectors + sector % sectors; };
+  constexpr double kPi = 3.14159265358979323846;
+  for (std::uint32_t i = 0; i < rings; ++i) {
+    for (std::uint32_t k = 0; k < sectors; ++k) {
+      const double up = kPi * (i + 1) / (rings + 1), round = 2 * kPi * k / sectors;
+      soup.points.emplace_back(std::sin(up) * std::cos(round), std::sin(up) * std::sin(round), std::cos(up));
+    }
+  }
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { soup.tets.push_back({0, a, b, c}); };
+  for (std::uint32_t k = 0; k < sectors; ++k) {
+    add(1, at(0, k), at(0, k + 1));
+    add(2, at(rings - 1, k + 1), at(rings - 1, k));
+    for (std::uint32_t i = 0; i + 1 < rings; ++i) {
+      add(at(i, k), at(i + 1, k), at(i + 1, k + 1));
+      add(at(i, k), at(i + 1, k + 1), at(i, k + 1));
+    }
+  }
+  return soup;
+}
+
+TEST(StarKernel, AStarOfSeveralPartsHasTheSlopeAndTheCurvatureOfItsElements) {
+  Scene s(3, urchin(20, 20), 0.02);
+  ASSERT_NE(s.packed.all()[0].next, 0U);
+  s.motions[0].pulls = 0;
+  const Quadratic q = detail::quadratic_of(s.descent(), 0);
+  Vec3 slope = Vec3::Zero();
+  Mat3 bend = s.motions[0].weight * Mat3::Identity();
+  double size = 0;
+  s.stars.for_each_tet(VertexId(0), [&](TetId t) {
+    const Vec3 part = detail::slope_of(s.elements[t.value], s.corners(t), s.mesh.corner_of(t, VertexId(0)));
+    slope += part;
+    size += part.norm();
+    bend += detail::stiffness_at(s.elements[t.value], s.corners(t), s.mesh.corner_of(t, VertexId(0)));
+  });
+  const detail::Motion& m = s.motions[0];
+  for (unsigned i = 0; i < 3; ++i) {
+    slope[i] += m.weight * (s.place(VertexId(0))[i] - static_cast<double>(m.start[i]) - static_cast<double>(m.aim[i]));
+    EXPECT_NEAR(q.slope[i], slope[i], 3e-6 * (size + slope.norm()));
+  }
+  const std::array<double, 6> upper = {bend(0, 0), bend(0, 1), bend(0, 2), bend(1, 1), bend(1, 2), bend(2, 2)};
+  for (unsigned i = 0; i < 6; ++i) EXPECT_NEAR(q.curvature[i], upper[i], 3e-6 * bend.norm());
+}
+
 TEST(StarKernel, PullsAddTheSlopeOfTheirEnergy) {
   Scene s(2);
   for (const std::uint32_t slot : s.order) {
@@ -329,8 +397,10 @@ std::vector<float> outcome(Scene& scene, const Sweep& sweep, const Pick& pick) {
   return scene.places;
 }
 
-/// Odd ones average their volumes; two of three stiffen, and from the sixth on there are fibres.
+/// Odd ones average their volumes; two of three stiffen, and from the sixth on there are fibres. The tenth has a star
+/// of several parts.
 Scene any_scene(std::uint64_t seed) {
+  if (seed == 10) return Scene(seed, urchin(20, 20), 0.05);
   return Scene(seed, 0.1, seed % 2 == 1, seed % 3 == 0 ? 0.0 : 5.0, seed > 5 ? 2e4 : 0.0);
 }
 
@@ -357,10 +427,28 @@ bool is_same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 TEST(StarKernel, PlainCodeGivesTheSameBits) {
-  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const std::vector<float> places = outcome_here(seed);
-    EXPECT_FALSE(is_same_bits(places, Scene(seed).places));
+    EXPECT_FALSE(is_same_bits(places, any_scene(seed).places));
     EXPECT_TRUE(is_same_bits(places, plain_outcome(seed))) << seed;
+  }
+}
+
+/// Several vertices are visited at once where none reads what another one moves.
+TEST(StarKernel, ASweepIsAsGoodAsVisitsOneByOne) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Scene together = any_scene(seed), alone = any_scene(seed);
+    for (Scene* scene : {&together, &alone}) {
+      if (scene->nodal.is_on) detail::find_pressures(scene->descent(), scene->order);
+    }
+    detail::pick_starts(together.descent(), together.order);
+    for (const std::uint32_t v : alone.order) detail::pick_starts(alone.descent(), std::span(&v, 1));
+    EXPECT_TRUE(is_same_bits(together.places, alone.places)) << seed;
+    for (unsigned i = 0; i < 3; ++i) {
+      detail::sweep(together.descent(), together.order, false);
+      for (const std::uint32_t v : alone.order) detail::sweep(alone.descent(), std::span(&v, 1), false);
+      EXPECT_TRUE(is_same_bits(together.places, alone.places)) << seed;
+    }
   }
 }
 

@@ -30,6 +30,7 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   s.bones.wake(s);
   s.order.refresh();
   s.bones.begin(s);
+  s.list_awake_rows();
   s.list_pressed();
   s.list_strained();
   AdvanceReport report;
@@ -65,6 +66,12 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
 detail::Descent DeformableBody::State::descent() {
   detail::Descent d{floats.data(), stars.blocks(),         stars.all(),   motions.data(), terms.data(),
                     uses.data(),   contact.terms().data(), contact.uses()};
+  d.rows = rows.rows();
+  d.slots = rows.slots();
+  d.packed = packed.all();
+  d.parts = packed.parts();
+  d.near = packed.near();
+  d.tets = packed.tets();
   d.stiffening = stars.stiffening();
   d.fibres = stars.fibres();
   if (nodal.is_on) {
@@ -80,7 +87,7 @@ detail::Descent DeformableBody::State::descent() {
 
 void DeformableBody::State::round_place(VertexId v) {
   const Vec3 p = places[v.value] - middle;
-  for (unsigned i = 0; i < 3; ++i) floats[std::size_t{4} * v.value + i] = static_cast<float>(p.data()[i]);
+  for (unsigned i = 0; i < 3; ++i) single(v)[i] = static_cast<float>(p.data()[i]);
 }
 
 /// Single precision is spent on the body's size, not on where it is; where something holds a part of it, on that part,
@@ -227,6 +234,18 @@ void DeformableBody::State::list_uses() {
 /// Of the reach of a visit, so 0.005 of the local edge: a tenth of the thickness that the thinnest tets are taken for.
 static constexpr double kSafeLeap = 0.02;
 
+void DeformableBody::State::list_awake_rows() {
+  for (std::size_t part = 0; part < awake_rows.size(); ++part) {
+    rows.find(order.awake(static_cast<Part>(part)), awake_rows[part]);
+  }
+}
+
+/// Until the next call.
+std::span<const std::uint32_t> DeformableBody::State::rows_of(std::span<const std::uint32_t> slots) {
+  rows.find(slots, some_rows);
+  return some_rows;
+}
+
 /// Visits read the pressures of what they move and of what is around it.
 void DeformableBody::State::list_pressed() {
   if (nodal.is_on) nodal.gather([&](const auto& take) { for_each_awake(take); }, pressed);
@@ -236,7 +255,7 @@ void DeformableBody::State::list_pressed() {
 void DeformableBody::State::find_pressures() {
   if (!nodal.is_on) return;
   const detail::Descent d = descent();
-  const std::span<const std::uint32_t> all(pressed);
+  const std::span<const std::uint32_t> all = rows_of(pressed);
   const std::size_t half = all.size() / 2;
   pair.run([&] { detail::find_pressures(d, all.first(half)); }, [&] { detail::find_pressures(d, all.subspan(half)); });
 }
@@ -253,7 +272,7 @@ void DeformableBody::State::begin_substep(double h) {
     motion.weight = mass[slot] / (h * h);
     const double safe = kSafeLeap * static_cast<double>(motion.reach);
     motion.leaps = way.squaredNorm() > safe * safe;
-    float* x = floats.data() + std::size_t{4} * slot;
+    float* x = single(v);
     for (unsigned i = 0; i < 3; ++i) {
       motion.start[i] = x[i];
       motion.aim[i] = static_cast<float>(way.data()[i] + fall.data()[i]);
@@ -271,8 +290,8 @@ static constexpr unsigned kStrainedSweeps = 20, kStrainedRings = 2;
 void DeformableBody::State::descend(double h) {
   const detail::Descent d = descent();
   const auto visit = [&](const auto& work) {
-    pair.run([&] { work(order.awake(Part::kFirst)); }, [&] { work(order.awake(Part::kSecond)); });
-    work(order.awake(Part::kSeam));
+    pair.run([&] { work(awake_rows[0]); }, [&] { work(awake_rows[1]); });
+    work(awake_rows[2]);
   };
   if (options.relaxation == Relaxation::kPositionBased) {
     detail::project(*this, h);
@@ -288,7 +307,7 @@ void DeformableBody::State::descend(double h) {
   }
   const double longer = std::clamp(h / kUsualSubstep, 1.0, 4.0);
   const auto more = strained.empty() ? 0U : static_cast<unsigned>(kStrainedSweeps * longer);
-  for (unsigned i = 0; i < more; ++i) detail::sweep(d, strained, i % 2 == 1);
+  for (unsigned i = 0; i < more; ++i) detail::sweep(d, rows_of(strained), i % 2 == 1);
 }
 
 /// Where tissue has stiffened a hundred times under a load, sweeps carry a change through it far more slowly than
@@ -323,11 +342,11 @@ void DeformableBody::State::list_strained() {
 void DeformableBody::State::find_slopes(float* slopes) {
   const detail::Descent d = descent();
   if (nodal.is_on) {
-    for (const std::uint32_t v : pressed) floats[std::size_t{4} * v + 3] = d.pressures[v];
+    for (const std::uint32_t v : pressed) single(VertexId(v))[3] = d.pressures[v];
   }
-  const auto find = [&](Part part) { detail::find_slopes(d, order.awake(part), slopes); };
-  pair.run([&] { find(Part::kFirst); }, [&] { find(Part::kSecond); });
-  find(Part::kSeam);
+  const auto find = [&](std::size_t part) { detail::find_slopes(d, awake_rows[part], slopes); };
+  pair.run([&] { find(0); }, [&] { find(1); });
+  find(2);
 }
 
 /// Places are kept in double precision: the descent tells by how much they changed.
@@ -336,7 +355,7 @@ void DeformableBody::State::end_substep(double h, double& fastest) {
   double fastest2 = fastest * fastest;
   for_each_awake([&](std::uint32_t slot) {
     const VertexId v(slot);
-    const float* x = floats.data() + std::size_t{4} * slot;
+    const float* x = single(v);
     const auto& start = motions[v].start;
     Vec3 way;
     for (unsigned i = 0; i < 3; ++i) way.data()[i] = static_cast<double>(x[i]) - static_cast<double>(start[i]);
@@ -363,7 +382,7 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
   }
   std::vector<std::array<float, 3>> before;
   const auto place_of = [&](std::uint32_t slot) {
-    const float* x = floats.data() + std::size_t{4} * slot;
+    const float* x = single(VertexId(slot));
     return std::array<float, 3>{x[0], x[1], x[2]};
   };
   for (const std::uint32_t slot : vertices) before.push_back(place_of(slot));
@@ -376,7 +395,8 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
         pressed);
     find_pressures();
   }
-  for (unsigned i = 0; i < sweeps; ++i) detail::sweep(d, vertices, i % 2 == 1);
+  const std::span<const std::uint32_t> order_of_rows = rows_of(vertices);
+  for (unsigned i = 0; i < sweeps; ++i) detail::sweep(d, order_of_rows, i % 2 == 1);
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const std::array<float, 3> after = place_of(vertices[k]);
     for (unsigned i = 0; i < 3; ++i) {

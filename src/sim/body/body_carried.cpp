@@ -100,7 +100,7 @@ class CarriedPieces {
   void put() {
     for_each([&](Carried& piece, VertexId v, const Vec3& x) {
       const Vec3 moved = x + piece.shift + piece.turn.cross(x - piece.centre);
-      for (unsigned i = 0; i < 3; ++i) s_.floats[std::size_t{4} * v.value + i] = static_cast<float>(moved.data()[i]);
+      for (unsigned i = 0; i < 3; ++i) s_.single(v)[i] = static_cast<float>(moved.data()[i]);
     });
   }
 
@@ -113,7 +113,7 @@ class CarriedPieces {
     });
   }
   [[nodiscard]] Vec3 place_of(std::uint32_t slot) const {
-    const float* x = s_.floats.data() + std::size_t{4} * slot;
+    const float* x = s_.single(VertexId(slot));
     return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
   }
   [[nodiscard]] std::uint32_t number_at(std::uint32_t slot) const {

@@ -125,10 +125,8 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   });
   const detail::Descent d = descent();
   find_pressures();
-  double elastic = detail::energy_share(d, resting);
-  for (std::size_t part = 0; part < detail::SweepOrder::kParts; ++part) {
-    elastic += detail::energy_share(d, order.awake(static_cast<detail::SweepOrder::Part>(part)));
-  }
+  double elastic = detail::energy_share(d, rows_of(resting));
+  for (const auto& part : awake_rows) elastic += detail::energy_share(d, part);
   if (nodal.is_on) {
     for (const std::uint32_t v : pressed) {
       const double k = nodal.stiffness(VertexId(v));
@@ -139,10 +137,11 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   now.total += elastic;
   now.noise = kNoise * std::abs(elastic);
   for (const detail::PullTerm& term : terms) {
-    if (term.stiffness > 0) now.total += detail::pull_state(term, detail::off_target(term, floats.data())).energy;
+    if (term.stiffness > 0)
+      now.total += detail::pull_state(term, detail::off_target(term, floats.data(), rows.rows())).energy;
   }
   for (const detail::ContactTerm& term : contact.terms()) {
-    now.total += detail::contact_energy(term, floats.data());
+    now.total += detail::contact_energy(term, floats.data(), rows.rows());
   }
   return now;
 }

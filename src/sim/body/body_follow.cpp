@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
+#include "incise/geom/box.h"
 #include "incise/mesh/journal_visitor.h"
 #include "sim/body/body_rewind.h"
 #include "sim/body/body_state.h"
@@ -99,12 +101,14 @@ void DeformableBody::State::ensure(std::uint32_t slots, std::uint32_t tet_slots)
   rest.resize(slots, Vec3::Zero());
   held.resize(slots, Held::kNot);
   places.resize(slots, Vec3::Zero());
+  rows.ensure(slots);
   floats.resize(std::size_t{4} * slots);
   motions.resize(slots);
   travelled.resize(slots);
   in_crumb.resize(slots);
   piece_of.resize(slots);
   stars.ensure(slots, tet_slots);
+  packed.ensure(slots);
   order.ensure(slots);
   if (nodal.is_on) nodal.ensure(slots, tet_slots);
 }
@@ -165,6 +169,9 @@ void DeformableBody::State::settle_vertex(VertexId v) {
   }
 }
 
+/// Of a body, along its longest axis: flat ones would have no end of them.
+static constexpr double kMostSlabs = 1000;
+
 /// Vertices that follow each other are seldom neighbours, so that one visit need not wait for the one before it.
 static void interleave(std::vector<std::uint32_t>& order) {
   constexpr std::size_t kWindow = 64, kStride = 8;
@@ -179,7 +186,34 @@ static void interleave(std::vector<std::uint32_t>& order) {
   }
 }
 
-/// Stars are laid out as the sweeps go, along the longest axis: they are read in a row.
+/// Sorts vertices along the longest axis, in slabs of about one edge, which are walked through strip by strip: what a
+/// visit reads was read a moment ago, whatever order the file has. Layers of a grid are slabs: between two boundaries.
+static void sort_in_slabs(std::vector<std::uint32_t>& vertices, const IdArray<VertexId, Vec3>& rest) {
+  if (vertices.empty()) return;
+  Box box;
+  for (const std::uint32_t v : vertices) box.extend(rest[VertexId(v)]);
+  const Vec3 size = box.hi - box.lo;
+  Eigen::Index axis = 0;
+  size.maxCoeff(&axis);
+  const Eigen::Index second = (axis + 1) % 3, third = (axis + 2) % 3;
+  const double across = size[second] / size[axis], up = size[third] / size[axis];  // the box by its length: at most 1
+  double slabs = 1;
+  while (slabs * slabs * slabs * across * up < static_cast<double>(vertices.size()) && slabs < kMostSlabs) ++slabs;
+  const double thickness = size[axis] / slabs;
+  const auto along = [&](std::uint32_t v, Eigen::Index k) {
+    return thickness > 0 ? std::floor((rest[VertexId(v)][k] - box.lo[k]) / thickness + 0.5) : 0.0;
+  };
+  using Key = std::tuple<double, double, double, double, double, std::uint32_t>;
+  std::vector<Key> keys;
+  for (const std::uint32_t v : vertices) {
+    const Vec3& p = rest[VertexId(v)];
+    keys.emplace_back(along(v, axis), along(v, second), p[third], p[axis], p[second], v);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 0; i < keys.size(); ++i) vertices[i] = std::get<5>(keys[i]);
+}
+
+/// Stars are laid out as the sweeps go: they are read in a row.
 void DeformableBody::State::lay_out_stars() {
   std::vector<std::uint32_t> count(rest.size()), sorted;
   for (const TetVertices& tet : tets) {
@@ -187,18 +221,12 @@ void DeformableBody::State::lay_out_stars() {
       for (const VertexId v : tet) ++count[v.value];
     }
   }
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (std::uint32_t v = 0; v < count.size(); ++v) {
-    if (count[v] == 0) continue;
-    sorted.push_back(v);
-    low = low.cwiseMin(rest[VertexId(v)]);
-    high = high.cwiseMax(rest[VertexId(v)]);
+    if (count[v] > 0) sorted.push_back(v);
   }
-  Eigen::Index axis = 0;
-  if (!sorted.empty()) (high - low).maxCoeff(&axis);
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return rest[VertexId(a)][axis] < rest[VertexId(b)][axis]; });
+  sort_in_slabs(sorted, rest);
   interleave(sorted);
+  rows.arrange(sorted);
   for (const std::uint32_t v : sorted) stars.lay_out(VertexId(v), count[v]);
   for (std::uint32_t t = 0; t < tets.size(); ++t) {
     if (!tets[TetId(t)][0].is_valid()) continue;
@@ -206,6 +234,7 @@ void DeformableBody::State::lay_out_stars() {
     stars.add(TetId(t), tets[TetId(t)], here);
     if (nodal.is_on) nodal.put(TetId(t), detail::six_volumes(corners_at_rest(TetId(t))), here);
   }
+  for (const std::uint32_t v : sorted) packed.update(VertexId(v), stars, rows);
   if (nodal.is_on) {
     for (const std::uint32_t v : sorted) nodal.update(VertexId(v), stars);
     order.keep_apart(nodal.neighbours());
@@ -438,6 +467,7 @@ void DeformableBody::State::add_touched(const TetMesh& mesh, FollowReport& repor
 }
 
 void DeformableBody::State::settle_changed() {
+  for (const std::uint32_t v : changed) packed.update(VertexId(v), stars, rows);
   if (nodal.is_on) {
     for (const std::uint32_t v : changed) nodal.update(VertexId(v), stars);
   }

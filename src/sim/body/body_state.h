@@ -12,7 +12,9 @@
 #include "incise/sim/body.h"
 #include "sim/body/bones.h"
 #include "sim/body/coarse_lattice.h"
+#include "sim/body/kernel_rows.h"
 #include "sim/body/nodal_volumes.h"
+#include "sim/body/packed_stars.h"
 #include "sim/body/self_contact.h"
 #include "sim/body/star_kernel.h"
 #include "sim/body/stars.h"
@@ -127,12 +129,16 @@ struct DeformableBody::State {
 
   // the descent
   detail::Stars stars;
+  detail::PackedStars packed;
   detail::SweepOrder order;
   detail::NodalVolumes nodal;
   std::vector<std::uint32_t> strained;  // awake vertices around pulls, where tissue stiffens; of this `advance`
   std::vector<std::uint32_t> pressed;   // awake vertices and their neighbours, of this `advance`
-  GrowArray<float> floats;              // places against the middle, and pressures, 4 per vertex
-  IdArray<VertexId, detail::Motion> motions;
+  detail::KernelRows rows;
+  GrowArray<float> floats;  // places against the middle, and pressures, 4 per row
+  detail::ByRow<detail::Motion> motions{rows};
+  std::array<std::vector<std::uint32_t>, detail::SweepOrder::kParts> awake_rows;  // of `order`, as of this `advance`
+  std::vector<std::uint32_t> some_rows;                                           // scratch
   std::vector<detail::PullTerm> terms;
   std::vector<detail::PullUse> uses;
   IdArray<VertexId, float> travelled;  // squared, in this `advance`
@@ -192,6 +198,9 @@ struct DeformableBody::State {
   [[nodiscard]] bool is_bone(TetId t) const { return has_bones && materials.of(regions[t]).rigid; }
   [[nodiscard]] detail::Descent descent();
   void round_place(VertexId v);
+  /// Where the descent has a vertex: x, y, z against the middle, and a pressure.
+  [[nodiscard]] float* single(VertexId v) { return floats.data() + std::size_t{4} * rows.of(v); }
+  [[nodiscard]] const float* single(VertexId v) const { return floats.data() + std::size_t{4} * rows.of(v); }
 
   void set_hold(VertexId v, const detail::Hold& hold);
   void clear_hold(VertexId v);
@@ -272,6 +281,8 @@ struct DeformableBody::State {
   [[nodiscard]] bool is_as_before(const Pull& a, const Pull& b) const;
   void wake_where_pulls_differ(const std::vector<Pull>& next);
   void list_uses();
+  void list_awake_rows();
+  [[nodiscard]] std::span<const std::uint32_t> rows_of(std::span<const std::uint32_t> slots);
   void list_pressed();
   void list_strained();
   void find_pressures();

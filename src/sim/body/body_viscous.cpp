@@ -71,6 +71,7 @@ void DeformableBody::State::relax_stresses(double dt) {
   for (const std::uint32_t v : changed) {
     has_changed_star[v] = 0;
     motions[VertexId(v)].diagonal = stars.diagonal(VertexId(v));
+    packed.update(VertexId(v), stars, rows);
   }
   changed.clear();
 }

@@ -43,12 +43,12 @@ Mat3 turning_by(const Vec3& angle) {
 }
 
 Vec3 place_of(const DeformableBody::State& s, std::uint32_t slot) {
-  const float* x = s.floats.data() + std::size_t{4} * slot;
+  const float* x = s.single(VertexId(slot));
   return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
 }
 
 void put(DeformableBody::State& s, std::uint32_t slot, const Vec3& place) {
-  for (unsigned i = 0; i < 3; ++i) s.floats[std::size_t{4} * slot + i] = static_cast<float>(place.data()[i]);
+  for (unsigned i = 0; i < 3; ++i) s.single(VertexId(slot))[i] = static_cast<float>(place.data()[i]);
 }
 
 /// Where a shape is: `place_at(slot)` are the points that it is fitted to.
@@ -254,7 +254,7 @@ class BoneVisit {
       Vec3 slope;
       Mat3 bend = motion.weight * Mat3::Identity();
       if (is_outer_[i] != 0 || motion.pulls > 0 || motion.contacts > 0) {
-        const Quadratic q = quadratic_of(d, v);
+        const Quadratic q = quadratic_of(d, s_.rows.of(VertexId(v)));
         slope = Vec3(q.slope[0], q.slope[1], q.slope[2]);
         bend = matrix_of(q.curvature);
       } else {

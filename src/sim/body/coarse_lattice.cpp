@@ -372,7 +372,7 @@ double CoarseLattice::slope_along(DeformableBody::State& state) {
 void CoarseLattice::go(DeformableBody::State& state, double share) {
   const auto scale = static_cast<float>(share);
   state.for_each_awake([&](std::uint32_t v) {
-    float* x = state.floats.data() + std::size_t{4} * v;
+    float* x = state.single(VertexId(v));
     for (unsigned k = 0; k < 3; ++k) x[k] = before_[v][k] + scale * steps_[v][k];
   });
   state.find_pressures();
@@ -387,7 +387,7 @@ void CoarseLattice::correct(DeformableBody::State& state) {
   if (!(longest > 0) || !std::isfinite(longest)) return;
   double at_start = 0;
   state.for_each_awake([&](std::uint32_t v) {
-    const float* x = state.floats.data() + std::size_t{4} * v;
+    const float* x = state.single(VertexId(v));
     before_[v] = {x[0], x[1], x[2], 0};
     at_start += dot(slopes_[v], steps_[v]);
   });

@@ -12,11 +12,11 @@ namespace detail {
 
 /// Pressing: k/2 gap² below 0. Friction: a spring to the anchor that gives way at its limit, as Huber's function has
 /// it, whose slope is continuous: the secant stiffness is its curvature's bound.
-static inline ContactState state_of(const ContactTerm& term, const float* places) {
-  const float* x = places + std::size_t{4} * term.vertices[0];
-  const float* a = places + std::size_t{4} * term.vertices[1];
-  const float* b = places + std::size_t{4} * term.vertices[2];
-  const float* c = places + std::size_t{4} * term.vertices[3];
+static inline ContactState state_of(const ContactTerm& term, const float* places, const std::uint32_t* rows) {
+  const float* x = places + std::size_t{4} * rows[term.vertices[0]];
+  const float* a = places + std::size_t{4} * rows[term.vertices[1]];
+  const float* b = places + std::size_t{4} * rows[term.vertices[2]];
+  const float* c = places + std::size_t{4} * rows[term.vertices[3]];
   std::array<float, 3> off;
   for (unsigned i = 0; i < 3; ++i) {
     off[i] = x[i] - (term.share[0] * a[i] + term.share[1] * b[i] + term.share[2] * c[i]) - term.reference[i];
@@ -33,12 +33,12 @@ static inline ContactState state_of(const ContactTerm& term, const float* places
   return state;
 }
 
-ContactState contact_state(const ContactTerm& term, const float* places) {
-  return state_of(term, places);
+ContactState contact_state(const ContactTerm& term, const float* places, const std::uint32_t* rows) {
+  return state_of(term, places, rows);
 }
 
-double contact_energy(const ContactTerm& term, const float* places) {
-  const ContactState state = state_of(term, places);
+double contact_energy(const ContactTerm& term, const float* places, const std::uint32_t* rows) {
+  const ContactState state = state_of(term, places, rows);
   const auto wide = [](float value) { return static_cast<double>(value); };
   double energy = 0.5 * wide(state.press) * wide(std::min(state.gap, 0.0F));
   if (!(state.drag > 0)) return energy;
@@ -52,7 +52,7 @@ void add_contacts(const Descent& descent, const Motion& motion, Quadratic& q) {
   for (std::uint32_t i = 0; i < motion.contacts; ++i) {
     const ContactUse use = descent.contact_uses[motion.first_contact + i];
     const ContactTerm& term = descent.contact_terms[use / 4];
-    const ContactState state = state_of(term, descent.places);
+    const ContactState state = state_of(term, descent.places, descent.rows);
     if (!(state.gap < 0) && !(state.drag > 0)) continue;
     const float weight = term.weight(use % 4);
     const auto& n = term.normal;

@@ -34,16 +34,16 @@ static_assert(sizeof(ContactTerm) == 64);
 /// One vertex' part in a term: term · 4 + corner.
 using ContactUse = std::uint32_t;
 
-/// What a term does at its gap as it stands.
+/// What a term does at its gap as it stands; `places` lie by row, `rows` by vertex slot.
 struct ContactState {
   float gap = 0;                ///< below 0: in force
   float press = 0;              ///< the slope of the energy along the normal, at most 0
   float drag = 0;               ///< the slope of the energy by how far it has slipped
   std::array<float, 3> slip{};  ///< across the normal
 };
-[[nodiscard]] ContactState contact_state(const ContactTerm& term, const float* places);
+[[nodiscard]] ContactState contact_state(const ContactTerm& term, const float* places, const std::uint32_t* rows);
 /// The energy of a term as it stands, kg L²/s².
-[[nodiscard]] double contact_energy(const ContactTerm& term, const float* places);
+[[nodiscard]] double contact_energy(const ContactTerm& term, const float* places, const std::uint32_t* rows);
 
 /// Adds the contacts of a vertex to its quadratic.
 void add_contacts(const Descent& descent, const Motion& motion, Quadratic& q);

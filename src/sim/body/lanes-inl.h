@@ -23,7 +23,12 @@ inline namespace v0 {
 namespace detail {
 namespace INCISE_LANES_NAMESPACE {
 
+/// Four numbers at once, of four vertices or of one.
+using Floats = float __attribute__((vector_size(16)));
+using Doubles = double __attribute__((vector_size(32)));
+
 #undef INCISE_LANES_OF_MACHINE
+#undef INCISE_LANES_PICK
 #if INCISE_WITH_HIGHWAY
 #define INCISE_LANES_OF_MACHINE (HWY_TARGET != HWY_SCALAR)
 #else
@@ -98,6 +103,14 @@ using Eight = hn::FixedTag<float, 8>;
 struct Lanes {
   hn::Vec<Eight> v;
 };
+/// Whether some number of eight is some number of `count`, at least 1.
+HWY_INLINE bool names_any(const std::uint32_t* eight, const std::uint32_t* numbers, unsigned count) {
+  const hn::FixedTag<std::uint32_t, 8> d;
+  const auto names = hn::LoadU(d, eight);
+  auto found = hn::Eq(names, hn::Set(d, numbers[0]));
+  for (unsigned i = 1; i < count; ++i) found = hn::Or(found, hn::Eq(names, hn::Set(d, numbers[i])));
+  return !hn::AllFalse(d, found);
+}
 HWY_INLINE Lanes load(const float* p) {
   return {hn::LoadU(Eight(), p)};
 }
@@ -142,7 +155,8 @@ HWY_INLINE hn::Vec<Eight> two_points(const float* places, std::uint32_t low, std
                      hn::LoadU(d4, places + std::size_t{4} * low));
 }
 /// The places of eight vertices, and their fourth numbers.
-HWY_INLINE void load_rows(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
+template <class Index>
+HWY_INLINE void load_rows(const float* places, const Index* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
   const Eight d;
   const hn::Repartition<double, Eight> d64;
   const auto r0 = two_points(places, i[0], i[4]), r1 = two_points(places, i[1], i[5]);
@@ -155,7 +169,8 @@ HWY_INLINE void load_rows(const float* places, const std::uint32_t* i, Lanes& x,
   z.v = hn::BitCast(d, hn::InterleaveLower(zw01, zw23));
   w.v = hn::BitCast(d, hn::InterleaveUpper(d64, zw01, zw23));
 }
-HWY_INLINE void load_points(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
+template <class Index>
+HWY_INLINE void load_points(const float* places, const Index* i, Lanes& x, Lanes& y, Lanes& z) {
   Lanes unused;
   load_rows(places, i, x, y, z, unused);
 }
@@ -164,11 +179,55 @@ HWY_INLINE FourV halves(Lanes a) {
   return hn::Add(hn::LowerHalf(Four(), a.v), hn::UpperHalf(Four(), a.v));
 }
 
+#if HWY_TARGET == HWY_AVX2
+#define INCISE_LANES_PICK 1
+/// The rows that begin at eight places, as columns.
+HWY_INLINE void load_at(const float* places, const std::uint32_t* at, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
+  const Four d4;
+  const Eight d;
+  const hn::Repartition<double, Eight> d64;
+  const auto two = [&](unsigned low, unsigned high) HWY_ATTR {
+    return hn::Combine(d, hn::LoadU(d4, places + at[high]), hn::LoadU(d4, places + at[low]));
+  };
+  const auto r0 = two(0, 4), r1 = two(1, 5), r2 = two(2, 6), r3 = two(3, 7);
+  const auto xy01 = hn::BitCast(d64, hn::InterleaveLower(r0, r1)), xy23 = hn::BitCast(d64, hn::InterleaveLower(r2, r3));
+  const auto zw01 = hn::BitCast(d64, hn::InterleaveUpper(d, r0, r1));
+  const auto zw23 = hn::BitCast(d64, hn::InterleaveUpper(d, r2, r3));
+  x.v = hn::BitCast(d, hn::InterleaveLower(xy01, xy23));
+  y.v = hn::BitCast(d, hn::InterleaveUpper(d64, xy01, xy23));
+  z.v = hn::BitCast(d, hn::InterleaveLower(zw01, zw23));
+  w.v = hn::BitCast(d, hn::InterleaveUpper(d64, zw01, zw23));
+}
+/// Codes of neighbours, of which there are at most 16.
+struct Codes {
+  __m256i v;
+};
+HWY_INLINE Codes load_codes(const std::uint8_t* p) {
+  return {_mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)))};
+}
+/// The numbers that the codes name: of the first table, or where the upper bit is set of the second.
+HWY_INLINE Lanes pick(const Lanes* tables, Codes codes) {
+  const __m256 low = _mm256_permutevar8x32_ps(tables[0].v.raw, codes.v);
+  const __m256 high = _mm256_permutevar8x32_ps(tables[1].v.raw, codes.v);
+  return {hn::Vec<Eight>{_mm256_blendv_ps(low, high, _mm256_castsi256_ps(codes.v))}};
+}
+#endif
+
 #else
 
 struct Lanes {
   FourV low, high;
 };
+HWY_INLINE bool names_any(const std::uint32_t* eight, const std::uint32_t* numbers, unsigned count) {
+  const hn::FixedTag<std::uint32_t, 4> d;
+  const auto low = hn::LoadU(d, eight), high = hn::LoadU(d, eight + 4);
+  auto found = hn::Or(hn::Eq(low, hn::Set(d, numbers[0])), hn::Eq(high, hn::Set(d, numbers[0])));
+  for (unsigned i = 1; i < count; ++i) {
+    const auto number = hn::Set(d, numbers[i]);
+    found = hn::Or(found, hn::Or(hn::Eq(low, number), hn::Eq(high, number)));
+  }
+  return !hn::AllFalse(d, found);
+}
 HWY_INLINE Lanes load(const float* p) {
   return {hn::LoadU(Four(), p), hn::LoadU(Four(), p + 4)};
 }
@@ -211,11 +270,13 @@ HWY_INLINE void store_rows(Lanes x, Lanes y, Lanes z, float* out) {
 HWY_INLINE FourV point(const float* places, std::uint32_t i) {
   return hn::LoadU(Four(), places + std::size_t{4} * i);
 }
-HWY_INLINE void load_rows(const float* p, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
+template <class Index>
+HWY_INLINE void load_rows(const float* p, const Index* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
   columns(point(p, i[0]), point(p, i[1]), point(p, i[2]), point(p, i[3]), x.low, y.low, z.low, w.low);
   columns(point(p, i[4]), point(p, i[5]), point(p, i[6]), point(p, i[7]), x.high, y.high, z.high, w.high);
 }
-HWY_INLINE void load_points(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
+template <class Index>
+HWY_INLINE void load_points(const float* places, const Index* i, Lanes& x, Lanes& y, Lanes& z) {
   Lanes unused;
   load_rows(places, i, x, y, z, unused);
 }
@@ -224,6 +285,10 @@ HWY_INLINE FourV halves(Lanes a) {
 }
 
 #endif
+
+HWY_INLINE Row operator-(Row a, Row b) {
+  return {hn::Sub(a.v, b.v)};
+}
 
 /// The sums of the lanes of four vectors: ((0+4)+(2+6)) + ((1+5)+(3+7)).
 HWY_INLINE void sum_lanes(Lanes a, Lanes b, Lanes c, Lanes e, float* out) {
@@ -235,6 +300,13 @@ HWY_INLINE void sum_lanes(Lanes a, Lanes b, Lanes c, Lanes e, float* out) {
 struct Lanes {
   float v[8];
 };
+inline bool names_any(const std::uint32_t* eight, const std::uint32_t* numbers, unsigned count) {
+  bool found = false;
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned k = 0; k < count; ++k) found = found || eight[i] == numbers[k];
+  }
+  return found;
+}
 template <class Each>
 inline Lanes each(const Each& value) {
   Lanes r;
@@ -294,10 +366,14 @@ inline Row row_of(float x) {
 inline Row operator+(const Row& a, const Row& b) {
   return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}};
 }
+inline Row operator-(const Row& a, const Row& b) {
+  return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}};
+}
 inline Row operator*(const Row& a, const Row& b) {
   return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}};
 }
-inline void load_rows(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
+template <class Index>
+inline void load_rows(const float* places, const Index* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {
   for (unsigned k = 0; k < 8; ++k) {
     const float* p = places + std::size_t{4} * i[k];
     x.v[k] = p[0];
@@ -306,7 +382,8 @@ inline void load_rows(const float* places, const std::uint32_t* i, Lanes& x, Lan
     w.v[k] = p[3];
   }
 }
-inline void load_points(const float* places, const std::uint32_t* i, Lanes& x, Lanes& y, Lanes& z) {
+template <class Index>
+inline void load_points(const float* places, const Index* i, Lanes& x, Lanes& y, Lanes& z) {
   Lanes unused;
   load_rows(places, i, x, y, z, unused);
 }
@@ -321,6 +398,23 @@ inline void sum_lanes(const Lanes& a, const Lanes& b, const Lanes& c, const Lane
   out[3] = sum_of(e);
 }
 
+#endif
+
+// What the compiler makes of its own conversion is slow.
+#if INCISE_LANES_OF_MACHINE && HWY_TARGET == HWY_AVX2
+HWY_INLINE void widen(const Floats& from, Doubles& into) {
+  into = _mm256_cvtps_pd(from);
+}
+HWY_INLINE void narrow(const Doubles& from, Floats& into) {
+  into = _mm256_cvtpd_ps(from);
+}
+#else
+inline void widen(const Floats& from, Doubles& into) {
+  into = __builtin_convertvector(from, Doubles);
+}
+inline void narrow(const Doubles& from, Floats& into) {
+  into = __builtin_convertvector(from, Floats);
+}
 #endif
 
 }  // namespace INCISE_LANES_NAMESPACE

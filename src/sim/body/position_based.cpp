@@ -37,7 +37,7 @@ class Projection {
 
   void start() {
     for (std::uint32_t v = 0; v < x_.size(); ++v) {
-      const float* f = s_.floats.data() + std::size_t{4} * v;
+      const float* f = s_.single(VertexId(v));
       x_[v] = Vec3(static_cast<double>(f[0]), static_cast<double>(f[1]), static_cast<double>(f[2]));
     }
     weights_.assign(x_.size(), 0.0);
@@ -133,7 +133,7 @@ class Projection {
   void finish() {
     s_.for_each_awake([&](std::uint32_t v) {
       if (!x_[v].allFinite()) return;
-      for (unsigned i = 0; i < 3; ++i) s_.floats[std::size_t{4} * v + i] = static_cast<float>(x_[v].data()[i]);
+      for (unsigned i = 0; i < 3; ++i) s_.single(VertexId(v))[i] = static_cast<float>(x_[v].data()[i]);
     });
   }
 

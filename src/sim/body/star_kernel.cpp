@@ -104,6 +104,34 @@ struct Around {
 };
 constexpr std::uint32_t kRows[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
 
+/// The neighbours of a vertex, from it, in rows that go by their codes.
+struct Many {
+  const float* rows;
+
+  inline void corner(const std::uint8_t* codes, Lanes& x, Lanes& y, Lanes& z) const {
+    load_points(rows, codes, x, y, z);
+  }
+  inline void corner(const std::uint8_t* codes, Lanes& x, Lanes& y, Lanes& z, Lanes& pressure) const {
+    load_rows(rows, codes, x, y, z, pressure);
+  }
+};
+
+#ifdef INCISE_LANES_PICK
+/// At most 16 of them, as columns.
+struct Few {
+  Lanes x[2], y[2], z[2], pressure[2];
+
+  HWY_INLINE void corner(const std::uint8_t* codes, Lanes& cx, Lanes& cy, Lanes& cz) const {
+    const Codes which = load_codes(codes);
+    cx = pick(x, which), cy = pick(y, which), cz = pick(z, which);
+  }
+  HWY_INLINE void corner(const std::uint8_t* codes, Lanes& cx, Lanes& cy, Lanes& cz, Lanes& cp) const {
+    corner(codes, cx, cy, cz);
+    cp = pick(pressure, load_codes(codes));
+  }
+};
+#endif
+
 /// Slope and curvature of a star, summed lane by lane.
 struct StarSum {
   Lanes gx, gy, gz, xx, xy, xz, yy, yz, zz;
@@ -112,85 +140,110 @@ struct StarSum {
   inline explicit StarSum(const Lanes& zero)
       : gx(zero), gy(zero), gz(zero), xx(zero), xy(zero), xz(zero), yy(zero), yz(zero), zz(zero) {}
 
-  template <Wanted kWanted, Law kLaw>
-  [[gnu::always_inline]] inline void add(const StarBlock& block, [[maybe_unused]] const StiffeningBlock* stiffening,
-                                         [[maybe_unused]] const FibreBlock* fibre_block, const Descent& d,
-                                         const Lanes& x, const Lanes& y, const Lanes& z, float own_pressure,
-                                         float* normals) {
+  /// Tissue that does not stiffen: what neighbours do by the Laplacian.
+  [[gnu::always_inline]] inline void add_stretch(const NearLanes& near, const Lanes& x, const Lanes& y,
+                                                 const Lanes& z) {
+    const Lanes weight = load(near.weight.data());
+    gx = gx + weight * x, gy = gy + weight * y, gz = gz + weight * z;
+  }
+
+  /// And what its tets do by their volumes.
+  template <Wanted kWanted, class Near>
+  [[gnu::always_inline]] inline void add_swelling(const TetLanes& tets, const Near& near, float own_pressure,
+                                                  float* normals) {
     Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
     Lanes of_nodes = all(own_pressure);
     if constexpr (kWanted == Wanted::kSlopeAveraged) {
       Lanes pa, pb, pc;
-      load_rows(d.places, block.a.data(), ax, ay, az, pa);
-      load_rows(d.places, block.b.data(), bx, by, bz, pb);
-      load_rows(d.places, block.c.data(), cx, cy, cz, pc);
+      near.corner(tets.a.data(), ax, ay, az, pa);
+      near.corner(tets.b.data(), bx, by, bz, pb);
+      near.corner(tets.c.data(), cx, cy, cz, pc);
       of_nodes = (pa + pb) + (pc + of_nodes);
     } else {
-      load_points(d.places, block.a.data(), ax, ay, az);
-      load_points(d.places, block.b.data(), bx, by, bz);
-      load_points(d.places, block.c.data(), cx, cy, cz);
+      near.corner(tets.a.data(), ax, ay, az);
+      near.corner(tets.b.data(), bx, by, bz);
+      near.corner(tets.c.data(), cx, cy, cz);
     }
-    ax = ax - x, ay = ay - y, az = az - z;
-    bx = bx - x, by = by - y, bz = bz - z;
-    cx = cx - x, cy = cy - y, cz = cz - z;
     const Lanes ux = bx - ax, uy = by - ay, uz = bz - az, wx = cx - ax, wy = cy - ay, wz = cz - az;
-    // The slope of six volumes in the vertex, and the volumes themselves.
+    // The slope of six volumes in the vertex, and the volumes themselves, below 0.
     const Lanes nx = uz * wy - uy * wz, ny = ux * wz - uz * wx, nz = uy * wx - ux * wy;
-    const Lanes volume6 = all(0) - (nx * ax + ny * ay + nz * az);
-    const Lanes bulk = load(block.bulk.data()), pressure = load(block.pressure.data());
-    Lanes swell = bulk * volume6 - absolute(pressure);
-    const Lanes to_a = load(block.to_a.data()), to_b = load(block.to_b.data()), to_c = load(block.to_c.data());
-    if constexpr (kLaw != Law::kSoft) {
-      const Lanes vx = wx - ux, vy = wy - uy, vz = wz - uz;
-      Lanes sx = swell * nx + (to_a * ax + (to_b * bx + to_c * cx));
-      Lanes sy = swell * ny + (to_a * ay + (to_b * by + to_c * cy));
-      Lanes sz = swell * nz + (to_a * az + (to_b * bz + to_c * cz));
-      Lanes swelling = (swell - all(0.5F) * bulk * volume6) * volume6;
-      // Curvature of the fibres: `across` in all directions, and of `pull` along them.
-      Lanes across = all(0), pull_x = all(0), pull_y = all(0), pull_z = all(0), fx = all(0), fy = all(0), fz = all(0);
-      if constexpr (kLaw == Law::kFibres) {
-        const FibreLanes fibres(*fibre_block, ax, ay, az, bx, by, bz, cx, cy, cz);
-        const Lanes pull = fibres.pull(), bent = fibres.curvature();
-        sx = sx + pull * fibres.x, sy = sy + pull * fibres.y, sz = sz + pull * fibres.z;
-        swelling = swelling + fibres.energy();
-        across = bent * fibres.across();
-        fx = fibres.by * fibres.x, fy = fibres.by * fibres.y, fz = fibres.by * fibres.z;
-        const Lanes along = bent - across;
-        pull_x = along * fx, pull_y = along * fy, pull_z = along * fz;
-      }
-      const StiffLanes stiff(block, *stiffening, swelling, ax * ax + ay * ay + az * az, bx * bx + by * by + bz * bz,
-                             cx * cx + cy * cy + cz * cz, ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz,
-                             wx * wx + wy * wy + wz * wz);
-      const Lanes factor = stiff.factor();
-      gx = gx + factor * sx, gy = gy + factor * sy, gz = gz + factor * sz;
-      if constexpr (kWanted == Wanted::kSlopeAveraged) {
-        const Lanes shared = where_positive(pressure, of_nodes);
-        gx = gx + shared * nx, gy = gy + shared * ny, gz = gz + shared * nz;
-      }
-      if constexpr (!with_curvature(kWanted)) return;
-      // The Laplacian's diagonal is in the vertex' own, but for what the factor adds.
-      Lanes more = (all(1) - factor) * (to_a + (to_b + to_c));
-      const Lanes growth = stiff.growth(*stiffening);
-      const Lanes bent = factor * bulk, kx = bent * nx, ky = bent * ny, kz = bent * nz;
-      const Lanes tx = growth * sx, ty = growth * sy, tz = growth * sz;
-      if constexpr (kLaw == Law::kFibres) {
-        more = more + factor * across;
-        xx = xx + factor * pull_x * fx, xy = xy + factor * pull_x * fy, xz = xz + factor * pull_x * fz;
-        yy = yy + factor * pull_y * fy, yz = yz + factor * pull_y * fz, zz = zz + factor * pull_z * fz;
-      }
-      xx = xx + (kx * nx + tx * sx) + more, xy = xy + (kx * ny + tx * sy), xz = xz + (kx * nz + tx * sz);
-      yy = yy + (ky * ny + ty * sy) + more, yz = yz + (ky * nz + ty * sz), zz = zz + (kz * nz + tz * sz) + more;
-      if constexpr (kWanted == Wanted::kBothAveraged) store_rows(nx, ny, nz, normals);
-      return;
-    }
-    if constexpr (kWanted == Wanted::kSlopeAveraged) swell = swell + where_positive(pressure, of_nodes);
-    gx = gx + (swell * nx + (to_a * ax + (to_b * bx + to_c * cx)));
-    gy = gy + (swell * ny + (to_a * ay + (to_b * by + to_c * cy)));
-    gz = gz + (swell * nz + (to_a * az + (to_b * bz + to_c * cz)));
+    const Lanes less = nx * ax + ny * ay + nz * az;
+    const Lanes bulk = load(tets.bulk.data()), pressure = load(tets.pressure.data());
+    Lanes shrink = bulk * less + absolute(pressure);
+    if constexpr (kWanted == Wanted::kSlopeAveraged) shrink = shrink - where_positive(pressure, of_nodes);
+    gx = gx - shrink * nx, gy = gy - shrink * ny, gz = gz - shrink * nz;
     if constexpr (!with_curvature(kWanted)) return;
     const Lanes kx = bulk * nx, ky = bulk * ny, kz = bulk * nz;
     xx = xx + kx * nx, xy = xy + kx * ny, xz = xz + kx * nz;
     yy = yy + ky * ny, yz = yz + ky * nz, zz = zz + kz * nz;
+    if constexpr (kWanted == Wanted::kBothAveraged) store_rows(nx, ny, nz, normals);
+  }
+
+  /// Both, of tissue that stiffens or has fibres.
+  template <Wanted kWanted, Law kLaw, class Near>
+  [[gnu::always_inline]] inline void add_stiff(const TetLanes& tets, const StarBlock& block,
+                                               const StiffeningBlock& stiffening,
+                                               [[maybe_unused]] const FibreBlock* fibre_block, const Near& near,
+                                               float own_pressure, float* normals) {
+    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+    Lanes of_nodes = all(own_pressure);
+    if constexpr (kWanted == Wanted::kSlopeAveraged) {
+      Lanes pa, pb, pc;
+      near.corner(tets.a.data(), ax, ay, az, pa);
+      near.corner(tets.b.data(), bx, by, bz, pb);
+      near.corner(tets.c.data(), cx, cy, cz, pc);
+      of_nodes = (pa + pb) + (pc + of_nodes);
+    } else {
+      near.corner(tets.a.data(), ax, ay, az);
+      near.corner(tets.b.data(), bx, by, bz);
+      near.corner(tets.c.data(), cx, cy, cz);
+    }
+    const Lanes ux = bx - ax, uy = by - ay, uz = bz - az, wx = cx - ax, wy = cy - ay, wz = cz - az;
+    // The slope of six volumes in the vertex, and the volumes themselves.
+    const Lanes nx = uz * wy - uy * wz, ny = ux * wz - uz * wx, nz = uy * wx - ux * wy;
+    const Lanes volume6 = all(0) - (nx * ax + ny * ay + nz * az);
+    const Lanes bulk = load(tets.bulk.data()), pressure = load(tets.pressure.data());
+    const Lanes swell = bulk * volume6 - absolute(pressure);
+    const Lanes to_a = load(block.to_a.data()), to_b = load(block.to_b.data()), to_c = load(block.to_c.data());
+    const Lanes vx = wx - ux, vy = wy - uy, vz = wz - uz;
+    Lanes sx = swell * nx + (to_a * ax + (to_b * bx + to_c * cx));
+    Lanes sy = swell * ny + (to_a * ay + (to_b * by + to_c * cy));
+    Lanes sz = swell * nz + (to_a * az + (to_b * bz + to_c * cz));
+    Lanes swelling = (swell - all(0.5F) * bulk * volume6) * volume6;
+    // Curvature of the fibres: `across` in all directions, and of `pull` along them.
+    Lanes across = all(0), pull_x = all(0), pull_y = all(0), pull_z = all(0), fx = all(0), fy = all(0), fz = all(0);
+    if constexpr (kLaw == Law::kFibres) {
+      const FibreLanes fibres(*fibre_block, ax, ay, az, bx, by, bz, cx, cy, cz);
+      const Lanes pull = fibres.pull(), bent = fibres.curvature();
+      sx = sx + pull * fibres.x, sy = sy + pull * fibres.y, sz = sz + pull * fibres.z;
+      swelling = swelling + fibres.energy();
+      across = bent * fibres.across();
+      fx = fibres.by * fibres.x, fy = fibres.by * fibres.y, fz = fibres.by * fibres.z;
+      const Lanes along = bent - across;
+      pull_x = along * fx, pull_y = along * fy, pull_z = along * fz;
+    }
+    const StiffLanes stiff(block, stiffening, swelling, ax * ax + ay * ay + az * az, bx * bx + by * by + bz * bz,
+                           cx * cx + cy * cy + cz * cz, ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz,
+                           wx * wx + wy * wy + wz * wz);
+    const Lanes factor = stiff.factor();
+    gx = gx + factor * sx, gy = gy + factor * sy, gz = gz + factor * sz;
+    if constexpr (kWanted == Wanted::kSlopeAveraged) {
+      const Lanes shared = where_positive(pressure, of_nodes);
+      gx = gx + shared * nx, gy = gy + shared * ny, gz = gz + shared * nz;
+    }
+    if constexpr (!with_curvature(kWanted)) return;
+    // The Laplacian's diagonal is in the vertex' own, but for what the factor adds.
+    Lanes more = (all(1) - factor) * (to_a + (to_b + to_c));
+    const Lanes growth = stiff.growth(stiffening);
+    const Lanes bent = factor * bulk, kx = bent * nx, ky = bent * ny, kz = bent * nz;
+    const Lanes tx = growth * sx, ty = growth * sy, tz = growth * sz;
+    if constexpr (kLaw == Law::kFibres) {
+      more = more + factor * across;
+      xx = xx + factor * pull_x * fx, xy = xy + factor * pull_x * fy, xz = xz + factor * pull_x * fz;
+      yy = yy + factor * pull_y * fy, yz = yz + factor * pull_y * fz, zz = zz + factor * pull_z * fz;
+    }
+    xx = xx + (kx * nx + tx * sx) + more, xy = xy + (kx * ny + tx * sy), xz = xz + (kx * nz + tx * sz);
+    yy = yy + (ky * ny + ty * sy) + more, yz = yz + (ky * nz + ty * sz), zz = zz + (kz * nz + tz * sz) + more;
     if constexpr (kWanted == Wanted::kBothAveraged) store_rows(nx, ny, nz, normals);
   }
 
@@ -212,7 +265,7 @@ struct StarSum {
 /// Sums what the tets between a vertex and each neighbour do. Each tet has three other corners: its share in the
 /// vertex' own volume is a third of all.
 inline void find_around(const Descent& d, std::uint32_t vertex, const Around& around) {
-  const NeighbourList& list = d.neighbours[vertex];
+  const NeighbourList& list = d.neighbours[d.slots[vertex]];
   const std::uint32_t* slots = d.neighbour_slots + list.first;
   const std::uint16_t* ends = d.rings + list.first_ring;
   const std::uint16_t* ring = ends + list.count;
@@ -244,7 +297,7 @@ inline void find_around(const Descent& d, std::uint32_t vertex, const Around& ar
 
 /// Brings the pressures around a vertex up to date that has moved.
 inline void settle_pressures(const Descent& d, std::uint32_t vertex, const Around& around, const float* moved) {
-  const NeighbourList& list = d.neighbours[vertex];
+  const NeighbourList& list = d.neighbours[d.slots[vertex]];
   const std::uint32_t* slots = d.neighbour_slots + list.first;
   const Lanes x = all(moved[0]), y = all(moved[1]), z = all(moved[2]);
   for (unsigned begin = 0; begin <= list.count; begin += kLanes) {
@@ -254,119 +307,351 @@ inline void settle_pressures(const Descent& d, std::uint32_t vertex, const Aroun
   for (unsigned i = 0; i <= list.count; ++i) d.pressures[slots[i]] = around.pressure[i];
 }
 
-/// Inlined wherever it is called: the sweep is too slow with a call for each vertex.
-template <Wanted kWanted, Law kLaw>
-[[gnu::always_inline]] inline Quadratic star_quadratic(const Descent& d, std::uint32_t vertex, const Around& around) {
-  const Star& star = d.stars[vertex];
+/// Takes the neighbours of a part of a star into rows that go by their codes.
+struct NearRows {
+  alignas(32) float rows[std::size_t{4} * kMostNear];
+
+  /// One block of them, which are returned as columns as well.
+  inline void take(const float* places, const NearLanes& near, std::uint32_t block, const Row& centre, Lanes& x,
+                   Lanes& y, Lanes& z) {
+    float* out = rows + std::size_t{4} * near_code(block, 0);
+    for (std::uint32_t i = 0; i < kLanes; ++i) {
+      store_row(load_row(places + near.place[i]) - centre, out + std::size_t{4} * i);
+    }
+    load_points(out, kRows, x, y, z);
+  }
+};
+
+inline Row place_row(const float* place) {
+  const float row[4] = {place[0], place[1], place[2], 0};  // pressures of neighbours stay as they are
+  return load_row(row);
+}
+
+#ifdef INCISE_LANES_PICK
+/// Takes one of the two blocks of neighbours that a small star has at most.
+inline void take_few(const float* places, const NearLanes& near, const Lanes& x, const Lanes& y, const Lanes& z,
+                     unsigned block, Few& few) {
+  Lanes at_x, at_y, at_z;
+  load_at(places, near.place.data(), at_x, at_y, at_z, few.pressure[block]);
+  few.x[block] = at_x - x, few.y[block] = at_y - y, few.z[block] = at_z - z;
+}
+#endif
+
+// Of a lambda that is called for each block.
+#undef INCISE_INLINED
+#define INCISE_INLINED __attribute__((always_inline))
+
+/// Calls `on_near(block of neighbours, x, y, z)` and `on_tets(block of tets, its number in the star, all neighbours)`
+/// for a star, part by part. Places are from the vertex.
+template <class OnNear, class OnTets>
+[[gnu::always_inline]] inline void read_star(const Descent& d, std::uint32_t vertex, const OnNear& on_near,
+                                             const OnTets& on_tets) {
   const float* place = d.places + std::size_t{4} * vertex;
-  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
-  StarSum sum(all(0));
-  const StarBlock* block = d.blocks + star.first;
-  const StiffeningBlock* stiffening = kLaw != Law::kSoft ? d.stiffening + star.first : nullptr;
-  const FibreBlock* fibres = kLaw == Law::kFibres ? d.fibres + star.first : nullptr;
-  float* normals = around.normals;
-  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) {
-    sum.template add<kWanted, kLaw>(*block, stiffening, fibres, d, x, y, z, place[3], normals);
-    if constexpr (kLaw != Law::kSoft) ++stiffening;
-    if constexpr (kLaw == Law::kFibres) ++fibres;
-    if constexpr (kWanted == Wanted::kBothAveraged) normals += std::size_t{4} * kLanes;
+  const PackedStar* part = d.packed + vertex;
+#ifdef INCISE_LANES_PICK
+  if (part->is_small()) {
+    const NearLanes* near = d.near + part->first_near;
+    const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+    Few few;
+    take_few(d.places, near[0], x, y, z, 0, few);
+    on_near(near[0], few.x[0], few.y[0], few.z[0]);
+    if (part->near > 1) {
+      take_few(d.places, near[1], x, y, z, 1, few);
+      on_near(near[1], few.x[1], few.y[1], few.z[1]);
+    } else {
+      few.x[1] = few.x[0], few.y[1] = few.y[0], few.z[1] = few.z[0], few.pressure[1] = few.pressure[0];
+    }
+    for (std::uint32_t i = 0; i < part->tets; ++i) on_tets(d.tets[part->first_tets + i], i, few);
+    return;
   }
-  if constexpr (kWanted == Wanted::kBothAveraged) {
-    find_around(d, vertex, around);
-    for (unsigned begin = 0; begin <= d.neighbours[vertex].count; begin += kLanes) sum.add_around(around, begin);
+#endif
+  NearRows rows;
+  const Row centre = place_row(place);
+  for (std::uint32_t number = 0;; part = d.parts + part->next) {
+    for (std::uint32_t i = 0; i < part->near; ++i) {
+      const NearLanes& near = d.near[part->first_near + i];
+      Lanes x, y, z;
+      rows.take(d.places, near, i, centre, x, y, z);
+      on_near(near, x, y, z);
+    }
+    const Many many{rows.rows};
+    for (std::uint32_t i = 0; i < part->tets; ++i) on_tets(d.tets[part->first_tets + i], number++, many);
+    if (part->next == 0) return;
   }
-  float s[12];
-  sum_lanes(sum.gx, sum.gy, sum.gz, sum.xx, s);
-  const auto wide = [&](unsigned i) { return static_cast<double>(s[i]); };
-  if constexpr (!with_curvature(kWanted)) return {{wide(0), wide(1), wide(2)}, {}};
-  sum_lanes(sum.xy, sum.xz, sum.yy, sum.yz, s + 4);
-  sum_lanes(sum.zz, sum.zz, sum.zz, sum.zz, s + 8);
-  return {{wide(0), wide(1), wide(2)}, {wide(3), wide(4), wide(5), wide(6), wide(7), wide(8)}};
 }
-
-inline void add_inertia(const Motion& motion, const float* x, Quadratic& q) {
-  for (unsigned i = 0; i < 3; ++i) {
-    const double moved = static_cast<double>(x[i]) - static_cast<double>(motion.start[i]);
-    q.slope[i] += motion.weight * (moved - static_cast<double>(motion.aim[i]));
-  }
-  const double stiffness = motion.weight + motion.diagonal;
-  q.curvature[0] += stiffness;
-  q.curvature[3] += stiffness;
-  q.curvature[5] += stiffness;
-}
-
-template <Wanted kWanted, Law kLaw>
-[[gnu::always_inline]] inline Quadratic whole_quadratic(const Descent& d, std::uint32_t vertex,
-                                                        const Around& around = {}) {
-  const Motion& motion = d.motions[vertex];
-  const float* x = d.places + std::size_t{4} * vertex;
-  Quadratic q = star_quadratic<kWanted, kLaw>(d, vertex, around);
-  add_inertia(motion, x, q);
-  if (motion.pulls > 0) add_pulls(d, motion, q);
-  if (motion.contacts > 0) add_contacts(d, motion, q);
-  return q;
-}
-
-/// The step to the least of a quadratic, by cofactors in double precision: single precision fails on slivers.
-inline bool least_of(const Quadratic& q, std::array<double, 3>& step) {
-  const auto& [xx, xy, xz, yy, yz, zz] = q.curvature;
-  const double c00 = yy * zz - yz * yz, c01 = xz * yz - xy * zz, c02 = xy * yz - xz * yy;
-  const double c11 = xx * zz - xz * xz, c12 = xy * xz - xx * yz, c22 = xx * yy - xy * xy;
-  const double determinant = xx * c00 + xy * c01 + xz * c02;
-  const double by = -1 / determinant;
-  const auto& [gx, gy, gz] = q.slope;
-  step[0] = by * (c00 * gx + c01 * gy + c02 * gz);
-  step[1] = by * (c01 * gx + c11 * gy + c12 * gz);
-  step[2] = by * (c02 * gx + c12 * gy + c22 * gz);
-  const double fall = gx * step[0] + gy * step[1] + gz * step[2];
-  return determinant > 0 && fall < 0;  // rounding may turn it uphill, or into no number
+inline Floats four(const void* from) {
+  Floats row;
+  std::memcpy(&row, from, sizeof row);
+  return row;
 }
 
 /// Writes a place at once: the next vertex reads it at once, and a machine cannot hand on what was stored in parts.
-inline void put(float x, float y, float z, float pressure, float* place) {
-  using FourFloats = float __attribute__((vector_size(16)));
-  const FourFloats row = {x, y, z, pressure};
+inline void put(const Floats& row, float* place) {
   std::memcpy(place, &row, sizeof row);
 }
 
-/// Moves a vertex to its least energy, at most as far as it may go: on the way there the energy falls all along.
-inline void descend(const Quadratic& q, double reach, float* x) {
-  std::array<double, 3> step;
-  if (!least_of(q, step)) return;
-  const double length2 = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
-  const double scale = length2 > reach * reach ? reach / std::sqrt(length2) : 1.0;
-  const auto moved = [&](unsigned i) { return static_cast<float>(static_cast<double>(x[i]) + scale * step[i]); };
-  put(moved(0), moved(1), moved(2), x[3], x);
+/// Rows to columns or back.
+inline void transpose(Floats& r0, Floats& r1, Floats& r2, Floats& r3) {
+  const Floats xy01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5), zw01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7);
+  const Floats xy23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5), zw23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
+  r0 = __builtin_shufflevector(xy01, xy23, 0, 1, 4, 5);
+  r1 = __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7);
+  r2 = __builtin_shufflevector(zw01, zw23, 0, 1, 4, 5);
+  r3 = __builtin_shufflevector(zw01, zw23, 2, 3, 6, 7);
 }
 
-/// The quadratic's value at the start of the substep, against that where the vertex is.
-inline double value_at_start(const Quadratic& q, const Motion& motion, const float* x) {
-  std::array<double, 3> d;
-  for (unsigned i = 0; i < 3; ++i) d[i] = static_cast<double>(motion.start[i]) - static_cast<double>(x[i]);
-  const auto& [xx, xy, xz, yy, yz, zz] = q.curvature;
-  const double bent = xx * d[0] * d[0] + yy * d[1] * d[1] + zz * d[2] * d[2] +
-                      2 * (xy * d[0] * d[1] + xz * d[0] * d[2] + yz * d[1] * d[2]);
-  return q.slope[0] * d[0] + q.slope[1] * d[1] + q.slope[2] * d[2] + 0.5 * bent;
+constexpr unsigned kBatch = 4;
+
+/// Vertices that are visited at once: none reads what another one moves, so that this is as good as one after the
+/// other. What their tets sum up to lies by number and vertex.
+struct Batch {
+  std::uint32_t vertices[kBatch];
+  std::uint32_t places[kBatch];  ///< as `NearLanes` has them
+  unsigned count;
+  unsigned with_terms;  ///< the one of them that has pulls or contacts; kBatch: none has
+  alignas(32) float sums[9][kBatch][kLanes];
+
+  inline void clear() {
+    count = 0;
+    with_terms = kBatch;
+  }
+  inline void add(const Descent& d, std::uint32_t vertex, const StarSum& sum, bool has_curvature) {
+    store(sum.gx, sums[0][count]), store(sum.gy, sums[1][count]), store(sum.gz, sums[2][count]);
+    if (has_curvature) {
+      store(sum.xx, sums[3][count]), store(sum.xy, sums[4][count]), store(sum.xz, sums[5][count]);
+      store(sum.yy, sums[6][count]), store(sum.yz, sums[7][count]), store(sum.zz, sums[8][count]);
+    }
+    if (has_terms(d.motions[vertex])) with_terms = count;
+    places[count] = 4 * vertex;
+    vertices[count++] = vertex;
+  }
+  /// Whether a vertex reads what is about to be moved, or may.
+  [[nodiscard]] inline bool meets(const Descent& d, std::uint32_t vertex) const {
+    if (count == 0) return false;
+    if (with_terms < kBatch && has_terms(d.motions[vertex])) return true;
+    for (const PackedStar* part = d.packed + vertex;; part = d.parts + part->next) {
+      for (std::uint32_t i = 0; i < part->near; ++i) {
+        if (names_any(d.near[part->first_near + i].place.data(), places, count)) return true;
+      }
+      if (part->next == 0) return false;
+    }
+  }
+  [[nodiscard]] static inline bool has_terms(const Motion& motion) { return motion.pulls > 0 || motion.contacts > 0; }
+  /// Of a lane: unused ones go with the first vertex.
+  [[nodiscard]] inline unsigned at(unsigned lane) const { return lane < count ? lane : 0; }
+  [[gnu::always_inline]] inline void sum(unsigned i, Doubles& into) const {
+    alignas(16) float out[4];
+    sum_lanes(load(sums[i][0]), load(sums[i][at(1)]), load(sums[i][at(2)]), load(sums[i][at(3)]), out);
+    widen(four(out), into);
+  }
+};
+
+/// Sums a star up into a batch. Not inlined: all visits share it, and it is long to compile.
+template <Wanted kWanted, Law kLaw>
+[[gnu::noinline]] void sum_star(const Descent& d, std::uint32_t vertex, const Around& around, Batch& batch) {
+  const float* place = d.places + std::size_t{4} * vertex;
+  StarSum sum(all(0));
+  const auto normals_of = [&](std::uint32_t i) {
+    return kWanted == Wanted::kBothAveraged ? around.normals + std::size_t{4} * kLanes * i : nullptr;
+  };
+  if constexpr (kLaw == Law::kSoft) {
+    read_star(
+        d, vertex,
+        [&](const NearLanes& near, const Lanes& x, const Lanes& y, const Lanes& z)
+            INCISE_INLINED { sum.add_stretch(near, x, y, z); },
+        [&](const TetLanes& tets, std::uint32_t i, const auto& near)
+            INCISE_INLINED { sum.template add_swelling<kWanted>(tets, near, place[3], normals_of(i)); });
+  } else {
+    const std::size_t first = d.stars[d.slots[vertex]].first;
+    read_star(
+        d, vertex, [](const NearLanes&, const Lanes&, const Lanes&, const Lanes&) INCISE_INLINED {},
+        [&](const TetLanes& tets, std::uint32_t i, const auto& near) INCISE_INLINED {
+          const FibreBlock* fibres = kLaw == Law::kFibres ? d.fibres + first + i : nullptr;
+          sum.template add_stiff<kWanted, kLaw>(tets, d.blocks[first + i], d.stiffening[first + i], fibres, near,
+                                                place[3], normals_of(i));
+        });
+  }
+  if constexpr (kWanted == Wanted::kBothAveraged) {
+    find_around(d, vertex, around);
+    for (unsigned begin = 0; begin <= d.neighbours[d.slots[vertex]].count; begin += kLanes)
+      sum.add_around(around, begin);
+  }
+  batch.add(d, vertex, sum, with_curvature(kWanted));
+}
+
+/// The quadratics of a batch.
+struct Quadratics {
+  Doubles gx, gy, gz, xx, xy, xz, yy, yz, zz;
+  Floats x, y, z, pressure;        ///< where the vertices are
+  Doubles from_x, from_y, from_z;  ///< and that from where the substep began
+
+  /// Of stars alone, with the inertia of their vertices.
+  template <bool kCurved>
+  [[gnu::always_inline]] inline Quadratics(const Descent& d, const Batch& b,
+                                           std::bool_constant<kCurved> /*is_curved*/) {
+    b.sum(0, gx), b.sum(1, gy), b.sum(2, gz);
+    const std::uint32_t v0 = b.vertices[0], v1 = b.vertices[b.at(1)], v2 = b.vertices[b.at(2)],
+                        v3 = b.vertices[b.at(3)];
+    const Motion &m0 = d.motions[v0], &m1 = d.motions[v1], &m2 = d.motions[v2], &m3 = d.motions[v3];
+    const auto place = [&](std::uint32_t v) { return four(d.places + std::size_t{4} * v); };
+    x = place(v0), y = place(v1), z = place(v2), pressure = place(v3);
+    transpose(x, y, z, pressure);
+    const auto bytes = [](const Motion& m) { return reinterpret_cast<const char*>(&m); };
+    Floats sx = four(bytes(m0)), sy = four(bytes(m1)), sz = four(bytes(m2)), unused = four(bytes(m3));
+    transpose(sx, sy, sz, unused);
+    constexpr std::size_t kAim = sizeof m0.start;
+    Floats ax = four(bytes(m0) + kAim), ay = four(bytes(m1) + kAim), az = four(bytes(m2) + kAim);
+    unused = four(bytes(m3) + kAim);
+    transpose(ax, ay, az, unused);
+    const Doubles weight = {m0.weight, m1.weight, m2.weight, m3.weight};
+    add_inertia(x, sx, ax, weight, from_x, gx);
+    add_inertia(y, sy, ay, weight, from_y, gy);
+    add_inertia(z, sz, az, weight, from_z, gz);
+    if constexpr (kCurved) {
+      const Doubles stiffness = weight + Doubles{m0.diagonal, m1.diagonal, m2.diagonal, m3.diagonal};
+      b.sum(3, xx), b.sum(4, xy), b.sum(5, xz), b.sum(6, yy), b.sum(7, yz), b.sum(8, zz);
+      xx += stiffness, yy += stiffness, zz += stiffness;
+    }
+    if (b.with_terms < kBatch) add_terms<kCurved>(d, d.motions[b.vertices[b.with_terms]], b.with_terms);
+  }
+
+  /// Of a batch of one vertex.
+  [[gnu::always_inline]] inline Quadratics(const Descent& d, const Batch& b) {
+    const std::uint32_t vertex = b.vertices[0];
+    float s[12];
+    sum_lanes(load(b.sums[0][0]), load(b.sums[1][0]), load(b.sums[2][0]), load(b.sums[3][0]), s);
+    sum_lanes(load(b.sums[4][0]), load(b.sums[5][0]), load(b.sums[6][0]), load(b.sums[7][0]), s + 4);
+    const Lanes last = load(b.sums[8][0]);
+    sum_lanes(last, last, last, last, s + 8);
+    const auto wide = [&](unsigned i) { return static_cast<double>(s[i]); };
+    const Motion& motion = d.motions[vertex];
+    const float* place = d.places + std::size_t{4} * vertex;
+    const Doubles weight = {motion.weight};
+    x = Floats{place[0]}, y = Floats{place[1]}, z = Floats{place[2]}, pressure = Floats{place[3]};
+    gx = Doubles{wide(0)}, gy = Doubles{wide(1)}, gz = Doubles{wide(2)};
+    add_inertia(x, Floats{motion.start[0]}, Floats{motion.aim[0]}, weight, from_x, gx);
+    add_inertia(y, Floats{motion.start[1]}, Floats{motion.aim[1]}, weight, from_y, gy);
+    add_inertia(z, Floats{motion.start[2]}, Floats{motion.aim[2]}, weight, from_z, gz);
+    const double stiffness = motion.weight + motion.diagonal;
+    xx = Doubles{wide(3) + stiffness}, xy = Doubles{wide(4)}, xz = Doubles{wide(5)};
+    yy = Doubles{wide(6) + stiffness}, yz = Doubles{wide(7)}, zz = Doubles{wide(8) + stiffness};
+    if (Batch::has_terms(motion)) add_terms<true>(d, motion, 0);
+  }
+
+  [[gnu::always_inline]] static inline void add_inertia(const Floats& place, const Floats& start, const Floats& aim,
+                                                        const Doubles& weight, Doubles& from, Doubles& slope) {
+    Doubles began, aimed;
+    widen(place, from), widen(start, began), widen(aim, aimed);
+    from -= began;
+    slope += weight * (from - aimed);
+  }
+  /// What pulls and presses the vertex in a lane.
+  template <bool kCurved>
+  inline void add_terms(const Descent& d, const Motion& motion, unsigned k) {
+    Quadratic q;
+    if (motion.pulls > 0) add_pulls(d, motion, q);
+    if (motion.contacts > 0) add_contacts(d, motion, q);
+    gx[k] += q.slope[0], gy[k] += q.slope[1], gz[k] += q.slope[2];
+    if constexpr (!kCurved) return;
+    xx[k] += q.curvature[0], xy[k] += q.curvature[1], xz[k] += q.curvature[2];
+    yy[k] += q.curvature[3], yz[k] += q.curvature[4], zz[k] += q.curvature[5];
+  }
+};
+
+inline void fetch_lines(const void* from, std::size_t bytes) {
+  const auto* line = static_cast<const char*>(from);
+  for (const char* end = line + bytes; line < end; line += 64) __builtin_prefetch(line);
 }
 
 /// Stars are longer than what the machine fetches ahead by itself.
-inline void fetch(const Descent& d, std::uint32_t vertex) {
-  const Star& star = d.stars[vertex];
-  const auto* line = reinterpret_cast<const char*>(d.blocks + star.first);
-  const char* end = line + star.used_blocks() * sizeof(StarBlock);
-  for (; line < end; line += 64) __builtin_prefetch(line);
+inline void fetch_star(const Descent& d, std::uint32_t vertex) {
+  const PackedStar& star = d.packed[vertex];
+  fetch_lines(d.near + star.first_near, star.near * sizeof(NearLanes));
+  fetch_lines(d.tets + star.first_tets, star.tets * sizeof(TetLanes));
+  if (d.stiffening == nullptr) return;
+  const Star& whole = d.stars[d.slots[vertex]];
+  for (std::uint32_t i = 0; i < whole.used_blocks(); ++i) {
+    const StarBlock& block = d.blocks[whole.first + i];
+    fetch_lines(&block.to_a, sizeof block.to_a + sizeof block.to_b + sizeof block.to_c);
+  }
+  fetch_lines(d.stiffening + whole.first, whole.used_blocks() * sizeof(StiffeningBlock));
+}
+/// Fetches what is visited after the vertex at `i`.
+template <class At>
+[[gnu::always_inline]] inline void fetch_ahead(const Descent& d, const At& at, std::size_t i, std::size_t count) {
+  if (i + kFetchAhead >= count) return;
+  const std::uint32_t next = at(i + kFetchAhead);
+  __builtin_prefetch(d.motions + next);
+  fetch_star(d, next);
 }
 
-/// Hands the quadratic to `move`, which may move the vertex; pressures are kept up with it.
-template <Law kLaw, class Move>
-[[gnu::always_inline]] inline void visit_averaged(const Descent& d, std::uint32_t v, const Around& around,
-                                                  const Move& move) {
-  float* x = d.places + std::size_t{4} * v;
-  const Quadratic q = whole_quadratic<Wanted::kBothAveraged, kLaw>(d, v, around);
-  const float before[3] = {x[0], x[1], x[2]};
-  move(q, x);
-  const float moved[3] = {x[0] - before[0], x[1] - before[1], x[2] - before[2]};
-  settle_pressures(d, v, around, moved);
+/// Moves the vertices of a batch to their least energies, each at most as far as it may go: on the way there the energy
+/// falls all along. By cofactors in double precision: single precision fails on slivers.
+struct Descending {
+  [[nodiscard]] inline bool takes_part(const Motion& motion) const { return !motion.is_rigid; }
+  [[gnu::always_inline]] inline void move(const Descent& d, const Batch& b, const Quadratics& q, Floats* rows) const {
+    const Doubles c00 = q.yy * q.zz - q.yz * q.yz, c01 = q.xz * q.yz - q.xy * q.zz, c02 = q.xy * q.yz - q.xz * q.yy;
+    const Doubles c11 = q.xx * q.zz - q.xz * q.xz, c12 = q.xy * q.xz - q.xx * q.yz, c22 = q.xx * q.yy - q.xy * q.xy;
+    const Doubles determinant = q.xx * c00 + q.xy * c01 + q.xz * c02;
+    const Doubles by = Doubles{-1, -1, -1, -1} / determinant;
+    Doubles x = by * (c00 * q.gx + c01 * q.gy + c02 * q.gz);
+    Doubles y = by * (c01 * q.gx + c11 * q.gy + c12 * q.gz);
+    Doubles z = by * (c02 * q.gx + c12 * q.gy + c22 * q.gz);
+    const Doubles fall = q.gx * x + q.gy * y + q.gz * z, length2 = x * x + y * y + z * z;
+    const auto falls =
+        (determinant > Doubles{}) & (fall < Doubles{});  // rounding may turn it uphill, or into no number
+    const auto reach = [&](unsigned k) { return static_cast<double>(d.motions[b.vertices[b.at(k)]].reach); };
+    const Doubles most = {reach(0), reach(1), reach(2), reach(3)};
+    const auto is_far = length2 > most * most;
+    if ((is_far[0] | is_far[1] | is_far[2] | is_far[3]) != 0) {
+      for (unsigned k = 0; k < kBatch; ++k) {
+        const double scale = is_far[k] != 0 ? most[k] / std::sqrt(length2[k]) : 1.0;
+        x[k] *= scale, y[k] *= scale, z[k] *= scale;
+      }
+    }
+    const auto moved = [&](const Floats& from, const Doubles& step, Floats& to) {
+      Doubles wide;
+      widen(from, wide);
+      narrow(falls ? wide + step : wide, to);
+    };
+    moved(q.x, x, rows[0]), moved(q.y, y, rows[1]), moved(q.z, z, rows[2]);
+    rows[3] = q.pressure;
+  }
+};
+
+/// Puts vertices back to their start where by their quadratics they cost less there.
+struct Picking {
+  [[nodiscard]] inline bool takes_part(const Motion& motion) const { return motion.leaps && !motion.is_rigid; }
+  [[gnu::always_inline]] inline void move(const Descent& d, const Batch& b, const Quadratics& q, Floats* rows) const {
+    const Doubles x = -q.from_x, y = -q.from_y, z = -q.from_z;
+    const Doubles bent =
+        q.xx * x * x + q.yy * y * y + q.zz * z * z + Doubles{2, 2, 2, 2} * (q.xy * x * y + q.xz * x * z + q.yz * y * z);
+    const auto is_less = q.gx * x + q.gy * y + q.gz * z + Doubles{0.5, 0.5, 0.5, 0.5} * bent < Doubles{};
+    Floats start[kBatch];
+    for (unsigned k = 0; k < kBatch; ++k) start[k] = four(d.motions[b.vertices[b.at(k)]].start.data());
+    transpose(start[0], start[1], start[2], start[3]);
+    const auto picked = [&](const Floats& from, const Floats& at_start, Floats& to) {
+      Doubles here, there;
+      widen(from, here), widen(at_start, there);
+      narrow(is_less ? there : here, to);
+    };
+    picked(q.x, start[0], rows[0]), picked(q.y, start[1], rows[1]), picked(q.z, start[2], rows[2]);
+    rows[3] = q.pressure;
+  }
+};
+
+/// Moves what a batch holds, and empties it.
+template <class Visit>
+[[gnu::always_inline]] inline void move_batch(const Descent& d, const Visit& how, const Quadratics& q, Batch& b) {
+  Floats rows[kBatch];
+  how.move(d, b, q, rows);
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  for (unsigned k = 0; k < b.count; ++k) put(rows[k], d.places + std::size_t{4} * b.vertices[k]);
+  b.clear();
+}
+template <class Visit>
+inline void finish(const Descent& d, const Visit& how, Batch& b) {
+  move_batch(d, how, Quadratics(d, b, std::true_type()), b);
 }
 
 constexpr std::uint32_t kMostBlocks = 24;  // of stars whose scratch is not allocated
@@ -385,25 +670,38 @@ inline Around lay_out(float* normals, float* columns, std::size_t count) {
           columns + 8 * count};
 }
 
-template <Law kLaw, class Move>
-void visit_large(const Descent& d, std::uint32_t v, const Move& move) {
-  const std::size_t count = columns_of(d.neighbours[v].count);
-  std::vector<float> normals(std::size_t{4} * kLanes * d.stars[v].used_blocks()), columns(9 * count);
-  visit_averaged<kLaw>(d, v, lay_out(normals.data(), columns.data(), count), move);
+/// Visits a vertex alone; the pressures of its neighbours are kept up with it.
+template <Law kLaw, class Visit>
+[[gnu::always_inline]] inline void visit_averaged(const Descent& d, const Visit& how, std::uint32_t v,
+                                                  const Around& around, Batch& b) {
+  const float* x = d.places + std::size_t{4} * v;
+  const float before[3] = {x[0], x[1], x[2]};
+  sum_star<Wanted::kBothAveraged, kLaw>(d, v, around, b);
+  move_batch(d, how, Quadratics(d, b), b);
+  const float moved[3] = {x[0] - before[0], x[1] - before[1], x[2] - before[2]};
+  settle_pressures(d, v, around, moved);
 }
 
-template <bool kAveraged, Law kLaw, class Move>
-[[gnu::always_inline]] inline void visit(const Descent& d, std::uint32_t v, const Move& move) {
+template <Law kLaw, class Visit>
+void visit_large(const Descent& d, const Visit& how, std::uint32_t v, Batch& b) {
+  const std::size_t count = columns_of(d.neighbours[d.slots[v]].count);
+  std::vector<float> normals(std::size_t{4} * kLanes * d.stars[d.slots[v]].used_blocks()), columns(9 * count);
+  visit_averaged<kLaw>(d, how, v, lay_out(normals.data(), columns.data(), count), b);
+}
+
+template <bool kAveraged, Law kLaw, class Visit>
+[[gnu::always_inline]] inline void visit(const Descent& d, const Visit& how, std::uint32_t v, Batch& b) {
   if constexpr (kAveraged) {
-    if (d.stars[v].used_blocks() > kMostBlocks || d.neighbours[v].count >= kMostColumns) {
-      visit_large<kLaw>(d, v, move);
+    if (d.stars[d.slots[v]].used_blocks() > kMostBlocks || d.neighbours[d.slots[v]].count >= kMostColumns) {
+      visit_large<kLaw>(d, how, v, b);
       return;
     }
     alignas(32) float normals[std::size_t{4} * kLanes * kMostBlocks];
     alignas(32) float columns[9 * kMostColumns];
-    visit_averaged<kLaw>(d, v, lay_out(normals, columns, kMostColumns), move);
+    visit_averaged<kLaw>(d, how, v, lay_out(normals, columns, kMostColumns), b);
   } else {
-    move(whole_quadratic<Wanted::kBoth, kLaw>(d, v), d.places + std::size_t{4} * v);
+    if (b.count == kBatch || b.meets(d, v)) finish(d, how, b);
+    sum_star<Wanted::kBoth, kLaw>(d, v, {}, b);
   }
 }
 
@@ -423,46 +721,49 @@ template <class Work>
   d.node_stiffnesses != nullptr ? for_law<true>(d, work) : for_law<false>(d, work);
 }
 
-template <bool kAveraged, Law kLaw>
-inline void sweep_each(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
+template <bool kAveraged, Law kLaw, class Visit>
+inline void visit_each(const Descent& d, const Visit& how, std::span<const std::uint32_t> order, bool is_backward) {
   const std::size_t count = order.size();
   const auto at = [&](std::size_t i) { return order[is_backward ? count - 1 - i : i]; };
+  Batch batch;
+  batch.clear();
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t v = at(i);
-    if (i + kFetchAhead < count) fetch(d, at(i + kFetchAhead));
-    if (d.motions[v].is_rigid) continue;
-    visit<kAveraged, kLaw>(
-        d, v, [&](const Quadratic& q, float* x) { descend(q, static_cast<double>(d.motions[v].reach), x); });
+    fetch_ahead(d, at, i, count);
+    if (how.takes_part(d.motions[v])) visit<kAveraged, kLaw>(d, how, v, batch);
   }
+  if (batch.count > 0) finish(d, how, batch);
 }
 
 void sweep_all(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
-  for_kind(d, [&]<bool kAveraged, Law kLaw>() { sweep_each<kAveraged, kLaw>(d, order, is_backward); });
-}
-
-template <bool kAveraged, Law kLaw>
-inline void pick_each(const Descent& d, std::span<const std::uint32_t> order) {
-  for (const std::uint32_t v : order) {
-    const Motion& motion = d.motions[v];
-    if (!motion.leaps || motion.is_rigid) continue;
-    visit<kAveraged, kLaw>(d, v, [&](const Quadratic& q, float* x) {
-      if (value_at_start(q, motion, x) < 0) put(motion.start[0], motion.start[1], motion.start[2], x[3], x);
-    });
-  }
+  for_kind(d, [&]<bool kAveraged, Law kLaw>() { visit_each<kAveraged, kLaw>(d, Descending(), order, is_backward); });
 }
 
 void pick_all(const Descent& d, std::span<const std::uint32_t> order) {
-  for_kind(d, [&]<bool kAveraged, Law kLaw>() { pick_each<kAveraged, kLaw>(d, order); });
+  for_kind(d, [&]<bool kAveraged, Law kLaw>() { visit_each<kAveraged, kLaw>(d, Picking(), order, false); });
+}
+
+inline void put_slopes(const Descent& d, Batch& b, float* slopes) {
+  const Quadratics q(d, b, std::false_type());
+  Floats rows[kBatch] = {};
+  narrow(q.gx, rows[0]), narrow(q.gy, rows[1]), narrow(q.gz, rows[2]);
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  for (unsigned k = 0; k < b.count; ++k) put(rows[k], slopes + std::size_t{4} * d.slots[b.vertices[k]]);
+  b.clear();
 }
 
 template <Wanted kWanted, Law kLaw>
 inline void slopes_of_each(const Descent& d, std::span<const std::uint32_t> order, float* slopes) {
+  Batch batch;
+  batch.clear();
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
-    const std::array<double, 3> slope = whole_quadratic<kWanted, kLaw>(d, order[i]).slope;
-    put(static_cast<float>(slope[0]), static_cast<float>(slope[1]), static_cast<float>(slope[2]), 0,
-        slopes + std::size_t{4} * order[i]);
+    fetch_ahead(
+        d, [&](std::size_t k) { return order[k]; }, i, order.size());
+    const bool has_terms = Batch::has_terms(d.motions[order[i]]);
+    if (batch.count == kBatch || (has_terms && batch.with_terms < kBatch)) put_slopes(d, batch, slopes);
+    sum_star<kWanted, kLaw>(d, order[i], {}, batch);
   }
+  if (batch.count > 0) put_slopes(d, batch, slopes);
 }
 
 void slopes_of_all(const Descent& d, std::span<const std::uint32_t> order, float* slopes) {
@@ -472,21 +773,18 @@ void slopes_of_all(const Descent& d, std::span<const std::uint32_t> order, float
 }
 
 /// Six volumes of the tets of a star that take part in its average.
-inline float star_volume(const Descent& d, const Star& star, const float* place) {
-  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+inline float star_volume(const Descent& d, std::uint32_t vertex) {
   Lanes volumes = all(0);
-  const StarBlock* block = d.blocks + star.first;
-  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) {
-    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
-    load_points(d.places, block->a.data(), ax, ay, az);
-    load_points(d.places, block->b.data(), bx, by, bz);
-    load_points(d.places, block->c.data(), cx, cy, cz);
-    ax = ax - x, ay = ay - y, az = az - z;
-    bx = bx - x, by = by - y, bz = bz - z;
-    cx = cx - x, cy = cy - y, cz = cz - z;
-    const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
-    volumes = volumes + where_positive(load(block->pressure.data()), volume6);
-  }
+  read_star(
+      d, vertex, [](const NearLanes&, const Lanes&, const Lanes&, const Lanes&) INCISE_INLINED {},
+      [&](const TetLanes& tets, std::uint32_t /*i*/, const auto& near) INCISE_INLINED {
+        Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+        near.corner(tets.a.data(), ax, ay, az);
+        near.corner(tets.b.data(), bx, by, bz);
+        near.corner(tets.c.data(), cx, cy, cz);
+        const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+        volumes = volumes + where_positive(load(tets.pressure.data()), volume6);
+      });
   float s[4];
   sum_lanes(volumes, volumes, volumes, volumes, s);
   return s[0];
@@ -494,35 +792,36 @@ inline float star_volume(const Descent& d, const Star& star, const float* place)
 
 void pressures_of_all(const Descent& d, std::span<const std::uint32_t> vertices) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (i + kFetchAhead < vertices.size()) fetch(d, vertices[i + kFetchAhead]);
-    const std::uint32_t v = vertices[i];
-    const float* place = d.places + std::size_t{4} * v;
+    fetch_ahead(
+        d, [&](std::size_t k) { return vertices[k]; }, i, vertices.size());
+    const std::uint32_t v = d.slots[vertices[i]];
     const float k = d.node_stiffnesses[v];
-    d.pressures[v] = k > 0 ? k * (star_volume(d, d.stars[v], place) - d.rest_volumes[v]) : 0.0F;
+    d.pressures[v] = k > 0 ? k * (star_volume(d, vertices[i]) - d.rest_volumes[v]) : 0.0F;
   }
+}
+
+/// What a block of tissue that does not stiffen has by its volumes.
+template <class Near>
+[[gnu::always_inline]] inline Lanes swelling_energy(const TetLanes& tets, const Near& near) {
+  Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+  near.corner(tets.a.data(), ax, ay, az);
+  near.corner(tets.b.data(), bx, by, bz);
+  near.corner(tets.c.data(), cx, cy, cz);
+  const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+  const Lanes half = load(tets.bulk.data()) * volume6 * all(0.5F);
+  return (half - absolute(load(tets.pressure.data()))) * volume6;
 }
 
 /// A corner's share in a tet's energy: a quarter of what its volume takes, half of what its own edges do, so that all
 /// four make it up.
-inline double star_energy(const Descent& d, const Star& star, const float* place) {
-  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+inline double star_energy(const Descent& d, std::uint32_t vertex) {
   Lanes swelling = all(0), stretch = all(0);
-  const StarBlock* block = d.blocks + star.first;
-  for (std::uint32_t i = star.used_blocks(); i > 0; --i, ++block) {
-    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
-    load_points(d.places, block->a.data(), ax, ay, az);
-    load_points(d.places, block->b.data(), bx, by, bz);
-    load_points(d.places, block->c.data(), cx, cy, cz);
-    ax = ax - x, ay = ay - y, az = az - z;
-    bx = bx - x, by = by - y, bz = bz - z;
-    cx = cx - x, cy = cy - y, cz = cz - z;
-    const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
-    const Lanes half = load(block->bulk.data()) * volume6 * all(0.5F);
-    swelling = swelling + (half - absolute(load(block->pressure.data()))) * volume6;
-    stretch = stretch + (load(block->to_a.data()) * (ax * ax + ay * ay + az * az) +
-                         (load(block->to_b.data()) * (bx * bx + by * by + bz * bz) +
-                          load(block->to_c.data()) * (cx * cx + cy * cy + cz * cz)));
-  }
+  read_star(
+      d, vertex,
+      [&](const NearLanes& near, const Lanes& x, const Lanes& y, const Lanes& z)
+          INCISE_INLINED { stretch = stretch + load(near.weight.data()) * (x * x + y * y + z * z); },
+      [&](const TetLanes& tets, std::uint32_t /*i*/, const auto& near)
+          INCISE_INLINED { swelling = swelling + swelling_energy(tets, near); });
   float s[4];
   sum_lanes(swelling, stretch, stretch, stretch, s);
   return 0.25 * (static_cast<double>(s[0]) - static_cast<double>(s[1]));
@@ -530,56 +829,65 @@ inline double star_energy(const Descent& d, const Star& star, const float* place
 
 /// The same where tissue stiffens: a quarter of each tet's energy.
 template <bool kHasFibres>
-inline double stiff_star_energy(const Descent& d, const Star& star, const float* place) {
-  const Lanes x = all(place[0]), y = all(place[1]), z = all(place[2]);
+inline double stiff_star_energy(const Descent& d, std::uint32_t vertex) {
   Lanes energy = all(0);
-  const StarBlock* block = d.blocks + star.first;
-  const StiffeningBlock* more = d.stiffening + star.first;
-  for (std::uint32_t i = 0; i < star.used_blocks(); ++i, ++block, ++more) {
-    Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
-    load_points(d.places, block->a.data(), ax, ay, az);
-    load_points(d.places, block->b.data(), bx, by, bz);
-    load_points(d.places, block->c.data(), cx, cy, cz);
-    ax = ax - x, ay = ay - y, az = az - z;
-    bx = bx - x, by = by - y, bz = bz - z;
-    cx = cx - x, cy = cy - y, cz = cz - z;
-    const Lanes ux = bx - ax, uy = by - ay, uz = bz - az, wx = cx - ax, wy = cy - ay, wz = cz - az;
-    const Lanes vx = wx - ux, vy = wy - uy, vz = wz - uz;
-    const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
-    const Lanes half = load(block->bulk.data()) * volume6 * all(0.5F);
-    Lanes swelling = (half - absolute(load(block->pressure.data()))) * volume6;
-    if constexpr (kHasFibres) {
-      const FibreLanes fibres(d.fibres[star.first + i], ax, ay, az, bx, by, bz, cx, cy, cz);
-      swelling = swelling + fibres.energy();
-    }
-    const StiffLanes stiff(*block, *more, swelling, ax * ax + ay * ay + az * az, bx * bx + by * by + bz * bz,
-                           cx * cx + cy * cy + cz * cz, ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz,
-                           wx * wx + wy * wy + wz * wz);
-    energy = energy + stiff.energy();
-  }
+  const std::size_t first = d.stars[d.slots[vertex]].first;
+  read_star(
+      d, vertex, [](const NearLanes&, const Lanes&, const Lanes&, const Lanes&) INCISE_INLINED {},
+      [&](const TetLanes& tets, std::uint32_t i, const auto& near) INCISE_INLINED {
+        Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
+        near.corner(tets.a.data(), ax, ay, az);
+        near.corner(tets.b.data(), bx, by, bz);
+        near.corner(tets.c.data(), cx, cy, cz);
+        const Lanes ux = bx - ax, uy = by - ay, uz = bz - az, wx = cx - ax, wy = cy - ay, wz = cz - az;
+        const Lanes vx = wx - ux, vy = wy - uy, vz = wz - uz;
+        Lanes swelling = swelling_energy(tets, near);
+        if constexpr (kHasFibres) {
+          const FibreLanes fibres(d.fibres[first + i], ax, ay, az, bx, by, bz, cx, cy, cz);
+          swelling = swelling + fibres.energy();
+        }
+        const StiffLanes stiff(d.blocks[first + i], d.stiffening[first + i], swelling, ax * ax + ay * ay + az * az,
+                               bx * bx + by * by + bz * bz, cx * cx + cy * cy + cz * cz, ux * ux + uy * uy + uz * uz,
+                               vx * vx + vy * vy + vz * vz, wx * wx + wy * wy + wz * wz);
+        energy = energy + stiff.energy();
+      });
   float s[4];
   sum_lanes(energy, energy, energy, energy, s);
   return 0.25 * static_cast<double>(s[0]);
 }
 
 void add_energies(const Descent& d, std::span<const std::uint32_t> order, double& sum) {
+  const auto add = [&](const auto& energy_of) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      fetch_ahead(
+          d, [&](std::size_t k) { return order[k]; }, i, order.size());
+      sum += energy_of(order[i]);
+    }
+  };
   if (d.fibres != nullptr) {
-    for (const std::uint32_t v : order) sum += stiff_star_energy<true>(d, d.stars[v], d.places + std::size_t{4} * v);
-    return;
-  }
-  if (d.stiffening != nullptr) {
-    for (const std::uint32_t v : order) sum += stiff_star_energy<false>(d, d.stars[v], d.places + std::size_t{4} * v);
-    return;
-  }
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + kFetchAhead < order.size()) fetch(d, order[i + kFetchAhead]);
-    sum += star_energy(d, d.stars[order[i]], d.places + std::size_t{4} * order[i]);
+    add([&](std::uint32_t v) { return stiff_star_energy<true>(d, v); });
+  } else if (d.stiffening != nullptr) {
+    add([&](std::uint32_t v) { return stiff_star_energy<false>(d, v); });
+  } else {
+    add([&](std::uint32_t v) { return star_energy(d, v); });
   }
 }
 
+/// Looks at a vertex, and leaves it where it is.
+struct Looking {
+  Quadratic& found;
+
+  [[nodiscard]] inline bool takes_part(const Motion& /*motion*/) const { return true; }
+  inline void move(const Descent& /*d*/, const Batch& /*b*/, const Quadratics& q, Floats* rows) const {
+    found = {{q.gx[0], q.gy[0], q.gz[0]}, {q.xx[0], q.xy[0], q.xz[0], q.yy[0], q.yz[0], q.zz[0]}};
+    rows[0] = q.x, rows[1] = q.y, rows[2] = q.z, rows[3] = q.pressure;
+  }
+};
+
 void find_quadratic(const Descent& d, std::uint32_t vertex, Quadratic& quadratic) {
-  const auto copy = [&](const Quadratic& q, float* /*x*/) { quadratic = q; };
-  for_kind(d, [&]<bool kAveraged, Law kLaw>() { visit<kAveraged, kLaw>(d, vertex, copy); });
+  for_kind(d, [&]<bool kAveraged, Law kLaw>() {
+    visit_each<kAveraged, kLaw>(d, Looking{quadratic}, std::span(&vertex, 1), false);
+  });
 }
 
 }  // namespace INCISE_LANES_NAMESPACE
@@ -662,11 +970,11 @@ PullState pull_state(const PullTerm& term, const Vec3& off) {
   return state;
 }
 
-Vec3 off_target(const PullTerm& term, const float* places) {
+Vec3 off_target(const PullTerm& term, const float* places, const std::uint32_t* rows) {
   Vec3 off = -term.target;
   for (unsigned i = 0; i < term.corners; ++i) {
     if (term.weights[i] == 0) continue;
-    const float* p = places + std::size_t{4} * term.vertices[i];
+    const float* p = places + std::size_t{4} * rows[term.vertices[i]];
     off += term.weights[i] * Vec3(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
   }
   return off;
@@ -676,7 +984,7 @@ void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q) {
   for (std::uint32_t i = 0; i < motion.pulls; ++i) {
     const PullUse& use = descent.uses[motion.first_pull + i];
     const PullTerm& term = descent.terms[use.term];
-    const PullState pull = pull_state(term, off_target(term, descent.places));
+    const PullState pull = pull_state(term, off_target(term, descent.places, descent.rows));
     const Mat3 bend = use.weight * use.weight * pull.curvature(term);
     for (int k = 0; k < 3; ++k) q.slope[static_cast<std::size_t>(k)] += use.weight * pull.slope[k];
     const std::array<double, 6> upper = {bend(0, 0), bend(0, 1), bend(0, 2), bend(1, 1), bend(1, 2), bend(2, 2)};

@@ -11,6 +11,7 @@
 #include "incise/geom/vec.h"
 #include "sim/body/contact_terms.h"
 #include "sim/body/neighbours.h"
+#include "sim/body/packed_stars.h"
 #include "sim/body/stars.h"
 
 namespace incise {
@@ -30,6 +31,9 @@ struct Motion {
   bool leaps = false;     ///< its velocity takes it far enough to do harm
   bool is_rigid = false;  ///< it moves with its bone: visits leave it where it is
 };
+
+// Visits read `start`, and then `aim`, in four numbers at once.
+static_assert(offsetof(Motion, start) == 0 && offsetof(Motion, aim) == sizeof Motion::start);
 
 /// A pull or a tie as the descent sees it; places against the body's middle. Of a tie the point is b − a.
 struct PullTerm {
@@ -55,16 +59,25 @@ struct PullUse {
   double weight = 0;
 };
 
-/// What visits read and write.
+/// What visits read and write. Vertices that are visited are given by their rows; all else goes by vertex slot where it
+/// does not say otherwise.
 struct Descent {
-  float* places = nullptr;  ///< 4 per vertex slot, the fourth its pressure for `find_slopes`
+  float* places = nullptr;  ///< 4 per row, the fourth its pressure for `find_slopes`
   const StarBlock* blocks = nullptr;
   const Star* stars = nullptr;
-  const Motion* motions = nullptr;
+  const Motion* motions = nullptr;  ///< by row
   const PullTerm* terms = nullptr;
   const PullUse* uses = nullptr;
   const ContactTerm* contact_terms = nullptr;
   const ContactUse* contact_uses = nullptr;
+  // of `KernelRows`: by vertex slot, and by row
+  const std::uint32_t* rows = nullptr;
+  const std::uint32_t* slots = nullptr;
+  // of `PackedStars`, by row
+  const PackedStar* packed = nullptr;
+  const PackedStar* parts = nullptr;
+  const NearLanes* near = nullptr;
+  const TetLanes* tets = nullptr;
   // of `NodalVolumes`; null where no volume is averaged
   float* pressures = nullptr;
   const float* node_stiffnesses = nullptr;
@@ -98,8 +111,8 @@ struct PullState {
 /// `off`: from the target to the point.
 [[nodiscard]] PullState pull_state(const PullTerm& term, const Vec3& off);
 
-/// From a pull's target to its point as it stands.
-[[nodiscard]] Vec3 off_target(const PullTerm& term, const float* places);
+/// From a pull's target to its point as it stands; `places` lie by row, `rows` by vertex slot.
+[[nodiscard]] Vec3 off_target(const PullTerm& term, const float* places, const std::uint32_t* rows);
 
 /// Adds what pulls a vertex to its quadratic.
 void add_pulls(const Descent& descent, const Motion& motion, Quadratic& q);
