@@ -80,8 +80,7 @@ void expect_no_gain(std::uint64_t seed, double stiffness, double most = 0.03) {
 }
 
 TEST(BodyBalance, FollowingAddsNoEnergy) {
-  for (const std::uint64_t seed : {1U, 5U, 8U, 10U, 11U})
-    expect_no_gain(seed, std::numeric_limits<double>::infinity());
+  for (const std::uint64_t seed : {1U, 5U, 8U, 10U, 11U}) expect_no_gain(seed, std::numeric_limits<double>::infinity());
   for (const std::uint64_t seed : {2U, 6U})
     expect_no_gain(seed, std::numeric_limits<double>::infinity(), 0.034);  // fall short, and are to get no worse
 }

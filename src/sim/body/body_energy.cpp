@@ -3,6 +3,7 @@
 // and light vertices may carry it on until all flies apart: so what a step has added is taken from the motion.
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/body/body_state.h"
@@ -126,7 +127,11 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   const detail::Descent d = descent();
   find_pressures();
   double elastic = detail::energy_share(d, rows_of(resting));
-  for (const auto& part : awake_rows) elastic += detail::energy_share(d, part);
+  std::array<double, detail::SweepOrder::kParts> of_parts{};
+  const auto find = [&](std::size_t part) { of_parts[part] = detail::energy_share(d, awake_rows[part]); };
+  pair.run([&] { find(0); }, [&] { find(1); });
+  find(2);
+  for (const double part : of_parts) elastic += part;
   if (nodal.is_on) {
     for (const std::uint32_t v : pressed) {
       const double k = nodal.stiffness(VertexId(v));
