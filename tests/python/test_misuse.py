@@ -182,10 +182,29 @@ def hidden(array):
     lambda: incise.box((2, 2, 2)).cut(incise.Stroke(STROKE, times=hidden([0.0, 1]))),
     lambda: incise.box((2, 2, 2)).set_positions(hidden(np.zeros((27, 3)))), lambda: body().hold(hidden([1, 2])),
     lambda: body().move_hold(0, hidden([0.0, 0, 0])), lambda: body().set_velocity(0, hidden([0.0, 0, 0])),
+    lambda: incise.box((2, 2, 2)).cut([[hidden(point) for point in edge] for edge in STROKE]),
+    lambda: incise.box((2, 2, 2)).cut([[(0.5, -0.2, np.ma.masked), (0.5, 1.2, 1)], [(0.5, -0.2, 0), (0.5, 1.2, 0)]]),
     lambda: body().frame(hidden(STROKE[0])), lambda: incise.Attributes(incise.box((2, 2, 2))).add("a", "tets", initial=hidden([1.0]))])
 def test_what_a_mask_hides_is_not_taken(call):
     with pytest.raises(incise.BadArgument, match="masked"):
         call()
+
+
+@pytest.mark.parametrize("spoil", [
+    lambda values, n: values.__setitem__("pair", np.zeros((2, n))), lambda values, n: values.__setitem__("pair", np.zeros(2 * n)),
+    lambda values, n: values.__setitem__("pair", np.zeros((n + 1, 2))), lambda values, n: values.__setitem__("one", np.zeros((n, 1))),
+    lambda values, n: values.__setitem__("one", [1.0, 2, 3]),
+    lambda values, n: values.add("other", "tets", width=3, initial=[1.0, 2])])
+def test_values_of_another_shape_are_refused_and_change_nothing(spoil):
+    engine = incise.box((2, 2, 2))
+    values = incise.Attributes(engine)
+    values.add("one", "tets", initial=3)
+    values.add("pair", "tets", width=2, initial=(1, 2))
+    with pytest.raises(incise.BadArgument, match="shape"):
+        spoil(values, len(engine.tets))
+    assert (values["one"] == 3).all() and (values["pair"] == (1, 2)).all()
+    values["one"], values["pair"] = 4, (5, 6)
+    assert (values["one"] == 4).all() and (values["pair"] == (5, 6)).all()
 
 
 def test_a_mask_that_hides_nothing_is_fine():

@@ -30,12 +30,20 @@ def _for_c(array: npt.NDArray[Any], kind: npt.DTypeLike) -> npt.NDArray[Any]:
     return np.require(array, kind, ("C", "A"))
 
 
+def _hides(value: Any) -> bool:
+    """Whether elements are hidden behind a mask, however deep in lists."""
+    if not isinstance(value, (list, tuple)):
+        return isinstance(value, np.ma.MaskedArray) and bool(np.ma.is_masked(value))  # type: ignore[no-untyped-call]
+    for part in value:
+        if type(part) is not float and _hides(part):  # the usual ones: each step of a blade comes by here
+            return True
+    return False
+
+
 def plain(value: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
     """As an array of numpy; what hides elements behind a mask is refused: C would take what is hidden."""
-    parts = value if isinstance(value, (list, tuple)) else [value]
-    for part in parts:
-        if isinstance(part, np.ma.MaskedArray) and np.ma.is_masked(part):  # type: ignore[no-untyped-call]
-            raise BadArgument(f"{name} has masked elements; fill them, or leave them out")
+    if _hides(value):
+        raise BadArgument(f"{name} has masked elements; fill them, or leave them out")
     return np.asarray(value)
 
 
@@ -48,6 +56,15 @@ def real(value: npt.ArrayLike, name: str) -> Floats:
     if kind.kind not in "biufO":  # of complex ones numpy would drop half, and warn; dates and texts it would turn
         raise BadArgument(f"{name} is of {kind}; real numbers are wanted")
     return _for_c(array, np.float64)
+
+
+def spread(value: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Floats:
+    """Real numbers of a shape, or fewer that numpy repeats to it."""
+    array = real(value, name)
+    try:
+        return np.broadcast_to(array, shape)
+    except ValueError:
+        raise BadArgument(f"{name} has the shape {array.shape}; {' x '.join(map(str, shape))} is wanted") from None
 
 
 def whole(value: Any, name: str, least: int, most: int) -> int:

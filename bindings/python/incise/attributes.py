@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from ._arrays import Floats, address, listener, real, text_bytes, waiting, whole
+from ._arrays import Floats, address, listener, spread, text_bytes, waiting, whole
 from ._library import Handle, check, lib, sized
 from .mesh import Mesh, choice
 
@@ -56,7 +56,7 @@ class Attributes:
         listener(recompute, "recompute")
         spec = sized(_c.incise_attribute_spec)
         encoded = text_bytes(name, "the name")
-        start = None if initial is None else np.array(np.broadcast_to(real(initial, "initial"), (width,)))
+        start = None if initial is None else np.array(spread(initial, (width,), "initial"))
         spec.name, spec.width, spec.initial = encoded, width, address(start)
         spec.domain, spec.transfer = choice(domain, _DOMAINS, "domain"), choice(transfer, _TRANSFERS, "transfer")
         if recompute is not None:
@@ -101,10 +101,10 @@ class Attributes:
         return values if width == 1 else values.reshape(-1, width)
 
     def __setitem__(self, name: str, values: npt.ArrayLike) -> None:
-        """Sets all values, in the shape in which they are had."""
+        """Sets all values, in the shape in which they are had; one for all elements will do, too."""
         inside, width = self._values(name), self._width(name)
-        inside.reshape(-1, width)[:] = np.broadcast_to(real(values, "values").reshape(-1, width),
-                                                       (len(inside) // width, width))
+        shape = (len(inside),) if width == 1 else (len(inside) // width, width)
+        inside.reshape(shape)[:] = spread(values, shape, "values")
 
     def _width(self, name: str) -> int:
         if name not in self._widths:
