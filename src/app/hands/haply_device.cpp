@@ -101,7 +101,8 @@ struct HaplyDevice::State {
   asio::steady_timer pace_;
   LinkPtr link_;
   DeviceGuard guard_;
-  std::string arm_;    // its id
+  std::string arm_;    // its id, as `HaplyReading` has it
+  double arm_at_ = 0;  // when it was heard of last, s
   DeviceState state_;  // as it was heard last
   Clock::time_point start_ = Clock::now();
   double retry_at_ = 0, commanded_at_ = 0, probed_at_ = 0, stopped_at_ = 0;
@@ -201,6 +202,7 @@ void HaplyDevice::State::opened(const LinkPtr& link) {
   owed_ = 0;
   may_speak_ = is_asking_ = is_silent_ = false;
   arm_.clear();  // it may be another one
+  arm_at_ = now();
   tell(News::kConnected);
   listen(link);
 }
@@ -240,6 +242,7 @@ void HaplyDevice::State::hear(std::string_view text) {
     states.publish(gone());
   } else {
     if (arm_.empty()) arm_ = reading->device;
+    arm_at_ = time;
     const Eigen::Quaterniond held = state_.orientation;
     state_ = reading->state;
     if (!reading->has_grip) state_.orientation = held;
@@ -282,6 +285,8 @@ void HaplyDevice::State::watch(double time) {
   }
   const double silent_for = time - link_->since;
   if (silent_for > options_.timeout) return drop();
+  // It may have come back by another id: a new connection takes the arm that is there.
+  if (!arm_.empty() && time - arm_at_ > options_.timeout) return drop();
   if (!link_->is_open || silent_for <= options_.guard.silence) return;
   if (!std::exchange(is_silent_, true)) {
     ++silences_;
@@ -326,8 +331,8 @@ void HaplyDevice::State::write(const Vec3& force) {
   link->said = haply_force(arm_, force);
   link->socket.async_write(asio::buffer(link->said), [this, link](const Code& error, std::size_t) {
     link->is_writing = false;
-    is_asking_ = true;
     if (link != link_) return;
+    is_asking_ = true;
     error ? drop() : written(link);
   });
 }

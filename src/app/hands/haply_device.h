@@ -18,7 +18,7 @@ struct HaplyOptions {
   std::uint16_t port = 10001;
   double rate = 1000;      ///< exchanges per second, in [10, 10000]; the service answers as fast as it is asked
   double max_force = 3.3;  ///< N, in (0, 20]: what passes this is shortened
-  double timeout = 2;      ///< s for each of looking up, connecting and the handshake; above 0
+  double timeout = 2;      ///< s for looking up, connecting and the handshake together, and without the arm; above 0
   double retry = 0.5;      ///< s between two tries to connect again; above 0
   DeviceGuardOptions guard;
 };

@@ -42,11 +42,12 @@ std::optional<Vec3> vector(const json& object, const char* key) {
   return vector;
 }
 
-/// Ids were numbers before they were texts.
+/// As JSON: ids were numbers before they were texts, and a force goes to the arm whose id it has, as it has it. Empty
+/// where there is none.
 std::string id_of(const json& entry) {
   const json* id = find(entry, "device_id");
-  if (id == nullptr) return {};
-  return id->is_string() ? id->get<std::string>() : id->dump();
+  const bool is_one = id != nullptr && (id->is_number_integer() || (id->is_string() && *id != ""));
+  return is_one ? id->dump() : std::string();
 }
 
 /// The entry of a list that has an id, or the first where none is asked for; null where there is none.
@@ -103,9 +104,10 @@ std::optional<HaplyReading> parse_haply(std::string_view text, const std::string
 std::string haply_force(const std::string& device, const Vec3& force) {
   const Vec3 f = force.allFinite() ? force : Vec3(Vec3::Zero());
   const json values = {{"x", f.x()}, {"y", f.y()}, {"z", f.z()}};
-  const json arm = {{"device_id", device}, {"commands", {{"set_cursor_force", {{"values", values}}}}}};
-  // An id that is no UTF-8 came in a message that was: replaced, it goes to nobody.
-  return json{{"inverse3", json::array({arm})}}.dump(-1, ' ', false, json::error_handler_t::replace);
+  const json id = json::parse(device, nullptr, false);
+  const json arm = {{"device_id", id.is_discarded() ? json() : id},
+                    {"commands", {{"set_cursor_force", {{"values", values}}}}}};
+  return json{{"inverse3", json::array({arm})}}.dump();
 }
 
 }  // namespace app

@@ -14,7 +14,7 @@ namespace app {
 
 /// One message of the service, as far as a blade needs it.
 struct HaplyReading {
-  std::string device;     ///< the arm's id
+  std::string device;     ///< the arm's id as it is written in JSON: a text in quotation marks, or a number
   DeviceState state;      ///< SI units, the device's axes; of the grip's orientation and buttons what there is
   bool has_grip = false;  ///< whether there was any of it
 };

@@ -176,11 +176,12 @@ void FakeHaply::serve(Socket& socket) {
 }
 
 void FakeHaply::hear(const std::string& text) {
-  const nlohmann::json values =
-      nlohmann::json::parse(text).at("inverse3").at(0).at("commands").at("set_cursor_force").at("values");
+  const nlohmann::json arm = nlohmann::json::parse(text).at("inverse3").at(0);
+  const nlohmann::json& values = arm.at("commands").at("set_cursor_force").at("values");
   const Vec3 force(values.at("x"), values.at("y"), values.at("z"));
   const double now = seconds();
   const std::lock_guard lock(mutex_);
+  if (arm.at("device_id") != nlohmann::json::parse(id_)) return;
   if (gaps_.size() < 1'000'000) gaps_.push_back(1e6 * (now - heard_));
   heard_ = now;
   force_ = force;
@@ -203,7 +204,7 @@ void FakeHaply::move_hand() {
 std::string FakeHaply::state(bool is_full) {
   const std::lock_guard lock(mutex_);
   nlohmann::json arm = {
-      {"device_id", "0478"},
+      {"device_id", nlohmann::json::parse(id_)},
       {"state", {{"cursor_position", xyz(position_)}, {"cursor_velocity", xyz(velocity_)}, {"mode", "force"}}}};
   const nlohmann::json grip = {{"device_id", "9A01"},
                                {"state",
@@ -218,6 +219,12 @@ std::string FakeHaply::state(bool is_full) {
                         {"verse_grip", nlohmann::json::array()}};
   if (is_full) all["session_id"] = 1;
   return all.dump();
+}
+
+void FakeHaply::set_id(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  id_ = id;
+  force_ = Vec3::Zero();  // of the arm that is gone
 }
 
 Vec3 FakeHaply::force() const {

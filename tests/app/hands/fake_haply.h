@@ -41,6 +41,9 @@ class FakeHaply {
 
   [[nodiscard]] std::uint16_t port() const { return port_; }
   void set_fault(Fault fault) { fault_ = fault; }
+  /// The arm has another id from now on, as JSON: a text in quotation marks, or a number. Forces for another id act on
+  /// nothing.
+  void set_id(const std::string& id);
   /// Moves the arm at once by this much, m, along y, once.
   void jump(double by) { jump_ = by; }
 
@@ -73,6 +76,7 @@ class FakeHaply {
   mutable std::mutex mutex_;
   Vec3 force_ = Vec3::Zero(), parting_force_ = Vec3::Zero(), position_ = Vec3::Zero(), velocity_ = Vec3::Zero();
   double began_ = 0, moved_ = 0;  // s
+  std::string id_ = "\"0478\"";
   std::vector<double> gaps_;
   double heard_ = 0;
   struct Thread;

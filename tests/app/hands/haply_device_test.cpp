@@ -107,6 +107,21 @@ TEST(HaplyDevice, JsonThatIsCutOffTakesTheForceAway) {
 TEST(HaplyDevice, AnArmThatIsUnpluggedTakesTheForceAway) {
   expect_survives(Fault::kNoArm);
 }
+TEST(HaplyDevice, AnArmThatComesBackByAnotherIdIsTaken) {
+  Desk desk;
+  ASSERT_NO_FATAL_FAILURE(desk.open());
+  ASSERT_TRUE(desk.push_until([&] { return desk.pushes(); }));
+  desk.service.set_id("\"0479\"");
+  ASSERT_TRUE(desk.push_until([&] { return !desk.state.is_live; }));
+  ASSERT_TRUE(desk.push_until([&] { return desk.pushes() && desk.state.is_live; }));
+  EXPECT_EQ(desk.device->statistics().connections, 2U);
+}
+TEST(HaplyDevice, AnArmThatHasANumberIsCalledByIt) {
+  Desk desk;
+  desk.service.set_id("478");
+  ASSERT_NO_FATAL_FAILURE(desk.open());
+  EXPECT_TRUE(desk.push_until([&] { return desk.pushes(); }));
+}
 TEST(HaplyDevice, SilenceTakesTheForceAway) {
   expect_survives(Fault::kSilence);
 }

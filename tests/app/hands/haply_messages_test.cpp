@@ -23,17 +23,17 @@ const std::string kState =
 TEST(HaplyMessages, AStateHasPlaceSpeedTurnAndButtons) {
   const auto reading = parse_haply(kState, "");
   ASSERT_TRUE(reading);
-  EXPECT_EQ(reading->device, "049D");
+  EXPECT_EQ(reading->device, "\"049D\"");
   EXPECT_EQ(reading->state.position, Vec3(0.01, -0.2, 0.15));
   EXPECT_EQ(reading->state.velocity, Vec3(0, 0.5, -1e-3));
   EXPECT_TRUE(reading->state.orientation.isApprox(Eigen::Quaterniond(0, 0, 0, 1)));
   EXPECT_EQ(reading->state.buttons, 5U);
   EXPECT_TRUE(reading->has_grip);
-  const auto other = parse_haply(kState, "1234");
+  const auto other = parse_haply(kState, "\"1234\"");
   ASSERT_TRUE(other);
   EXPECT_EQ(other->state.position, Vec3(1, 2, 3));
   EXPECT_EQ(other->state.velocity, Vec3(0, 0, 0));
-  EXPECT_FALSE(parse_haply(kState, "5678"));
+  EXPECT_FALSE(parse_haply(kState, "\"5678\""));
 }
 
 TEST(HaplyMessages, WhatIsMissingOrOfAnotherKindIsNoState) {
@@ -43,7 +43,10 @@ TEST(HaplyMessages, WhatIsMissingOrOfAnotherKindIsNoState) {
         R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":0,"y":0}}}]})",
         R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":0,"y":0,"z":"0"}}}]})",
         R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":0,"y":0,"z":1e999}}}]})",
-        R"({"inverse3":[{"state":{"cursor_position":{"x":0,"y":0,"z":0}}}]})"}) {
+        R"({"inverse3":[{"state":{"cursor_position":{"x":0,"y":0,"z":0}}}]})",
+        R"({"inverse3":[{"device_id":"","state":{"cursor_position":{"x":0,"y":0,"z":0}}}]})",
+        R"({"inverse3":[{"device_id":null,"state":{"cursor_position":{"x":0,"y":0,"z":0}}}]})",
+        R"({"inverse3":[{"device_id":[7],"state":{"cursor_position":{"x":0,"y":0,"z":0}}}]})"}) {
     EXPECT_FALSE(parse_haply(text, "")) << text;
   }
 }
@@ -81,14 +84,17 @@ TEST(HaplyMessages, StatesThatAreCutOffOrSpoiledAreReadOrRefused) {
 }
 
 TEST(HaplyMessages, ForcesAreNumbersAlways) {
-  const auto force = nlohmann::json::parse(haply_force("049D", Vec3(1.5, -2, 1e-9)));
+  const auto force = nlohmann::json::parse(haply_force("\"049D\"", Vec3(1.5, -2, 1e-9)));
   const auto& arm = force.at("inverse3").at(0);
   EXPECT_EQ(arm.at("device_id"), "049D");
   EXPECT_EQ(arm.at("commands").at("set_cursor_force").at("values"),
             nlohmann::json({{"x", 1.5}, {"y", -2.0}, {"z", 1e-9}}));
-  const auto none = nlohmann::json::parse(haply_force("a\"b", Vec3(std::nan(""), 1, 1)));
+  const auto none = nlohmann::json::parse(haply_force(R"("a\"b")", Vec3(std::nan(""), 1, 1)));
   EXPECT_EQ(none.at("inverse3").at(0).at("device_id"), "a\"b");
   EXPECT_EQ(none.at("inverse3").at(0).at("commands").at("set_cursor_force").at("values").at("y"), 0);
+  // To whom an id is a number a text is nobody.
+  EXPECT_EQ(nlohmann::json::parse(haply_force("7", Vec3::Zero())).at("inverse3").at(0).at("device_id"), 7);
+  EXPECT_TRUE(nlohmann::json::parse(haply_force("", Vec3::Zero())).at("inverse3").at(0).at("device_id").is_null());
 }
 
 }  // namespace
