@@ -135,6 +135,9 @@ Result<Stroke> plane_stroke(const Box& bounds, const Vec3& normal, double offset
   if (!is_finite(normal) || !std::isfinite(offset) || !(length > 0) || !std::isfinite(length)) {
     return Error{ErrorCode::kBadArgument, "a plane needs a finite, non-zero normal and a finite offset", {}};
   }
+  if (!(bounds.hi - bounds.lo).allFinite()) {
+    return Error{ErrorCode::kBadArgument, "a plane needs a body to cut: the mesh has no vertices", {}};
+  }
   const Vec3 centre = project(0.5 * (bounds.lo + bounds.hi), normal, offset);
   const Vec3 u = tangent_of(normal);
   const Vec3 v = (normal / length).cross(u);

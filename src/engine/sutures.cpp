@@ -18,11 +18,11 @@ Error bad(std::string message) {
 }
 
 Status check(const Suture& suture) {
-  if (!(suture.stiffness > 0 && std::isfinite(suture.stiffness))) {
-    return bad("a suture: its stiffness must be above 0 N/m");
+  if (!(suture.stiffness > 0 && suture.stiffness <= kGreatestExtent)) {
+    return bad("a suture: its stiffness must be above 0 N/m, at most 1e+30");
   }
-  if (!(suture.rest_length >= 0 && std::isfinite(suture.rest_length))) {
-    return bad("a suture: its rest length must be at least 0 m");
+  if (!(suture.rest_length >= 0 && suture.rest_length <= kGreatestExtent)) {
+    return bad("a suture: its rest length must be at least 0 m, at most 1e+30");
   }
   return suture.strength > 0 ? Status{} : Status{bad("a suture: its strength must be above 0 N")};
 }

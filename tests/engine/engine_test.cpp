@@ -478,6 +478,12 @@ TEST(EngineFarBlades, may_come_to_a_body_that_has_moved_from_far_away) {
   }
 }
 
+TEST(EngineEmpty, has_nothing_that_a_plane_could_cut) {
+  const Result<Stroke> plane = plane_stroke(rest_bounds(TetMesh::build({}).value()), Vec3::UnitX(), 0);
+  ASSERT_FALSE(plane.ok());
+  EXPECT_NE(plane.error().message.find("no vertices"), std::string::npos) << plane.error().message;
+}
+
 TEST(EngineFarBlades, beyond_a_million_bodies_are_refused_and_change_nothing) {
   Engine engine = make_engine(jittered_cube(3, 4), 0.2);
   const std::uint64_t hash = engine.mesh().hash();

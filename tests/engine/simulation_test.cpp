@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -277,7 +279,87 @@ TEST(Simulation, BadInputIsRefusedAndChangesNothing) {
   EXPECT_NE(block.sim().frame(input).error().message.find("beyond 1e+30"), std::string::npos);
   EXPECT_FALSE(block.sim().body().set_velocity(VertexId(0), Vec3(0, -1e300, 0)).ok());
   EXPECT_FALSE(block.sim().settle(1'000'000'000, std::numeric_limits<double>::quiet_NaN()).ok());
+  input.hooks.clear();
+  input.blade->direction = Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0);
+  EXPECT_NE(block.sim().frame(input).error().message.find("direction"), std::string::npos);
   EXPECT_EQ(block.sim().hash(), before);
+}
+
+/// Numbers that are finite, and whose products with others are not: the body would be no body ever after.
+TEST(Simulation, NumbersThatNoBodyCanBearAreRefused) {
+  constexpr double kHuge = 1e300;
+  Block block;
+  block.frame({});
+  const std::uint64_t before = block.sim().hash();
+  const Vec3 far(kHuge, 0, 0);
+  for (const Hook& hook : {Hook{1, Vec3::Zero(), kHuge, 1}, Hook{1, Vec3::Zero(), 1, kHuge}}) {
+    FrameInput input;
+    input.hooks = {hook};
+    EXPECT_FALSE(block.sim().frame(input).ok());
+  }
+  for (const Tool& tool :
+       {Tool(BallTool{Vec3::Zero(), kHuge}), Tool(BallTool{far, 1}), Tool(RodTool{Vec3::Zero(), far, 1}),
+        Tool(RodTool{Vec3::Zero(), Vec3::Ones(), kHuge}), Tool(FlatTool{{Vec3::Zero(), far}, Vec3::UnitZ(), 0}),
+        Tool(FlatTool{{Vec3::Zero(), Vec3::UnitX()}, far, 0}),
+        Tool(FlatTool{{Vec3::Zero(), Vec3::UnitX()}, Vec3::UnitZ(), kHuge})}) {
+    FrameInput input;
+    input.tools = {tool};
+    EXPECT_FALSE(block.sim().frame(input).ok());
+  }
+  EXPECT_FALSE(block.sim().body().place(VertexId(0), far).ok());
+  EXPECT_EQ(block.sim().hash(), before);
+  const Result<TetMesh> mesh = TetMesh::build(kuhn_box(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}));
+  const auto refuses = [&](const std::function<void(SimulationOptions&)>& spoil) {
+    SimulationOptions options;
+    spoil(options);
+    return !Simulation::create(*mesh, options).ok();
+  };
+  EXPECT_FALSE(refuses([](SimulationOptions& /*options*/) {}));
+  EXPECT_TRUE(refuses([](SimulationOptions& options) { options.body.length_unit = kHuge; }));
+  EXPECT_TRUE(refuses([](SimulationOptions& options) { options.body.length_unit = 1 / kHuge; }));
+  EXPECT_TRUE(refuses([](SimulationOptions& options) { options.body.damping = kHuge; }));
+  EXPECT_TRUE(refuses([](SimulationOptions& options) { options.contact_stiffness = kHuge; }));
+  EXPECT_TRUE(refuses([](SimulationOptions& options) { options.flat_height = kHuge; }));
+  for (double Material::*number :
+       {&Material::density, &Material::young, &Material::toughness, &Material::cut_friction, &Material::fibre_young}) {
+    EXPECT_TRUE(refuses([&](SimulationOptions& options) {
+      options.materials.fallback.fibre = {1, 0, 0};
+      options.materials.fallback.*number = kHuge;
+    }));
+  }
+}
+
+/// At the bounds themselves everything that is refused beyond them keeps the body finite.
+TEST(Simulation, ABodyStaysFiniteAtTheBounds) {
+  const auto is_finite_with = [](const std::function<void(SimulationOptions&, FrameInput&)>& stretch) {
+    SimulationOptions options;
+    options.body.length_unit = 0.1;
+    FrameInput input;
+    input.hooks = {Hook{1, Vec3(1, 0, 0), 0.6, 100}};
+    input.tools = {BallTool{Vec3(0.5, 0.5, 1.2), 0.4}};
+    stretch(options, input);
+    Result<Simulation> made =
+        Simulation::create(TetMesh::build(kuhn_box(Vec3::Zero(), Vec3::Ones(), {2, 2, 2})).value(), options);
+    if (!made.ok() || !made->body().hold(VertexId(0), std::numeric_limits<double>::infinity()).ok()) return false;
+    for (int i = 0; i < 5; ++i) {
+      if (!made->frame(input).ok()) return false;
+    }
+    return std::isfinite(made->body().energy().elastic) && made->body().momentum().allFinite();
+  };
+  for (const double unit : {kLeastExtent, kGreatestExtent}) {
+    EXPECT_TRUE(is_finite_with([&](auto& options, auto& /*input*/) { options.body.length_unit = unit; })) << unit;
+  }
+  EXPECT_TRUE(is_finite_with([](auto& options, auto&) { options.materials.fallback.young = kGreatestExtent; }));
+  EXPECT_TRUE(is_finite_with([](auto& options, auto&) { options.materials.fallback.density = kGreatestExtent; }));
+  EXPECT_TRUE(is_finite_with([](auto& options, auto&) { options.contact_stiffness = kGreatestExtent; }));
+  EXPECT_TRUE(is_finite_with([](auto& options, auto&) { options.body.damping = kGreatestExtent; }));
+  EXPECT_TRUE(is_finite_with([](auto&, auto& input) { input.hooks[0].radius = kGreatestExtent; }));
+  EXPECT_TRUE(is_finite_with([](auto&, auto& input) { input.hooks[0].stiffness = kGreatestExtent; }));
+  EXPECT_TRUE(is_finite_with([](auto&, auto& input) { input.hooks[0].position = Vec3(0, 0, kGreatestExtent); }));
+  EXPECT_TRUE(is_finite_with([](auto&, auto& input) { input.tools = {BallTool{Vec3(0, 0, 1), kGreatestExtent}}; }));
+  EXPECT_TRUE(is_finite_with([](auto&, auto& input) {
+    input.tools = {RodTool{Vec3::Zero(), Vec3(0, 0, kGreatestExtent), kGreatestExtent}};
+  }));
 }
 
 TEST(Simulation, OptionsOutOfRangeAreRefused) {

@@ -255,6 +255,9 @@ def test_masks_hold_nothing_and_bad_slots_neither():
     with pytest.raises(incise.BadArgument) as error:
         cube.hold([1, 2, 9999])
     assert error.value.ids == (9999,)
+    with pytest.raises(incise.BadArgument, match="not live") as error:
+        cube.set_velocity(9999, (0, 0, 0))
+    assert error.value.ids == (9999,)
     assert not any(cube.is_held(vertex) for vertex in range(3))
     cube.hold(np.flatnonzero(cube.mesh.rest[:, 2] > 0.9))
     assert cube.is_held(63)
@@ -271,6 +274,10 @@ def test_no_body_settles_for_ever(speed):
     lambda cube: cube.move_hold(0, (1e300, 0, 0)),
     lambda cube: cube.set_velocity(1, (1e300, 0, 0)), lambda cube: cube.set_velocity(1, (math.nan, 0, 0)),
     lambda cube: cube.frame(tools=[incise.Plane((0, 0, 1), 1e300)]),
+    lambda cube: cube.frame(hooks=[incise.Hook(1, (0.5, 0.5, 0), 1e300)]),
+    lambda cube: cube.frame(hooks=[incise.Hook(1, (0.5, 0.5, 0), 0.3, stiffness=1e300)]),
+    lambda cube: cube.frame(tools=[incise.Ball((0, 0, 0), 1e300)]),
+    lambda cube: cube.frame(tools=[incise.Rod((0, 0, 0), (1, 1, 1), 1e300)]),
     lambda cube: cube.frame(tools=[incise.Ball((0, 0, math.nan), 1)])])
 def test_what_no_body_can_bear_is_refused_and_changes_nothing(spoil):
     cube = body()

@@ -396,6 +396,10 @@ TEST(BodyArguments, CallsThatMakeNoSenseAreRefusedAndChangeNothing) {
     EXPECT_EQ(body.velocity(v), Vec3(Vec3::Zero()));
     EXPECT_EQ(body.local_stiffness(v), Mat3(Mat3::Zero()));
     EXPECT_FALSE(body.is_held(v));
+    for (const Status& status : {body.hold(v, 1), body.place(v, Vec3::Zero()), body.set_velocity(v, Vec3::Zero()),
+                                 body.move_hold(v, Vec3::Zero())}) {
+      EXPECT_EQ(status.error().ids, std::vector<std::uint64_t>{v.value}) << status.error().message;
+    }
   }
   expect_bad(body.hold(somebody, -1), "stiffness");
   expect_bad(body.hold(somebody, kNan), "stiffness");

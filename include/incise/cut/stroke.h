@@ -50,7 +50,7 @@ SweptTriangles swept_triangles(const Stroke& stroke);
 /// A stroke that cuts through everything in `bounds` along the plane n·x = d, in one step.
 ///
 /// `normal` of any non-zero finite length. The sweep is exactly planar: one triangle (the second of its quad is empty).
-/// Errors: kBadArgument for a zero or non-finite plane.
+/// Errors: kBadArgument for a zero or non-finite plane, and where `bounds` hold nothing.
 Result<Stroke> plane_stroke(const Box& bounds, const Vec3& normal, double offset);
 
 }  // namespace v0

@@ -7,29 +7,38 @@
 
 #include "incise/core/hash.h"
 #include "sim/body/body_state.h"
+#include "sim/body/bounds.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
+using detail::is_place;
+using detail::is_size;
+
 Error bad(std::string message) {
   return {ErrorCode::kBadArgument, std::move(message), {}};
 }
 
+/// "vertex 7 is not live", with the vertex as its id; `before` stands in front.
+Error bad_vertex(VertexId vertex, const std::string& what, const std::string& before = {}) {
+  return {ErrorCode::kBadArgument, before + "vertex " + std::to_string(vertex.value) + " " + what, {vertex.value}};
+}
+
 Status check(const BodyOptions& o) {
-  const auto is_positive = [](double x) { return x > 0 && std::isfinite(x); };
-  const auto is_not_negative = [](double x) { return x >= 0 && std::isfinite(x); };
-  if (!is_positive(o.length_unit)) return bad("the length unit must be above 0 m");
-  if (!(o.gravity.array().abs() <= kGreatestExtent).all()) return bad("gravity must be finite, at most 1e+30 m/s²");
-  if (!is_not_negative(o.damping)) return bad("the damping must be at least 0 per second");
+  if (!(o.length_unit >= kLeastExtent && o.length_unit <= kGreatestExtent)) {
+    return bad("the length unit must be above 0 m, from 1e-30 to 1e+30");
+  }
+  if (!is_place(o.gravity)) return bad("gravity must be finite, at most 1e+30 m/s²");
+  if (!is_size(o.damping)) return bad("the damping must be at least 0 per second, at most 1e+30");
   if (o.substeps < 1 || o.substeps > 1000) return bad("the number of substeps must lie in [1, 1000]");
   if (o.iterations < 1 || o.iterations > 1000) return bad("the number of iterations must lie in [1, 1000]");
   if (!(o.thinnest >= 0 && o.thinnest <= 0.5)) return bad("`thinnest` must lie in [0, 0.5] of the longest edge");
   if (!(o.sleep_below >= 0 && o.sleep_below <= 0.1)) return bad("`sleep_below` must lie in [0, 0.1] of an edge");
-  if (!is_not_negative(o.crumb)) return bad("a crumb must be of finite volume, at least 0");
-  if (!is_not_negative(o.self.friction)) return bad("the friction of a body on itself must be at least 0");
-  if (!is_not_negative(o.self.stiffness)) return bad("the stiffness of contact must be at least 0 Pa/m");
+  if (!(o.crumb >= 0 && std::isfinite(o.crumb))) return bad("a crumb must be of finite volume, at least 0");
+  if (!is_size(o.self.friction)) return bad("the friction of a body on itself must be at least 0, at most 1e+30");
+  if (!is_size(o.self.stiffness)) return bad("the stiffness of contact must be at least 0 Pa/m, at most 1e+30");
   if (o.threads < 1 || o.threads > 256) return bad("the number of threads must lie in [1, 256]");
   return {};
 }
@@ -98,7 +107,7 @@ const Materials& DeformableBody::materials() const {
 
 Status DeformableBody::hold(VertexId vertex, double stiffness) {
   State& s = *state_;
-  if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live: it cannot be held");
+  if (!s.is_live(vertex)) return bad_vertex(vertex, "is not live: it cannot be held");
   if (!(stiffness >= 0)) return bad("the stiffness of a hold must be at least 0 N/m");
   s.dissolve_crumb_at(vertex);
   if (stiffness == 0) {
@@ -115,12 +124,8 @@ Status DeformableBody::hold(VertexId vertex, double stiffness) {
 Status DeformableBody::move_hold(VertexId vertex, const Vec3& target) {
   State& s = *state_;
   const auto hold = s.holds.find(vertex.value);
-  if (hold == s.holds.end()) {
-    return Error{ErrorCode::kBadArgument, "vertex " + std::to_string(vertex.value) + " is not held", {vertex.value}};
-  }
-  if (!(target.array().abs() <= kGreatestExtent).all()) {  // beyond it energies overflow
-    return bad("the target of a hold is not finite, or beyond 1e+30");
-  }
+  if (hold == s.holds.end()) return bad_vertex(vertex, "is not held");
+  if (!is_place(target)) return bad_vertex(vertex, "is not finite, or beyond 1e+30", "the target of the hold of ");
   hold->second.target = target;
   if (hold->second.is_rigid()) {
     s.contact.note_jump((target - s.places[vertex.value]).norm());
@@ -202,8 +207,8 @@ std::span<const Vec3> DeformableBody::positions() const {
 
 Status DeformableBody::place(VertexId vertex, const Vec3& position) {
   State& s = *state_;
-  if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live");
-  if (!position.allFinite()) return bad("the position of vertex " + std::to_string(vertex.value) + " is not finite");
+  if (!s.is_live(vertex)) return bad_vertex(vertex, "is not live");
+  if (!is_place(position)) return bad_vertex(vertex, "is not finite, or beyond 1e+30", "the position of ");
   s.contact.note_jump((position - s.places[vertex.value]).norm());
   s.places[vertex.value] = position;
   s.set_momentum(vertex, Vec3::Zero());
@@ -220,10 +225,8 @@ Vec3 DeformableBody::velocity(VertexId vertex) const {
 
 Status DeformableBody::set_velocity(VertexId vertex, const Vec3& velocity) {
   State& s = *state_;
-  if (!s.is_live(vertex)) return bad("vertex " + std::to_string(vertex.value) + " is not live");
-  if (!(velocity.array().abs() <= kGreatestExtent).all()) {  // beyond it energies overflow
-    return bad("the velocity of vertex " + std::to_string(vertex.value) + " is not finite, or beyond 1e+30 m/s");
-  }
+  if (!s.is_live(vertex)) return bad_vertex(vertex, "is not live");
+  if (!is_place(velocity)) return bad_vertex(vertex, "is not finite, or beyond 1e+30 m/s", "the velocity of ");
   if (s.held[vertex] == detail::Held::kRigidly) return {};
   s.dissolve_crumb_at(vertex);
   s.set_momentum(vertex, s.mass_of(vertex) / s.unit() * velocity);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "incise/mesh/tet_mesh.h"
+#include "sim/body/bounds.h"
 #include "sim/body/tool_touch.h"
 
 namespace incise {
@@ -18,14 +19,17 @@ Error bad(const char* message) {
   return {ErrorCode::kBadArgument, message, {}};
 }
 
+using detail::is_place;
+using detail::is_real_size;
+
 Status check_tool(const BallTool& ball) {
-  if (!ball.centre.allFinite()) return bad("the centre of a ball must be finite");
-  return ball.radius > 0 && std::isfinite(ball.radius) ? Status{} : Status{bad("the radius of a ball must be above 0")};
+  if (!is_place(ball.centre)) return bad("the centre of a ball must be finite, within 1e+30");
+  return is_real_size(ball.radius) ? Status{} : Status{bad("the radius of a ball must be above 0, at most 1e+30")};
 }
 
 Status check_tool(const RodTool& rod) {
-  if (!rod.from.allFinite() || !rod.to.allFinite()) return bad("the ends of a rod must be finite");
-  return rod.radius > 0 && std::isfinite(rod.radius) ? Status{} : Status{bad("the radius of a rod must be above 0")};
+  if (!is_place(rod.from) || !is_place(rod.to)) return bad("the ends of a rod must be finite, within 1e+30");
+  return is_real_size(rod.radius) ? Status{} : Status{bad("the radius of a rod must be above 0, at most 1e+30")};
 }
 
 Status check_tool(const PlaneTool& plane) {
@@ -36,13 +40,14 @@ Status check_tool(const PlaneTool& plane) {
 
 Status check_tool(const FlatTool& flat) {
   if (flat.edge.size() < 2) return bad("the edge of a flat must have at least 2 points");
-  for (const Vec3& point : flat.edge) {
-    if (!point.allFinite()) return bad("the edge of a flat must be finite");
+  if (!std::all_of(flat.edge.begin(), flat.edge.end(), is_place)) {
+    return bad("the edge of a flat must be finite, within 1e+30");
   }
-  if (!flat.back.allFinite() || flat.back.isZero(0)) return bad("the back of a flat must be finite and not zero");
-  return flat.thickness >= 0 && std::isfinite(flat.thickness)
-             ? Status{}
-             : Status{bad("the thickness of a flat must be at least 0")};
+  if (!is_place(flat.back) || flat.back.isZero(0)) {
+    return bad("the back of a flat must be finite, within 1e+30, and not zero");
+  }
+  return detail::is_size(flat.thickness) ? Status{}
+                                         : Status{bad("the thickness of a flat must be at least 0, at most 1e+30")};
 }
 
 Touch touch_around(const Vec3& x, const Vec3& axis_point, double radius) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "sim/body/bounds.h"
+
 namespace incise {
 inline namespace v0 {
 
@@ -12,18 +14,16 @@ namespace {
 
 Status check(const Material& material, const std::string& whose) {
   const auto bad = [&](const char* what) { return Error{ErrorCode::kBadArgument, whose + ": " + what, {}}; };
-  if (!(material.density > 0 && std::isfinite(material.density))) return bad("the density must be above 0 kg/m³");
-  if (!(material.young > 0 && std::isfinite(material.young))) return bad("Young's modulus must be above 0 Pa");
+  if (!detail::is_real_size(material.density)) return bad("the density must be above 0 kg/m³, at most 1e+30");
+  if (!detail::is_real_size(material.young)) return bad("Young's modulus must be above 0 Pa, at most 1e+30");
   if (!(material.poisson >= 0 && material.poisson <= 0.499)) return bad("Poisson's ratio must lie in [0, 0.499]");
-  if (!(material.toughness >= 0 && std::isfinite(material.toughness))) {
-    return bad("the toughness must be at least 0 J/m²");
-  }
-  if (!(material.cut_friction >= 0 && std::isfinite(material.cut_friction))) {
-    return bad("the friction of cutting must be at least 0 N/m");
+  if (!detail::is_size(material.toughness)) return bad("the toughness must be at least 0 J/m², at most 1e+30");
+  if (!detail::is_size(material.cut_friction)) {
+    return bad("the friction of cutting must be at least 0 N/m, at most 1e+30");
   }
   if (!(material.stiffening >= 0 && material.stiffening <= 100)) return bad("the stiffening must lie in [0, 100]");
-  if (!(material.fibre_young >= 0 && std::isfinite(material.fibre_young))) {
-    return bad("what fibres add to Young's modulus must be at least 0 Pa");
+  if (!detail::is_size(material.fibre_young)) {
+    return bad("what fibres add to Young's modulus must be at least 0 Pa, at most 1e+30");
   }
   const auto [x, y, z] = material.fibre;
   const double length2 = x * x + y * y + z * z;
