@@ -20,6 +20,9 @@ inline namespace v0 {
 namespace app {
 namespace {
 
+/// What a body can bear: beyond it energies overflow.
+constexpr Range kBoundedAtLeast0{0, kGreatestExtent}, kBoundedAbove0{0, kGreatestExtent, true};
+
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kSceneVersion = 1;
@@ -90,9 +93,9 @@ class SceneBodyReader : public SceneParts {
     BodyOptions& body = scene_.options.body;
     const JsonValue* model = read_.member(root, "", "model");
     return model != nullptr && read_model(*model) &&
-           read_.need_ranged(root, "", "length_unit", kAbove0, body.length_unit) && read_materials(root) &&
+           read_.need_ranged(root, "", "length_unit", kBoundedAbove0, body.length_unit) && read_materials(root) &&
            read_.optional_point(root, "", "gravity", body.gravity) &&
-           read_.optional_ranged(root, "", "damping", kAtLeast0, body.damping) && read_stretch(root) &&
+           read_.optional_ranged(root, "", "damping", kBoundedAtLeast0, body.damping) && read_stretch(root) &&
            read_list(*this, root, "attachments", &SceneBodyReader::read_attachment);
   }
 
@@ -212,11 +215,11 @@ class SceneBodyReader : public SceneParts {
   /// A tissue by name, and what the scene says otherwise.
   bool read_material(const JsonValue& value, const std::string& path, Material& material) {
     return read_tissue(value, path, material) &&
-           read_.optional_ranged(value, path, "density", kAbove0, material.density) &&
-           read_.optional_ranged(value, path, "young", kAbove0, material.young) &&
+           read_.optional_ranged(value, path, "density", kBoundedAbove0, material.density) &&
+           read_.optional_ranged(value, path, "young", kBoundedAbove0, material.young) &&
            read_.optional_ranged(value, path, "poisson", {0, kMaxPoisson}, material.poisson) &&
-           read_.optional_ranged(value, path, "toughness", kAtLeast0, material.toughness) &&
-           read_.optional_ranged(value, path, "cut_friction", kAtLeast0, material.cut_friction) &&
+           read_.optional_ranged(value, path, "toughness", kBoundedAtLeast0, material.toughness) &&
+           read_.optional_ranged(value, path, "cut_friction", kBoundedAtLeast0, material.cut_friction) &&
            read_.optional_ranged(value, path, "stiffening", {0, 100}, material.stiffening) &&
            read_.optional_ranged(value, path, "rupture", {0, 0.5}, material.rupture) &&
            read_.optional_boolean(value, path, "rigid", material.rigid) && read_fibres(value, path, material) &&
@@ -224,7 +227,7 @@ class SceneBodyReader : public SceneParts {
   }
   bool read_fibres(const JsonValue& value, const std::string& path, Material& material) {
     const JsonValue* fibre = value.find("fibre");
-    if (!read_.optional_ranged(value, path, "fibre_young", kAtLeast0, material.fibre_young) ||
+    if (!read_.optional_ranged(value, path, "fibre_young", kBoundedAtLeast0, material.fibre_young) ||
         (fibre != nullptr && !read_.numbers(*fibre, path + ".fibre", material.fibre.data(), 3))) {
       return false;
     }
@@ -267,8 +270,8 @@ class SceneBodyReader : public SceneParts {
     return read_.is_object(value, path, {"box", "ball", "below", "surface", "stiffness", "strength", "tears"}) &&
            has_one(value, path, {"box", "ball", "below"}) && read_where(value, path, held) &&
            read_.optional_boolean(value, path, "surface", held.surface_only) &&
-           read_.optional_ranged(value, path, "stiffness", kAbove0, held.stiffness) &&
-           read_.optional_ranged(value, path, "strength", kAbove0, held.strength) &&
+           read_.optional_ranged(value, path, "stiffness", kBoundedAbove0, held.stiffness) &&
+           read_.optional_ranged(value, path, "strength", kBoundedAbove0, held.strength) &&
            read_.optional_boolean(value, path, "tears", held.tears) && is_pin(value, path, held);
   }
   /// What is held rigidly bears all.
@@ -293,7 +296,7 @@ class SceneBodyReader : public SceneParts {
   }
   bool read_ball(const JsonValue& value, const std::string& path, BallTool& ball) {
     return read_.need_point(value, path, "centre", ball.centre) &&
-           read_.need_ranged(value, path, "radius", kAbove0, ball.radius);
+           read_.need_ranged(value, path, "radius", kBoundedAbove0, ball.radius);
   }
 };
 
@@ -319,7 +322,7 @@ class SceneOptionsReader : public SceneBodyReader {
       return false;
     }
     scene_.settle.frames = static_cast<std::uint32_t>(frames);
-    return read_.optional_ranged(*value, "settle", "speed", kAbove0, scene_.settle.speed);
+    return read_.optional_ranged(*value, "settle", "speed", kBoundedAbove0, scene_.settle.speed);
   }
   bool read_solver(const JsonValue* value) {
     if (value == nullptr) return true;
@@ -370,9 +373,9 @@ class SceneOptionsReader : public SceneBodyReader {
     SimulationOptions& options = scene_.options;
     return read_.is_object(*value, "contact", {"stiffness", "flat_height", "self", "friction"}) &&
            read_.optional_boolean(*value, "contact", "self", options.body.self.on) &&
-           read_.optional_ranged(*value, "contact", "friction", kAtLeast0, options.body.self.friction) &&
-           read_.optional_ranged(*value, "contact", "stiffness", kAtLeast0, options.contact_stiffness) &&
-           read_.optional_ranged(*value, "contact", "flat_height", kAtLeast0, options.flat_height);
+           read_.optional_ranged(*value, "contact", "friction", kBoundedAtLeast0, options.body.self.friction) &&
+           read_.optional_ranged(*value, "contact", "stiffness", kBoundedAtLeast0, options.contact_stiffness) &&
+           read_.optional_ranged(*value, "contact", "flat_height", kBoundedAtLeast0, options.flat_height);
   }
 };
 
@@ -393,7 +396,7 @@ class SceneHandsReader : public SceneOptionsReader {
   /// A time that is 0 or more, and after the one before it.
   bool read_time(const JsonValue& value, const std::string& path, std::vector<double>& times) {
     double t = 0;
-    if (!read_.need_ranged(value, path, "t", kAtLeast0, t)) return false;
+    if (!read_.need_ranged(value, path, "t", kBoundedAtLeast0, t)) return false;
     if (!times.empty() && !(t > times.back())) {
       return read_.fail(*value.find("t"), path + ".t", "must be later than the time before it; sort the times");
     }
@@ -453,7 +456,7 @@ class SceneHandsReader : public SceneOptionsReader {
     if (!read_.is_object(value, path, keys) || !has_one(value, path, {points.front(), "path"})) return false;
     Shape::for_each_field(shape, [&](const char* name, auto& field) {
       if constexpr (std::is_same_v<std::decay_t<decltype(field)>, double>) {
-        is_read = is_read && read_.need_ranged(value, path, name, kAbove0, field);
+        is_read = is_read && read_.need_ranged(value, path, name, kBoundedAbove0, field);
       }
     });
     const auto read_key = [&](const JsonValue& key, const std::string& where) {
@@ -481,9 +484,9 @@ class SceneHandsReader : public SceneOptionsReader {
     SceneHook& hook = scene_.hooks.emplace_back();
     return read_.is_object(value, path, {"name", "radius", "stiffness", "strength", "tears", "path"}) &&
            read_.optional_text(value, path, "name", hook.name) &&
-           read_.need_ranged(value, path, "radius", kAbove0, hook.radius) &&
-           read_.optional_ranged(value, path, "stiffness", kAbove0, hook.stiffness) &&
-           read_.optional_ranged(value, path, "strength", kAbove0, hook.strength) &&
+           read_.need_ranged(value, path, "radius", kBoundedAbove0, hook.radius) &&
+           read_.optional_ranged(value, path, "stiffness", kBoundedAbove0, hook.stiffness) &&
+           read_.optional_ranged(value, path, "strength", kBoundedAbove0, hook.strength) &&
            read_.optional_boolean(value, path, "tears", hook.tears) &&
            read_path(value, path, [&](const JsonValue& key, const std::string& where) {
              return read_.is_object(key, where, {"t", "position"}) && read_time(key, where, hook.times) &&
@@ -497,10 +500,10 @@ class SceneHandsReader : public SceneOptionsReader {
            read_.optional_text(value, path, "name", suture.name) &&
            read_.need_point(value, path, "from", suture.from) && read_.need_point(value, path, "to", suture.to) &&
            (suture.from != suture.to || read_.fail(value, path, "has both ends in one place; move \"to\"")) &&
-           read_.optional_ranged(value, path, "stiffness", kAbove0, suture.stiffness) &&
-           read_.optional_ranged(value, path, "rest_length", kAtLeast0, suture.rest_length) &&
+           read_.optional_ranged(value, path, "stiffness", kBoundedAbove0, suture.stiffness) &&
+           read_.optional_ranged(value, path, "rest_length", kBoundedAtLeast0, suture.rest_length) &&
            read_.optional_boolean(value, path, "pushes", suture.pushes) &&
-           read_.optional_ranged(value, path, "strength", kAbove0, suture.strength) &&
+           read_.optional_ranged(value, path, "strength", kBoundedAbove0, suture.strength) &&
            read_.optional_ranged(value, path, "start", {0, kLatestStart}, suture.start);
   }
   bool read_spare(const JsonValue& value, const std::string& path) {
@@ -532,9 +535,10 @@ class SceneHandsReader : public SceneOptionsReader {
     Vec3 direction = Vec3::Zero();
     SceneStroke stop;
     if (!read_.is_object(value, path, {"blade", "start", "stretch", "pause", "direction", "stop_at"}) ||
-        !read_blade_of(value, path, strokes) || !read_.optional_ranged(value, path, "start", kAtLeast0, timing.start) ||
+        !read_blade_of(value, path, strokes) ||
+        !read_.optional_ranged(value, path, "start", kBoundedAtLeast0, timing.start) ||
         !read_.optional_ranged(value, path, "stretch", {0, kMaxStretch, true}, timing.stretch) ||
-        !read_.optional_ranged(value, path, "pause", kAtLeast0, timing.pause) ||
+        !read_.optional_ranged(value, path, "pause", kBoundedAtLeast0, timing.pause) ||
         !read_.optional_point(value, path, "direction", direction) ||
         !read_stops(read_, value, path, stop.stop_at, stop.stop_names)) {
       return false;
@@ -606,10 +610,11 @@ class SceneExerciseReader : public SceneHandsReader {
             {"name", "instructions", "target", "depth", "angle", "tolerances", "max_force", "strokes", "ideal"}) ||
         !read_.optional_text(*value, path, "name", exercise.name) ||
         !read_.optional_text(*value, path, "instructions", exercise.instructions) ||
-        !read_target(*value, path, exercise) || !read_.need_ranged(*value, path, "depth", kAbove0, exercise.depth) ||
+        !read_target(*value, path, exercise) ||
+        !read_.need_ranged(*value, path, "depth", kBoundedAbove0, exercise.depth) ||
         !read_.optional_ranged(*value, path, "angle", {0, kSteepestAngle}, exercise.angle) ||
         !read_tolerances(*value, path + ".tolerances", exercise) ||
-        !read_.optional_ranged(*value, path, "max_force", kAtLeast0, exercise.max_force) ||
+        !read_.optional_ranged(*value, path, "max_force", kBoundedAtLeast0, exercise.max_force) ||
         !read_.optional_whole(*value, path, "strokes", 1, kMaxSceneItems, strokes)) {
       return false;
     }
@@ -639,10 +644,10 @@ class SceneExerciseReader : public SceneHandsReader {
     const JsonValue* given = value.find("tolerances");
     if (given == nullptr) return true;
     return read_.is_object(*given, path, {"line", "depth", "angle", "force"}) &&
-           read_.optional_ranged(*given, path, "line", kAbove0, allowed.line) &&
-           read_.optional_ranged(*given, path, "depth", kAbove0, allowed.depth) &&
+           read_.optional_ranged(*given, path, "line", kBoundedAbove0, allowed.line) &&
+           read_.optional_ranged(*given, path, "depth", kBoundedAbove0, allowed.depth) &&
            read_.optional_ranged(*given, path, "angle", {0, 90, true}, allowed.angle) &&
-           read_.optional_ranged(*given, path, "force", kAtLeast0, allowed.force);
+           read_.optional_ranged(*given, path, "force", kBoundedAtLeast0, allowed.force);
   }
   /// One of the scene's strokes by its number, or a blade.
   bool read_ideal(const JsonValue* value, const std::string& path, std::vector<SceneStroke>& ideal) {
@@ -668,7 +673,7 @@ class SceneViewReader : public SceneExerciseReader {
                            {"from", "up", "target", "distance", "zoom", "color", "wireframe", "opacity", "theme",
                             "clip", "look", "drapes", "demonstration"}) &&
            read_direction(*value, "from", view.from) && read_direction(*value, "up", view.up) &&
-           read_eye(*value, view) && read_.optional_ranged(*value, "view", "zoom", kAbove0, view.zoom) &&
+           read_eye(*value, view) && read_.optional_ranged(*value, "view", "zoom", kBoundedAbove0, view.zoom) &&
            read_name(*value, "color", kColorNames, view.color) &&
            read_.optional_boolean(*value, "view", "wireframe", view.shows_wireframe) &&
            read_.optional_ranged(*value, "view", "opacity", {0, 1, true}, view.skin_opacity) &&
@@ -683,7 +688,7 @@ class SceneViewReader : public SceneExerciseReader {
     const JsonValue* target = value.find("target");
     const JsonValue* distance = value.find("distance");
     return (target == nullptr || read_.numbers(*target, "view.target", view.target.emplace().data(), 3)) &&
-           (distance == nullptr || read_.ranged(*distance, "view.distance", kAbove0, view.distance.emplace()));
+           (distance == nullptr || read_.ranged(*distance, "view.distance", kBoundedAbove0, view.distance.emplace()));
   }
   bool read_direction(const JsonValue& view, const std::string& key, std::optional<Vec3>& out) {
     const JsonValue* value = view.find(key);

@@ -172,6 +172,11 @@ TEST(Scene, written_and_read_again_is_the_same_bit_for_bit) {
 TEST(Scene, refuses_numbers_out_of_range_and_says_where) {
   expect_refused("/length_unit", 0, "length_unit is 0; it must be above 0");
   expect_refused("/damping", -1, "damping is -1; it must be at least 0");
+  expect_refused("/length_unit", 1e300, "length_unit is 1e+300; it must be above 0 and at most 1e+30");
+  expect_refused("/damping", -1e-9, "damping is -1e-09; it must be at least 0");
+  expect_refused("/damping", 1e31, "damping is 1e+31; it must be at least 0 and at most 1e+30");
+  expect_refused("/materials/default/young", 1e300,
+                 "materials.default.young is 1e+300; it must be above 0 and at most");
   expect_refused("/frame_seconds", 2, "frame_seconds is 2; it must be above 0 and at most 1");
   expect_refused("/materials/default/poisson", 0.5, "materials.default.poisson is 0.5");
   expect_refused("/materials/regions/0/young", 0, "materials.regions[0].young is 0");
