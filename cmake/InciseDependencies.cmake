@@ -20,6 +20,10 @@ endif()
 if(NOT EMSCRIPTEN)
   find_package(Threads REQUIRED)
   find_package(fmt REQUIRED)
+  # Its headers alone: one source of ours makes the code (src/app/text/formatted.cpp).
+  add_library(incise_fmt INTERFACE)
+  target_include_directories(incise_fmt SYSTEM INTERFACE
+    $<TARGET_PROPERTY:fmt::fmt-header-only,INTERFACE_INCLUDE_DIRECTORIES>)
   find_package(nlohmann_json REQUIRED)
 endif()
 if(INCISE_BUILD_APPS)
@@ -67,11 +71,10 @@ set(incise_package_of_TBB::tbb TBB)
 set(incise_package_of_pugixml::pugixml pugixml)
 set(incise_package_of_pugixml pugixml)
 set(incise_package_of_ZLIB::ZLIB ZLIB)
-set(incise_package_of_fmt::fmt fmt)
 set(incise_package_of_hwy::hwy hwy)
 set(incise_package_of_Threads::Threads Threads)
 # Nothing of these is left to link once the library is built.
-set(incise_header_only Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt-header-only CLI11::CLI11)
+set(incise_header_only Eigen3::Eigen nlohmann_json::nlohmann_json CLI11::CLI11)
 
 # A compiler cache, where there is one. Emscripten brings its own wrapper.
 if(PROJECT_IS_TOP_LEVEL AND NOT EMSCRIPTEN AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)

@@ -17,8 +17,7 @@ function(incise_web_headers target folder mark package)
 endfunction()
 
 if(INCISE_BUILD_WEB)
-  incise_web_headers(fmt::fmt-header-only fmt format.h libfmt-dev)
-  target_compile_definitions(fmt::fmt-header-only INTERFACE FMT_HEADER_ONLY=1)
+  incise_web_headers(incise_fmt fmt format.h libfmt-dev)
   incise_web_headers(nlohmann_json::nlohmann_json nlohmann json.hpp nlohmann-json3-dev)
   # No threads are started; std::thread needs nothing to link.
   add_library(Threads::Threads INTERFACE IMPORTED GLOBAL)

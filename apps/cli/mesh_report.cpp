@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh_report.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/text/formatted.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/quality_stats.h"
@@ -113,7 +112,7 @@ std::string to_json(const MeshReport& report) {
                {"quality", quality_of(measure_quality(mesh))},
                {"validity", {{"ok", report.is_valid}}},
                {"time_ms", {{"read", report.read_ms}, {"mesh", report.mesh_ms}}},
-               {"hash", fmt::format("{:016x}", mesh.hash())}};
+               {"hash", app::formatted("{:016x}", mesh.hash())}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -124,20 +123,20 @@ std::string to_text(const MeshReport& report) {
   const MeshOutput& output = report.arguments->output;
   const Vec3 spacing = image.spacing();
   std::string out =
-      fmt::format("{}: {} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g}{}, placed by {}\n",
-                  report.input->file.format_name, image.size[0], image.size[1], image.size[2], spacing.x(), spacing.y(),
-                  spacing.z(), report.input->is_scan ? " mm" : "", report.input->file.placed_by);
-  out += fmt::format("{}: {} tets, {} vertices{}; dihedral angles {:.1f} to {:.1f} degrees, worst L/r {:.1f}\n",
-                     output.is_stdout() ? "stdout" : output.file, made.mesh.tet_count(), made.mesh.vertex_count(),
-                     report.input->is_scan ? ", in RAS mm" : "", q.dihedral_min_deg, q.dihedral_max_deg, q.lr_max);
+      app::formatted("{}: {} x {} x {} voxels of {:.4g} x {:.4g} x {:.4g}{}, placed by {}\n",
+                     report.input->file.format_name, image.size[0], image.size[1], image.size[2], spacing.x(),
+                     spacing.y(), spacing.z(), report.input->is_scan ? " mm" : "", report.input->file.placed_by);
+  out += app::formatted("{}: {} tets, {} vertices{}; dihedral angles {:.1f} to {:.1f} degrees, worst L/r {:.1f}\n",
+                        output.is_stdout() ? "stdout" : output.file, made.mesh.tet_count(), made.mesh.vertex_count(),
+                        report.input->is_scan ? ", in RAS mm" : "", q.dihedral_min_deg, q.dihedral_max_deg, q.lr_max);
   for (const image::LabelOutcome& l : made.labels) {
     const std::string name = name_of(report, l.label);
     if (l.tets == 0) {
-      out += fmt::format("  {}{}{}: no tets, too thin for their size\n", l.label, name.empty() ? "" : " ", name);
+      out += app::formatted("  {}{}{}: no tets, too thin for their size\n", l.label, name.empty() ? "" : " ", name);
       continue;
     }
-    out += fmt::format("  {}{}{}: {} tets, volume {:.5g}{}, {:+.2f} % off\n", l.label, name.empty() ? "" : " ", name,
-                       l.tets, l.volume, report.input->is_scan ? " mm3" : "", 100 * relative_error(l));
+    out += app::formatted("  {}{}{}: {} tets, volume {:.5g}{}, {:+.2f} % off\n", l.label, name.empty() ? "" : " ", name,
+                          l.tets, l.volume, report.input->is_scan ? " mm3" : "", 100 * relative_error(l));
   }
   return out;
 }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exit_code.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 
+#include "app/text/formatted.h"
 #include "shared/message_text.h"
 
 namespace incise_view {
 
 int fail(ExitCode code, std::string_view message) {
-  fmt::print(stderr, "incise-view: error: {}\n", incise_apps::one_line(message));
+  std::fputs(incise::app::formatted("incise-view: error: {}\n", incise_apps::one_line(message)).c_str(), stderr);
   return code;
 }
 

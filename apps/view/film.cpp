@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film.h"
 
-#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +9,8 @@
 #include <cstdlib>
 #include <system_error>
 #include <vector>
+
+#include "app/text/formatted.h"
 
 extern char** environ;
 
@@ -37,8 +38,8 @@ int run_program(std::vector<std::string> words) {
 Status make_film(const std::filesystem::path& folder, const std::filesystem::path& film, double pictures_per_second) {
   // What players everywhere take: H.264 with colours at half resolution, which asks for even sizes.
   const int code = run_program({"ffmpeg", "-loglevel", "error", "-y", "-framerate",
-                                fmt::format("{:.6g}", pictures_per_second), "-i", (folder / "%06d.png").string(), "-vf",
-                                "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", film.string()});
+                                app::formatted("{:.6g}", pictures_per_second), "-i", (folder / "%06d.png").string(),
+                                "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", film.string()});
   constexpr int kNotFound = 127;  // where the program vanishes between looking and running
   if (code == 0) return {};
   if (code == -1 || code == kNotFound) {
@@ -46,7 +47,7 @@ Status make_film(const std::filesystem::path& folder, const std::filesystem::pat
                  "--film needs the program ffmpeg: install it, or use --sequence FOLDER and make the film elsewhere",
                  {}};
   }
-  return Error{ErrorCode::kIo, fmt::format("{}: ffmpeg ended with {}", film.string(), code), {}};
+  return Error{ErrorCode::kIo, app::formatted("{}: ffmpeg ended with {}", film.string(), code), {}};
 }
 
 TemporaryFolder::TemporaryFolder() {

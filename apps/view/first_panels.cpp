@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Little more than the body and the tools: what a person sees first.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/text/formatted.h"
 #include "icons.h"
 #include "panel_parts.h"
 
@@ -42,8 +42,8 @@ bool icon_button(const char* id, Icon icon, bool is_on, const std::string& told)
 }
 
 void action_icon(Viewer& viewer, const PanelContext& context, Action action, Icon icon, bool is_on = false) {
-  const std::string id = fmt::format("###action{}", static_cast<int>(action));
-  if (icon_button(id.c_str(), icon, is_on, fmt::format("{}  ({})", text_of(action), app::key_of(action)))) {
+  const std::string id = app::formatted("###action{}", static_cast<int>(action));
+  if (icon_button(id.c_str(), icon, is_on, app::formatted("{}  ({})", text_of(action), app::key_of(action)))) {
     viewer.act(action, context.viewport);
   }
 }
@@ -75,7 +75,7 @@ void draw_tool_column(Viewer& viewer, const PanelContext& context) {
   if (ImGui::Begin("chosen tool", nullptr, kFlags)) {
     text(app::name_of(tool));
     ImGui::SameLine();
-    faint(fmt::format("({})", app::key_of(app::action_of(tool))));
+    faint(app::formatted("({})", app::key_of(app::action_of(tool))));
     tool_settings(viewer);
   }
   ImGui::End();
@@ -107,7 +107,7 @@ void draw_cards(Viewer& viewer, FileList& files) {
       const app::StartingBodyRow& row = app::kStartingBodies[i];
       const Icon icon = static_cast<Icon>(static_cast<std::size_t>(Icon::kSkin) + i);
       if (i > 0) ImGui::SameLine();
-      const std::string id = fmt::format("###body{}", i);
+      const std::string id = app::formatted("###body{}", i);
       if (card(id.c_str(), icon, capital(row.name), row.text, view.title == row.text)) {
         viewer.open(static_cast<app::StartingBody>(i));
       }
@@ -133,7 +133,7 @@ void draw_time_line(const app::SessionView& view) {
     const bool is_cut = operation.kind == app::Operation::Kind::kStroke;
     list.AddCircleFilled({x, middle}, (is_cut ? 0.32F : 0.2F) * em(),
                          color_of(is_cut ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-    newest += fmt::format("{}{:.1f} s  {}", newest.empty() ? "" : "\n", operation.time, operation.text);
+    newest += app::formatted("{}{:.1f} s  {}", newest.empty() ? "" : "\n", operation.time, operation.text);
   }
   hint(newest.empty() ? "What you do is marked on this line" : newest);
 }
@@ -198,10 +198,10 @@ void draw_pills(const Viewer& viewer, const PanelContext& context) {
   const bool keeps_up = view.real_time >= kFew;
   const std::string rate = view.is_paused ? "Paused"
                            : keeps_up     ? "Real time"
-                                          : fmt::format("{:.0f} % of real time", 100 * view.real_time);
-  const std::string told = fmt::format("{:.0f} pictures and {:.0f} steps of the simulation each second{}",
-                                       viewer.hud().pictures_per_second(), view.steps_per_second,
-                                       context.is_software ? "; the processor draws" : "");
+                                          : app::formatted("{:.0f} % of real time", 100 * view.real_time);
+  const std::string told = app::formatted("{:.0f} pictures and {:.0f} steps of the simulation each second{}",
+                                          viewer.hud().pictures_per_second(), view.steps_per_second,
+                                          context.is_software ? "; the processor draws" : "");
   pill(right, view.is_paused ? kGrey : keeps_up ? kGreen : kYellow, rate, told, "rate pill");
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "headless.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <system_error>
 
 #include "app/scene/blade_file.h"
+#include "app/text/formatted.h"
 #include "app/view/cut_marks.h"
 #include "app/view/drapes.h"
 #include "app/view/fine_view.h"
@@ -30,7 +30,7 @@ namespace {
 
 using namespace incise;
 
-constexpr unsigned kSamples = 4;
+constexpr unsigned kPictureSamples = 4;
 
 /// Draws a session at one moment after another.
 class Photographer {
@@ -130,12 +130,16 @@ std::uint64_t last_frame(const Arguments& a, const app::Session& session) {
   return a.frame;
 }
 
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+}
+
 /// How far the work is, on a terminal's stderr, with the time that is left.
 class Progress {
  public:
   explicit Progress(bool is_quiet) : is_on_(!is_quiet && isatty(fileno(stderr)) != 0), began_(Clock::now()) {}
   ~Progress() {
-    if (is_on_) fmt::print(stderr, "\r\033[K");
+    if (is_on_) std::fputs("\r\033[K", stderr);
   }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -145,7 +149,7 @@ class Progress {
     if (!is_on_ || last == 0 || now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     const double seconds = std::chrono::duration<double>(now - began_).count();
-    fmt::print(stderr, "\r\033[K{}", incise_apps::progress_text(frame, last, "frames", seconds));
+    say(app::formatted("\r\033[K{}", incise_apps::progress_text(frame, last, "frames", seconds)));
   }
 
  private:
@@ -157,10 +161,10 @@ class Progress {
 
 void say_written(const Arguments& a, std::uint64_t pictures) {
   if (a.is_quiet) return;
-  const std::string size = fmt::format("{} x {} pixels", a.size.width, a.size.height);
-  if (!a.sequence.empty()) fmt::print(stderr, "incise-view: wrote {} ({} pictures, {})\n", a.sequence, pictures, size);
-  if (!a.film.empty()) fmt::print(stderr, "incise-view: wrote {} ({} pictures, {})\n", a.film, pictures, size);
-  if (!a.screenshot.empty()) fmt::print(stderr, "incise-view: wrote {} (picture, {})\n", a.screenshot, size);
+  const std::string size = app::formatted("{} x {} pixels", a.size.width, a.size.height);
+  if (!a.sequence.empty()) say(app::formatted("incise-view: wrote {} ({} pictures, {})\n", a.sequence, pictures, size));
+  if (!a.film.empty()) say(app::formatted("incise-view: wrote {} ({} pictures, {})\n", a.film, pictures, size));
+  if (!a.screenshot.empty()) say(app::formatted("incise-view: wrote {} (picture, {})\n", a.screenshot, size));
 }
 
 /// @param of_film  where the pictures of a film go.
@@ -175,11 +179,11 @@ Status run(const Arguments& a, app::Session& session, Photographer& photographer
     }
     if (frame % a.every != 0) continue;
     if (!a.sequence.empty()) {
-      const std::filesystem::path file = std::filesystem::path(a.sequence) / fmt::format("{:06}.png", frame);
+      const std::filesystem::path file = std::filesystem::path(a.sequence) / app::formatted("{:06}.png", frame);
       if (Status status = photographer.take(session, file); !status.ok()) return status;
     }
     if (!a.film.empty()) {
-      const std::filesystem::path file = of_film / fmt::format("{:06}.png", frame / a.every);
+      const std::filesystem::path file = of_film / app::formatted("{:06}.png", frame / a.every);
       if (Status status = photographer.take(session, file); !status.ok()) return status;
     }
   }
@@ -207,7 +211,7 @@ int run_headless(const Arguments& arguments) {
   if (!trajectory.ok()) return fail(kBadInput, trajectory.error().message);
   const Result<render::HeadlessContext> context = render::HeadlessContext::create();
   if (!context.ok()) return fail(kNoDisplay, context.error().message);
-  Result<render::Renderer> renderer = render::Renderer::create(arguments.samples.value_or(kSamples));
+  Result<render::Renderer> renderer = render::Renderer::create(arguments.samples.value_or(kPictureSamples));
   if (!renderer.ok()) return fail(kNoDisplay, renderer.error().message);
   Result<render::OffscreenTarget> target = render::OffscreenTarget::create(arguments.size);
   if (!target.ok()) return fail(exit_of(target.error()), target.error().message);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interactive.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <chrono>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -26,7 +26,7 @@ using namespace incise;
 
 constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
 constexpr int kSettlingFrames = 3;         // after something happened, until panels have found their sizes
-constexpr unsigned kSamples = 4;
+constexpr unsigned kWindowSamples = 4;
 // Of the picture, between the panels.
 const app::Vec2 kFreeShare(0.8, 0.74), kResearchShare(0.56, 1);
 
@@ -156,7 +156,7 @@ void Application::draw() {
 /// Each score once, on stdout.
 void Application::print_score() {
   const std::optional<app::ExerciseScore>& score = viewer_.view().score;
-  if (score && !has_printed_) fmt::print("{}", app::to_text(*score));
+  if (score && !has_printed_) std::fputs(app::to_text(*score).c_str(), stdout);
   has_printed_ = score.has_value();
 }
 
@@ -174,7 +174,7 @@ void Application::save_picture() {
 
 /// Software renderers smooth edges at a price that is better spent on pictures.
 unsigned samples_of(const Arguments& arguments, const Window& window) {
-  return arguments.samples.value_or(render::is_software_renderer(window.renderer_name()) ? 0 : kSamples);
+  return arguments.samples.value_or(render::is_software_renderer(window.renderer_name()) ? 0 : kWindowSamples);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panel_parts.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numbers>
+
+#include "app/text/formatted.h"
 
 namespace incise_view {
 
@@ -64,10 +64,10 @@ std::string_view text_of(Action action) {
 void action_button(Viewer& viewer, const PanelContext& context, Action action, const char* label, bool is_on,
                    float width) {
   if (is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-  const std::string caption = fmt::format("{}{}###{}", is_on ? "> " : "", label, label);  // not by colour alone
+  const std::string caption = app::formatted("{}{}###{}", is_on ? "> " : "", label, label);  // not by colour alone
   if (ImGui::Button(caption.c_str(), {width, 0})) viewer.act(action, context.viewport);
   if (is_on) ImGui::PopStyleColor();
-  hint(fmt::format("{}  ({})", text_of(action), app::key_of(action)));
+  hint(app::formatted("{}  ({})", text_of(action), app::key_of(action)));
 }
 
 bool tool_settings(Viewer& viewer) {
@@ -108,7 +108,7 @@ void replay_line(Viewer& viewer, const PanelContext& context) {
   const app::SessionView& view = viewer.view();
   auto call = static_cast<int>(view.place.call);
   ImGui::SetNextItemWidth(18 * em());
-  const std::string format = fmt::format("%d of {}", view.place.calls);
+  const std::string format = app::formatted("%d of {}", view.place.calls);
   if (ImGui::SliderInt("##place", &call, 0, static_cast<int>(view.place.calls), format.c_str())) {
     viewer.session().seek(static_cast<std::uint64_t>(std::max(call, 0)));
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panels.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "app/text/formatted.h"
 #include "app/view/color_map.h"
 #include "panel_parts.h"
 
@@ -32,7 +32,7 @@ void tool_buttons(Viewer& viewer, const PanelContext& context) {
   for (unsigned i = 0; i < static_cast<unsigned>(app::ToolKind::kCount); ++i) {
     const auto tool = static_cast<app::ToolKind>(i);
     const Action action = app::action_of(tool);
-    const std::string label = fmt::format("{} {}", app::key_of(action), app::name_of(tool));
+    const std::string label = app::formatted("{} {}", app::key_of(action), app::name_of(tool));
     const float half = 0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
     if (i % 2 == 1) ImGui::SameLine();
     action_button(viewer, context, action, label.c_str(), viewer.tools().tool() == tool, half);
@@ -58,9 +58,9 @@ void view_buttons(Viewer& viewer, const PanelContext& context) {
   action_button(viewer, context, Action::kOcclusion, "Shade", view.shows_occlusion, half);
   ImGui::SameLine();
   action_button(viewer, context, Action::kTheme, view.theme == app::Theme::kDark ? "Light" : "Dark", false, half);
-  const std::string color = fmt::format("Colour: {}", name_of(view.color));
+  const std::string color = app::formatted("Colour: {}", name_of(view.color));
   if (ImGui::Button((color + "###color").c_str(), {-1, 0})) viewer.act(Action::kColor, context.viewport);
-  hint(fmt::format("{}  ({})", text_of(Action::kColor), app::key_of(Action::kColor)));
+  hint(app::formatted("{}  ({})", text_of(Action::kColor), app::key_of(Action::kColor)));
   if (!state.is_clipped) return;
   auto depth = static_cast<float>(state.clip_depth);
   ImGui::SetNextItemWidth(-1);
@@ -108,10 +108,10 @@ void stage_table(const app::Hud& hud) {
     ImGui::TableNextColumn();
     faint(row.label);
     ImGui::TableNextColumn();
-    text(fmt::format("{:.2f} ms", row.ms));
+    text(app::formatted("{:.2f} ms", row.ms));
     ImGui::TableNextColumn();
     ImGui::ProgressBar(static_cast<float>(row.percent / 100), {-1, 0.9F * em()},
-                       fmt::format("{:.0f} %", row.percent).c_str());
+                       app::formatted("{:.0f} %", row.percent).c_str());
   }
   ImGui::EndTable();
 }
@@ -178,7 +178,7 @@ void force(const app::SessionView& view) {
                    {ImGui::GetContentRegionAvail().x, kForceHeight * em()});
   if (view.figures.force.empty()) return;
   const float seconds = view.figures.force.back().time - view.figures.force.front().time;
-  faint(fmt::format("0 to {:.2g} N over the last {:.0f} s", most, seconds));
+  faint(app::formatted("0 to {:.2g} N over the last {:.0f} s", most, seconds));
 }
 
 void validity(const app::SessionView& view) {
@@ -190,7 +190,7 @@ void validity(const app::SessionView& view) {
   ImGui::GetWindowDrawList()->AddCircleFilled({at.x + radius, at.y + 0.55F * em()}, radius, color_of(kLights[state]));
   ImGui::Dummy({2.2F * radius, em()});
   ImGui::SameLine();
-  text(fmt::format("Mesh {}", kMarks[state]));
+  text(app::formatted("Mesh {}", kMarks[state]));
   ImGui::SameLine();
   faint(view.validity.text);
 }
@@ -218,7 +218,7 @@ void log_lines(const app::SessionView& view) {
   if (!view.log || view.log->empty()) return;
   const std::vector<app::Operation>& all = *view.log;
   const std::size_t first = all.size() - std::min<std::size_t>(all.size(), kLogLines);
-  for (std::size_t i = first; i < all.size(); ++i) faint(fmt::format("{:6.1f} s  {}", all[i].time, all[i].text));
+  for (std::size_t i = first; i < all.size(); ++i) faint(app::formatted("{:6.1f} s  {}", all[i].time, all[i].text));
 }
 
 void draw_time(Viewer& viewer, const PanelContext& context) {
@@ -238,7 +238,7 @@ void draw_time(Viewer& viewer, const PanelContext& context) {
     ImGui::SameLine();
     action_button(viewer, context, Action::kRecord, view.is_recording ? "End recording" : "Record", view.is_recording);
     ImGui::SameLine();
-    text(fmt::format("{:.1f} s", view.figures.seconds));
+    text(app::formatted("{:.1f} s", view.figures.seconds));
   }
   ImGui::End();
 }
@@ -284,9 +284,9 @@ void draw_exercise(Viewer& viewer, const PanelContext& context) {
     faint("Exercise: " + exercise.name);
     if (view.score) {
       ImGui::ProgressBar(static_cast<float>(view.score->points / 100), {-1, 0},
-                         fmt::format("{:.0f} of 100 points", view.score->points).c_str());
+                         app::formatted("{:.0f} of 100 points", view.score->points).c_str());
       for (const app::ExerciseDeduction& deduction : view.score->deductions) {
-        text(fmt::format("-{:.1f}  {}", deduction.points, deduction.reason));
+        text(app::formatted("-{:.1f}  {}", deduction.points, deduction.reason));
       }
       if (view.score->deductions.empty()) text("Nothing to take off.");
     } else {

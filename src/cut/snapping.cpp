@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cut/constants.h"
+#include "cut/master_star.h"
 #include "cut/old_children.h"
 #include "cut/parity.h"
 #include "cut/spacing.h"
@@ -43,11 +44,6 @@ double mean_edge_length(const TetMesh& mesh, const ClosedComplex& complex, Verte
     }
   }
   return sum / static_cast<double>(scratch.size());
-}
-
-unsigned corner_of(const Master& master, VertexId vertex) {
-  return static_cast<unsigned>(std::find(master.vertices.begin(), master.vertices.end(), vertex) -
-                               master.vertices.begin());
 }
 
 /// The link of a vertex: its neighbours, joined where a tet of the star joins them.

@@ -34,21 +34,17 @@ std::string write_abaqus(const MeshData& data, MshVariant variant);
 
 namespace {
 
-bool starts_with(std::string_view text, std::string_view with) {
-  return text.substr(0, with.size()) == with;
-}
-
 bool is_vtk(const Beginning& b) {
-  return starts_with(b.bytes, "# vtk DataFile");
+  return b.bytes.starts_with("# vtk DataFile");
 }
 bool is_ply(const Beginning& b) {
-  return starts_with(b.bytes, "ply\n") || starts_with(b.bytes, "ply\r");
+  return b.bytes.starts_with("ply\n") || b.bytes.starts_with("ply\r");
 }
 bool is_msh(const Beginning& b) {
-  return starts_with(b.line, "$");
+  return b.line.starts_with("$");
 }
 bool is_vtu(const Beginning& b) {
-  return starts_with(b.line, "<");
+  return b.line.starts_with("<");
 }
 bool is_medit(const Beginning& b) {
   return same_word(b.line.substr(0, 20), "MeshVersionFormatted");
@@ -61,7 +57,7 @@ bool is_tetgen(const Beginning& b) {
 /// Lines that begin with '*' tell Vega from Abaqus: the first that only one of them has.
 enum class Starred : std::uint8_t { kNeither, kVega, kAbaqus };
 Starred starred(const Beginning& b) {
-  for (std::size_t at = 0; starts_with(b.line, "*") && at < b.bytes.size();) {
+  for (std::size_t at = 0; b.line.starts_with("*") && at < b.bytes.size();) {
     const std::size_t end = std::min(b.bytes.find('\n', at), b.bytes.size());
     const std::string_view line = trim(b.bytes.substr(at, end - at));
     const std::string_view keyword = trim(line.substr(0, line.find(',')));
@@ -69,7 +65,7 @@ Starred starred(const Beginning& b) {
     if (same_word(keyword, "*NODE") || same_word(keyword, "*HEADING") || same_word(keyword, "*ELEMENT")) {
       return Starred::kAbaqus;
     }
-    if (starts_with(to_lower(line.substr(0, 9)), "*include ") && line.find('=') == std::string_view::npos)
+    if (to_lower(line.substr(0, 9)).starts_with("*include ") && line.find('=') == std::string_view::npos)
       return Starred::kVega;
     at = end + 1;
   }

@@ -17,10 +17,6 @@ inline namespace v0 {
 namespace io {
 namespace {
 
-bool starts_with(std::string_view text, std::string_view with) {
-  return text.substr(0, with.size()) == with;
-}
-
 bool refuse(Job& job, const std::string& what) {
   return job.fail(what + " cannot be read; " + readable_formats(), ErrorCode::kUnsupported);
 }
@@ -28,15 +24,15 @@ bool refuse(Job& job, const std::string& what) {
 // Known formats that are of no use here, by their first bytes.
 const char* unsupported_kind(std::string_view bytes) {
   using std::string_view_literals::operator""sv;
-  if (starts_with(bytes, "\x89HDF\r\n")) return "HDF5 (.h5)";
-  if (starts_with(bytes, "MATLAB 5.0")) return "MATLAB (.mat)";
-  if (starts_with(bytes, "\1\0\0\0"sv) || starts_with(bytes, "\0\0\0\1"sv)) return "binary MEDIT (.meshb)";
-  if (starts_with(bytes, "PK\3\4")) return "a zip archive";
-  if (starts_with(bytes, "\4\x22M\x18")) return "an LZ4 archive";
-  if (starts_with(bytes, "solid ") || starts_with(bytes, "OFF")) {
+  if (bytes.starts_with("\x89HDF\r\n")) return "HDF5 (.h5)";
+  if (bytes.starts_with("MATLAB 5.0")) return "MATLAB (.mat)";
+  if (bytes.starts_with("\1\0\0\0"sv) || bytes.starts_with("\0\0\0\1"sv)) return "binary MEDIT (.meshb)";
+  if (bytes.starts_with("PK\3\4")) return "a zip archive";
+  if (bytes.starts_with("\4\x22M\x18")) return "an LZ4 archive";
+  if (bytes.starts_with("solid ") || bytes.starts_with("OFF")) {
     return "a surface (it holds no tets; incise mesh fills it)";
   }
-  if (starts_with(bytes, "CDF") || starts_with(bytes, "NRRD")) return "this kind of file";
+  if (bytes.starts_with("CDF") || bytes.starts_with("NRRD")) return "this kind of file";
   return nullptr;
 }
 
@@ -58,8 +54,8 @@ bool any_line(std::string_view bytes, Visit&& visit) {
 /// A bulk data file of finite elements; its comments begin with '$', as the sections of Gmsh do.
 bool is_nastran(std::string_view bytes) {
   return any_line(bytes, [](std::string_view line) {
-    return starts_with(line, "BEGIN BULK") || starts_with(line, "GRID") || starts_with(line, "CTETRA") ||
-           starts_with(line, "CEND");
+    return line.starts_with("BEGIN BULK") || line.starts_with("GRID") || line.starts_with("CTETRA") ||
+           line.starts_with("CEND");
   });
 }
 
@@ -87,7 +83,7 @@ const char* unsupported_numbers(std::string_view bytes) {
 /// Known formats of text that are of no use here.
 const char* unsupported_text(std::string_view bytes) {
   const bool is_gmsh = any_line(bytes, [](std::string_view line) {
-    return starts_with(line, "$MeshFormat") || starts_with(line, "$NOD") || starts_with(line, "$Nodes");
+    return line.starts_with("$MeshFormat") || line.starts_with("$NOD") || line.starts_with("$Nodes");
   });
   if (!is_gmsh && is_nastran(bytes)) return "Nastran bulk data (.bdf, .nas)";
   return unsupported_numbers(bytes);
@@ -127,13 +123,13 @@ bool run(Job& job, const MeshFormat& format) {
 bool run(Job& job, const std::vector<MeshFormat>& own) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (job.bytes.empty()) return job.fail("the file is empty; export the mesh again");
-  if (starts_with(job.bytes, kByteOrderMark)) job.bytes.remove_prefix(kByteOrderMark.size());
+  if (job.bytes.starts_with(kByteOrderMark)) job.bytes.remove_prefix(kByteOrderMark.size());
   for (const MeshFormat& format : own) {
     if (format.recognises && format.read && format.recognises(job.bytes)) return run(job, format);
   }
   if (const char* kind = unsupported_kind(job.bytes)) return refuse(job, kind);
   const std::string_view trimmed = trim(job.bytes.substr(0, 64));
-  if (starts_with(trimmed, "{") || starts_with(trimmed, "[")) return refuse(job, "JSON");
+  if (trimmed.starts_with("{") || trimmed.starts_with("[")) return refuse(job, "JSON");
   const FormatRow* format = find_format(job.bytes);
   if (format == nullptr || format->is_vague) {
     if (const char* kind = unsupported_text(job.bytes)) return refuse(job, kind);

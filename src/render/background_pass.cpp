@@ -11,7 +11,7 @@ inline namespace v0 {
 namespace render {
 namespace {
 
-constexpr const char* kFragment = R"(
+constexpr const char* kBackgroundFragment = R"(
 in vec2 place;
 uniform vec3 top, bottom;
 out vec4 color;
@@ -21,7 +21,7 @@ void main() { color = vec4(mix(bottom, top, smoothstep(0.0, 1.0, place.y)), 1); 
 }  // namespace
 
 Result<BackgroundPass> BackgroundPass::create() {
-  auto program = make_program("background", "", kFullScreenVertex, kFragment);
+  auto program = make_program("background", "", kFullScreenVertex, kBackgroundFragment);
   if (!program.ok()) return program.error();
   BackgroundPass pass;
   pass.program_ = std::move(program).value();

@@ -19,7 +19,7 @@ layout(location = 0) in vec3 position;
 uniform mat4 to_light;
 void main() { gl_Position = vec4(2.0 * (to_light * vec4(position, 1)).xyz - 1.0, 1); }
 )";
-constexpr const char* kFragment = R"(
+constexpr const char* kShadowFragment = R"(
 void main() {}
 )";
 
@@ -54,7 +54,7 @@ Eigen::Matrix4f to_light(const ViewMatrices& view, const Eigen::Vector3f& centre
 }  // namespace
 
 Result<ShadowPass> ShadowPass::create() {
-  auto program = make_program("shadows", "", kVertex, kFragment);
+  auto program = make_program("shadows", "", kVertex, kShadowFragment);
   if (!program.ok()) return program.error();
   ShadowPass pass;
   pass.program_ = std::move(program).value();

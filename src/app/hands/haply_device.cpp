@@ -41,7 +41,7 @@ constexpr double kDeaf = 0.1;                  // s that a force may wait to be 
 /// One connection.
 struct Link {
   explicit Link(asio::io_context& io) : socket(io) {}
-  beast::websocket::stream<beast::tcp_stream> socket;
+  beast::websocket::stream<beast::tcp_stream, false> socket;  // nothing is compressed
   beast::flat_buffer heard;
   std::string said;
   double since = 0;  // when it was begun, then when something was last heard, s

@@ -10,7 +10,7 @@ namespace app {
 namespace {
 
 constexpr int kCorners = 16;                 // of the ring
-constexpr double kStraight = 0.8;            // of the depth: below, the ring draws together
+constexpr double kStraightDepth = 0.8;       // of the depth: below, the ring draws together
 constexpr double kRingLift = 0.5;            // above the surface at first, in radii: skin bulges into a ring
 constexpr double kDriven = 0.5, kEnd = 0.8;  // s
 
@@ -40,7 +40,7 @@ Stroke punch_stroke(const Vec3& point, const Vec3& normal, const ToolSettings& s
   stroke.name = "punch";
   stroke.times = {0, kDriven, kEnd};
   stroke.edges = {ring(point + kRingLift * radius * normal, normal, radius),
-                  ring(point - kStraight * settings.depth * normal, normal, radius),
+                  ring(point - kStraightDepth * settings.depth * normal, normal, radius),
                   ring(point - settings.depth * normal, normal, 0)};
   return stroke;
 }

@@ -20,11 +20,11 @@ constexpr double kMostDrift = 2;         // that the surface may be off the plan
 constexpr double kMostLeadIn = 3;        // back to where the pointer went down beside the body
 constexpr double kBackOfBlade = 0.6;     // behind the edge, as drawn
 // Others.
-constexpr double kSteepest = 1.5;   // rise of the surface per travel along the plane
-constexpr double kMostOblique = 4;  // along the ray, per rise off the plane
-constexpr double kGrazing = 0.02;   // sine of the flattest angle at which a plane is met
-constexpr double kSettled = 1e-3;   // length of the smoothed direction below which it says nothing
-constexpr double kLeastPixels = 0.5;
+constexpr double kSteepestRise = 1.5;  // rise of the surface per travel along the plane
+constexpr double kMostOblique = 4;     // along the ray, per rise off the plane
+constexpr double kGrazing = 0.02;      // sine of the flattest angle at which a plane is met
+constexpr double kSettled = 1e-3;      // length of the smoothed direction below which it says nothing
+constexpr double kLeastDrag = 0.5;
 constexpr int kTipSegments = 4;  // of the edge
 
 /// Where a ray meets a plane's front.
@@ -98,7 +98,7 @@ void Scalpel::begin_from_air(const PointerPlace& place, const ToolSettings& sett
   direction_ = across(there - from, normal);
   seen_ = there;
   point_ = there - lead * direction_;
-  pixel_ = place.pixel - Vec2(2 * kLeastPixels, 0);  // the next move counts, even one to the same pixel
+  pixel_ = place.pixel - Vec2(2 * kLeastDrag, 0);  // the next move counts, even one to the same pixel
   put(settings, place.pressure);
 }
 
@@ -107,7 +107,7 @@ void Scalpel::move(const PointerPlace& place, const ToolSettings& settings, doub
     if (place.hit) begin_from_air(place, settings);
     return;
   }
-  if ((place.pixel - pixel_).norm() < kLeastPixels) return;
+  if ((place.pixel - pixel_).norm() < kLeastDrag) return;
   const bool is_seen = is_on_surface(place, settings.depth);
   const std::optional<Vec3> to = is_seen ? place.hit->point : on_plane(place, size + kMostLeadIn * settings.depth);
   if (!to) return;
@@ -126,11 +126,11 @@ void Scalpel::move(const PointerPlace& place, const ToolSettings& settings, doub
 bool Scalpel::is_on_surface(const PointerPlace& place, double depth) const {
   if (!place.hit || place.is_wall) return false;
   const Vec3& hit = place.hit->point;
-  const double near = kSlack * depth + std::min(kSteepest * (point_ - seen_).norm(), kMostDrift * depth);
+  const double near = kSlack * depth + std::min(kSteepestRise * (point_ - seen_).norm(), kMostDrift * depth);
   const std::optional<Vec3> expected = meet(place.ray, point_, normal_);
   // Without a place on the plane the surface bends away from the viewer: only what is near can be the same.
   if (!expected) return (hit - point_).norm() <= near;
-  const double most = near + kSteepest * (*expected - point_).norm();
+  const double most = near + kSteepestRise * (*expected - point_).norm();
   // Seen flat, a small rise is far along the ray.
   return std::abs((hit - *expected).dot(normal_)) <= most && (hit - *expected).norm() <= kMostOblique * most;
 }

@@ -7,7 +7,7 @@ namespace app {
 namespace {
 
 constexpr double kSeconds = 0.4;
-constexpr int kSteps = 8;              // of the turn: between two the edge goes straight
+constexpr int kTurnSteps = 8;          // of the turn: between two the edge goes straight
 constexpr int kBladeSegments = 4;      // of the edge
 constexpr double kHingeLift = 0.3;     // of the hinge above the skin, in depths
 constexpr double kOpen = 0.6;          // rise of the upper blade per length, on skin
@@ -55,8 +55,8 @@ Stroke to_stroke(const ScissorsPlace& place) {
   Stroke stroke;
   stroke.name = "scissors";
   const Vec3 open = place.upper_tip - place.hinge, closed = place.lower_tip - place.hinge;
-  for (int step = 0; step <= kSteps; ++step) {
-    const double share = static_cast<double>(step) / kSteps;
+  for (int step = 0; step <= kTurnSteps; ++step) {
+    const double share = static_cast<double>(step) / kTurnSteps;
     const Vec3 blade = closed.norm() * ((1 - share) * open + share * closed).normalized();
     stroke.times.push_back(share * kSeconds);
     std::vector<Vec3>& edge = stroke.edges.emplace_back();

@@ -50,7 +50,7 @@ bool is_sound(const PointerEvent& event, const ToolContext& context) {
          context.viewport.height > 0;
 }
 
-double size_of(const Box& body) {
+double span_of(const Box& body) {
   const double size = body.is_empty() ? 0 : (body.hi - body.lo).norm();
   return size > 0 && std::isfinite(size) ? size : 1;
 }
@@ -143,7 +143,7 @@ void ToolMachine::State::move(const PointerEvent& event, const ToolContext& cont
 void ToolMachine::State::wheel(const PointerEvent& event, const ToolContext& context, Camera& camera) {
   const double notches = std::clamp(event.wheel, -kMostNotches, kMostNotches);
   if (event.control) {
-    const double size = size_of(context.body);
+    const double size = span_of(context.body);
     const double depth = settings.depth * std::pow(kDepthPerNotch, notches);
     settings.depth = positive(std::clamp(depth, kShallowest * size, kDeepest * size), settings.depth);
   } else if (event.shift) {

@@ -2,7 +2,6 @@
 #include "app/jobs/batch_files.h"
 
 #include <limits>
-#include <regex>
 #include <system_error>
 
 #include "app/scene/blade_file.h"
@@ -21,6 +20,13 @@ std::uintmax_t size_of(const fs::path& path) {
   std::error_code code;
   const std::uintmax_t size = fs::is_regular_file(path, code) ? fs::file_size(path, code) : 0;
   return code ? 0 : size;
+}
+
+/// The shard whose worker writes NAME.shard-I-of-N or NAME.shard-I-of-N.incise-part; nothing for any other file.
+std::optional<Shard> shard_of_leftover(const fs::path& file) {
+  const fs::path name = file.extension() == ".incise-part" ? file.stem() : file.filename();
+  const std::string ending = name.extension().string();
+  return ending.empty() ? std::nullopt : shard_named(std::string_view(ending).substr(1));
 }
 
 }  // namespace
@@ -60,14 +66,12 @@ bool BatchFiles::are_strokes_sound(const std::string& file) const {
 }
 
 void remove_leftovers(const fs::path& folder) {
-  const std::regex leftover(R"(.+\.(shard-\d{5}-of-\d{5})(\.incise-part)?)");
   for (const char* part : {"before", "after", "strokes"}) {
     std::error_code code;
     for (fs::directory_iterator at(folder / part, code), end; !code && at != end; at.increment(code)) {
-      const std::string name = at->path().filename().string();
-      std::smatch found;
+      const std::optional<Shard> shard = shard_of_leftover(at->path());
       std::error_code ignored;
-      if (std::regex_match(name, found, leftover) && is_free(folder, found[1])) fs::remove(at->path(), ignored);
+      if (shard && is_free(folder, name_of(*shard))) fs::remove(at->path(), ignored);
     }
   }
 }

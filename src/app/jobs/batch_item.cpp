@@ -24,9 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kAngleDigits = 1e6;    // of a degree: angles come from libm, whose last digit differs by machine
-constexpr std::size_t kMaxListed = 16;  // pieces and strokes, in a line
-constexpr double kTail = 0.5;           // s, that a scene goes on after its last random stroke
+constexpr double kAngleDigits = 1e6;      // of a degree: angles come from libm, whose last digit differs by machine
+constexpr std::size_t kMaxListed = 16;    // pieces and strokes, in a line
+constexpr double kAfterLastStroke = 0.5;  // s, that a scene goes on after its last random stroke
 
 Json quality_of(const QualityStats& quality) {
   QualityStats rounded = quality;
@@ -203,7 +203,7 @@ class ItemRunner {
     if (!strokes.ok()) return strokes.error();
     scene.strokes.clear();
     for (Stroke& stroke : *strokes) scene.strokes.push_back({std::move(stroke), Vec3::Zero()});
-    const double end = scene.strokes.back().stroke.times.back() + kTail;
+    const double end = scene.strokes.back().stroke.times.back() + kAfterLastStroke;
     const auto frames = static_cast<std::uint64_t>(std::ceil(end / scene.options.frame_seconds));
     scene.frames = std::max(scene.frames, frames);
     scene.exercise.reset();  // these are nobody's attempt

@@ -2,20 +2,20 @@
 #include "app/jobs/batch_lines.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <optional>
-#include <regex>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "app/text/formatted.h"
 #include "app/text/json_tree.h"
 #include "app/text/json_write.h"
 #include "app/text/line_source.h"
@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr mode_t kMode = 0666;
+constexpr mode_t kShardMode = 0666;
 constexpr off_t kChunk = 4096;
 
 /// Reads the fields that the program needs again.
@@ -121,15 +121,17 @@ class BatchLineReader {
   bool is_of_another_plan_ = false;
 };
 
+bool is_shard_file(const fs::path& path) {
+  return path.filename().string().rfind("shard-", 0) == 0 && path.extension() == ".jsonl";
+}
+
 /// What to do about a line that is no result.
 std::string remedy(const fs::path& shard_file) {
-  const std::regex shard(R"(shard-(\d{5})-of-(\d{5})\.jsonl)");
-  const std::string name = shard_file.filename().string();
-  std::smatch found;
-  if (!std::regex_match(name, found, shard)) return "; take the line out of the file";
-  return fmt::format(
+  const std::optional<Shard> shard = is_shard_file(shard_file) ? shard_named(shard_file.stem().string()) : std::nullopt;
+  if (!shard) return "; take the line out of the file";
+  return formatted(
       "; run incise batch with --shard {}/{} --retry, which takes the line off and computes its item again",
-      std::stoul(found[1]), std::stoul(found[2]));
+      shard->index, shard->count);
 }
 
 /// A line, or why it is none.
@@ -185,14 +187,18 @@ Error no_file(const fs::path& path, ErrorCode code) {
   return {code, path.string() + ": is no regular file; take it away", {}};
 }
 
-bool is_shard_file(const fs::path& path) {
-  return path.filename().string().rfind("shard-", 0) == 0 && path.extension() == ".jsonl";
-}
-
 }  // namespace
 
 std::string name_of(const Shard& shard) {
-  return fmt::format("shard-{:05}-of-{:05}", shard.index, shard.count);
+  return formatted("shard-{:05}-of-{:05}", shard.index, shard.count);
+}
+
+std::optional<Shard> shard_named(std::string_view name) {
+  if (name.size() != name_of(Shard()).size()) return std::nullopt;
+  Shard shard;
+  std::from_chars(name.data() + 6, name.data() + 11, shard.index);
+  std::from_chars(name.data() + 15, name.data() + 20, shard.count);
+  return name_of(shard) == name ? std::optional(shard) : std::nullopt;
 }
 
 bool is_free(const fs::path& folder, const std::string& name) {
@@ -224,7 +230,7 @@ Result<ShardFile> ShardFile::open(const fs::path& folder, const Shard& shard) {
 }
 
 Result<ShardFile> ShardFile::open(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kMode);
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kShardMode);
   if (file < 0) return write_error(path);
   ShardFile opened(path, file);
   struct stat about = {};

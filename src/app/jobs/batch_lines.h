@@ -46,6 +46,9 @@ enum class BadLines : std::uint8_t { kAreErrors, kAreLeftOut };
 /// "shard-00001-of-00004", of which the file is `.jsonl`.
 [[nodiscard]] std::string name_of(const Shard& shard);
 
+/// The shard that `name_of` calls `name`; nothing for any other name.
+[[nodiscard]] std::optional<Shard> shard_named(std::string_view name);
+
 /// Whether no worker is at the shard whose file is `name` with `.jsonl`. False as well where the file system has no
 /// locks.
 [[nodiscard]] bool is_free(const std::filesystem::path& folder, const std::string& name);

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kPlanVersion = 1;
-constexpr double kMaxSnap = 0.4;        // as `CutOptions`
+constexpr double kMaxPlanSnap = 0.4;    // as `CutOptions`
 constexpr double kMaxSeconds = 1000;    // of a random stroke
 constexpr double kLeastSeconds = 0.05;  // three frames of most scenes
 constexpr std::size_t kMaxNameLength = 200;
@@ -214,7 +214,7 @@ class PlanReader {
     return read_.is_object(*value, path, {"profile", "snap", "merge", "improve", "work_units"}) &&
            read_profile(value->find("profile"), path + ".profile", out) &&
            (value->find("snap") == nullptr ||
-            read_.optional_ranged(*value, path, "snap", {0, kMaxSnap}, out.snap.emplace())) &&
+            read_.optional_ranged(*value, path, "snap", {0, kMaxPlanSnap}, out.snap.emplace())) &&
            (value->find("merge") == nullptr || read_.optional_boolean(*value, path, "merge", out.merge.emplace())) &&
            (value->find("improve") == nullptr ||
             read_.optional_boolean(*value, path, "improve", out.improve.emplace())) &&

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/jobs/frame_series.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <system_error>
 #include <utility>
 
+#include "app/text/formatted.h"
 #include "app/text/text_file.h"
 #include "incise/io/mesh_file.h"
 
@@ -17,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error io_error(const fs::path& path, const std::string& what) {
+Error series_error(const fs::path& path, const std::string& what) {
   return {ErrorCode::kIo, path.string() + ": " + what, {}};
 }
 
-std::string name_of(std::size_t index) {
-  return fmt::format("frame_{:05}.vtu", index);
+std::string frame_name(std::size_t index) {
+  return formatted("frame_{:05}.vtu", index);
 }
 
 /// "frame_", digits, ".vtu".
@@ -90,16 +89,16 @@ Result<FrameSeries> FrameSeries::begin(const fs::path& path) {
   for (const fs::path& folder : {series.folder_, series.beside_}) {
     if (is_free(folder)) continue;
     series.is_open_ = false;
-    return io_error(folder, "is in the way of the series: it holds other files; move it, or name another output");
+    return series_error(folder, "is in the way of the series: it holds other files; move it, or name another output");
   }
   std::error_code code;
   fs::remove_all(series.beside_, code);
   if (fs::create_directory(series.beside_, code)) return series;
-  return io_error(series.beside_, "cannot be made: " + code.message());
+  return series_error(series.beside_, "cannot be made: " + code.message());
 }
 
 Status FrameSeries::add(double time, const io::MeshData& mesh) {
-  Status status = io::write_mesh(beside_ / name_of(times_.size()), mesh);
+  Status status = io::write_mesh(beside_ / frame_name(times_.size()), mesh);
   if (status.ok()) times_.push_back(time);
   return status;
 }
@@ -110,7 +109,7 @@ std::string FrameSeries::collection() const {
       "byte_order=\"LittleEndian\">\n<Collection>\n";
   const std::string folder = escaped(folder_.filename().string());
   for (std::size_t i = 0; i < times_.size(); ++i) {
-    text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", times_[i], folder, name_of(i));
+    text += formatted("<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", times_[i], folder, frame_name(i));
   }
   return text + "</Collection>\n</VTKFile>\n";
 }
@@ -119,12 +118,12 @@ Status FrameSeries::finish() {
   const fs::path old = with(folder_, ".incise-old");
   std::error_code code;
   const bool has_old = fs::exists(folder_, code);
-  if (!is_free(folder_) || !is_free(old)) return io_error(folder_, "is in the way of the series by now");
+  if (!is_free(folder_) || !is_free(old)) return series_error(folder_, "is in the way of the series by now");
   fs::remove_all(old, code);
   if (has_old) fs::rename(folder_, old, code);
   if (!code) fs::rename(beside_, folder_, code);
   Status status =
-      code ? io_error(folder_, "cannot be written: " + code.message()) : write_text_file(path_, collection());
+      code ? series_error(folder_, "cannot be written: " + code.message()) : write_text_file(path_, collection());
   is_open_ = false;
   std::error_code ignored;
   if (status.ok()) {

@@ -10,8 +10,8 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-constexpr unsigned kSteps = 12;      // of the blade
-constexpr unsigned kEdgePoints = 5;  // of a straight edge: tissue that moves takes it where these are
+constexpr unsigned kStrokeSteps = 12;  // of the blade
+constexpr unsigned kEdgePoints = 5;    // of a straight edge: tissue that moves takes it where these are
 constexpr unsigned kRingPoints = 24;
 constexpr double kReach = 0.8;  // of the body's diagonal: from its middle half beyond all of it
 
@@ -68,8 +68,8 @@ struct Sweep {
 };
 
 void sweep_edge(const Place& place, const Sweep& sweep, Stroke& stroke) {
-  for (unsigned i = 0; i <= kSteps; ++i) {
-    const double x = sweep.begin + (sweep.end - sweep.begin) * i / kSteps;
+  for (unsigned i = 0; i <= kStrokeSteps; ++i) {
+    const double x = sweep.begin + (sweep.end - sweep.begin) * i / kStrokeSteps;
     std::vector<Vec3>& edge = stroke.edges.emplace_back();
     for (unsigned k = 0; k < kEdgePoints; ++k) {
       const double z = sweep.from + (sweep.to - sweep.from) * k / (kEdgePoints - 1);
@@ -82,8 +82,8 @@ void sweep_edge(const Place& place, const Sweep& sweep, Stroke& stroke) {
 void sweep_ring(const Place& place, double radius, double to, Stroke& stroke) {
   const double cosine = (std::sqrt(6.0) + std::sqrt(2.0)) / 4;  // of 15 degrees
   const double sine = (std::sqrt(6.0) - std::sqrt(2.0)) / 4;
-  for (unsigned i = 0; i <= kSteps; ++i) {
-    const double z = kReach + (to - kReach) * i / kSteps;
+  for (unsigned i = 0; i <= kStrokeSteps; ++i) {
+    const double z = kReach + (to - kReach) * i / kStrokeSteps;
     std::vector<Vec3>& edge = stroke.edges.emplace_back();
     double x = radius;
     double y = 0;
@@ -131,7 +131,7 @@ std::vector<Stroke> random_strokes(const RandomStrokes& wanted, const Box& body)
     shape(kind, place, random, strokes[i]);
     strokes[i].name = kRandomKindNames[static_cast<std::size_t>(kind)];
     const double start = wanted.start + static_cast<double>(i) * (wanted.seconds + wanted.pause);
-    for (unsigned k = 0; k <= kSteps; ++k) strokes[i].times.push_back(start + wanted.seconds * k / kSteps);
+    for (unsigned k = 0; k <= kStrokeSteps; ++k) strokes[i].times.push_back(start + wanted.seconds * k / kStrokeSteps);
   }
   return strokes;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/jobs/replay_job.h"
 
-#include <fmt/format.h>
-
 #include <system_error>
 #include <utility>
 
@@ -12,6 +10,7 @@
 #include "app/recording/recorded_mesh.h"
 #include "app/recording/simulation_recording.h"
 #include "app/text/counted.h"
+#include "app/text/formatted.h"
 #include "app/text/json_write.h"
 #include "app/text/line_reader.h"
 #include "incise/io/mesh_export.h"
@@ -101,7 +100,7 @@ std::optional<ReplayDifference> compare_hashes(const RecordedCall& call, const T
 
 std::optional<ReplayDifference> compare_work(const RecordedCall& call, const Outcome& outcome) {
   if (!outcome.work_units) return std::nullopt;
-  return differ(call, fmt::format("{} work units", call.work_units), fmt::format("{} work units", *outcome.work_units));
+  return differ(call, formatted("{} work units", call.work_units), formatted("{} work units", *outcome.work_units));
 }
 
 Result<Engine> make_engine(TetMesh mesh, const RecordingHeader& header, const ReplayJob& job) {
@@ -199,10 +198,10 @@ Result<ReplayResult> run_replay(const ReplayJob& job) {
 }
 
 std::string to_text(const ReplayResult& result) {
-  return fmt::format("{}, {}: {} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", counted(result.calls, "call"),
-                     counted(result.strokes, "stroke"), result.before.tets, result.after.tets, result.before.vertices,
-                     result.after.vertices, result.before.components, result.after.components) +
-         fmt::format("hash {}\n", hash_text(result.hash));
+  return formatted("{}, {}: {} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", counted(result.calls, "call"),
+                   counted(result.strokes, "stroke"), result.before.tets, result.after.tets, result.before.vertices,
+                   result.after.vertices, result.before.components, result.after.components) +
+         formatted("hash {}\n", hash_text(result.hash));
 }
 
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/jobs/report.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "app/jobs/report_tree.h"
 #include "app/text/counted.h"
+#include "app/text/formatted.h"
 #include "incise/version.h"
 
 namespace incise {
@@ -133,13 +132,13 @@ Json validity_json(const JobReport& report) {
 
 std::string sizes_text(const JobReport& report) {
   std::string text =
-      fmt::format("{} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", report.before.tets, report.after.tets,
-                  report.before.vertices, report.after.vertices, report.before.components, report.after.components);
+      formatted("{} -> {} tets, {} -> {} vertices, {} -> {} pieces\n", report.before.tets, report.after.tets,
+                report.before.vertices, report.after.vertices, report.before.components, report.after.components);
   for (std::size_t i = 0; i < report.pieces.size() && i < kMaxPiecesShown; ++i) {
-    text += fmt::format("  piece {}: {} tets, volume {:.9g}\n", i, report.pieces[i].tets, report.pieces[i].volume);
+    text += formatted("  piece {}: {} tets, volume {:.9g}\n", i, report.pieces[i].tets, report.pieces[i].volume);
   }
   if (report.pieces.size() > kMaxPiecesShown) {
-    text += fmt::format("  and {} more\n", report.pieces.size() - kMaxPiecesShown);
+    text += formatted("  and {} more\n", report.pieces.size() - kMaxPiecesShown);
   }
   return text;
 }
@@ -149,28 +148,28 @@ std::string work_text(const JobReport& report) {
   const MaintainStatistics& done = report.maintain;
   std::string text;
   if (report.strokes > 0) {
-    text = fmt::format("cut {} in {}: {} opened, {} vertices snapped, {} bent\n", counted(cut.cut_tets, "tet"),
-                       counted(cut.steps, "step"), counted(cut.incision_faces, "face"), cut.snapped_vertices,
-                       cut.bent_vertices);
+    text = formatted("cut {} in {}: {} opened, {} vertices snapped, {} bent\n", counted(cut.cut_tets, "tet"),
+                     counted(cut.steps, "step"), counted(cut.incision_faces, "face"), cut.snapped_vertices,
+                     cut.bent_vertices);
   }
   if (report.options.merge || report.options.improve) {
-    text += fmt::format("maintained: {} edges collapsed, {} swapped away, {} faces swapped away, {} vertices moved\n",
-                        done.collapsed_edges, done.removed_edges, done.removed_faces, done.moved_vertices);
+    text += formatted("maintained: {} edges collapsed, {} swapped away, {} faces swapped away, {} vertices moved\n",
+                      done.collapsed_edges, done.removed_edges, done.removed_faces, done.moved_vertices);
   }
-  if (done.waiting_tets > 0) text += fmt::format("{} tets wait for maintenance\n", done.waiting_tets);
+  if (done.waiting_tets > 0) text += formatted("{} tets wait for maintenance\n", done.waiting_tets);
   return text;
 }
 
 std::string quality_row(const char* name, const QualityStats& q) {
   if (q.tets == q.flat_tets) return {};
-  return fmt::format("{:<16}{:>10}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.3g}{:>10.3g}{:>10.4g}\n", name, q.tets, q.lr_mean,
-                     q.lr_p99, q.lr_max, q.lr_over_200_pct, q.dihedral_min_deg, q.dihedral_max_deg);
+  return formatted("{:<16}{:>10}{:>10.4g}{:>10.4g}{:>10.4g}{:>10.3g}{:>10.3g}{:>10.4g}\n", name, q.tets, q.lr_mean,
+                   q.lr_p99, q.lr_max, q.lr_over_200_pct, q.dihedral_min_deg, q.dihedral_max_deg);
 }
 
 std::string quality_text(const JobReport& report) {
   const bool is_cut = report.strokes > 0;
-  return fmt::format("{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "tets", "L/r mean", "p99", "max",
-                     "% > 200", "angle min", "max") +
+  return formatted("{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "tets", "L/r mean", "p99", "max",
+                   "% > 200", "angle min", "max") +
          quality_row("before", report.quality_before) + (is_cut ? quality_row("cut", report.quality_cut) : "") +
          quality_row("after", report.quality_after) + quality_row("at walls, cut", report.quality_cut_incision) +
          quality_row("at walls, after", report.quality_incision);
@@ -222,9 +221,9 @@ std::string to_json(const JobReport& report) {
 
 std::string to_text(const JobReport& report) {
   return sizes_text(report) + work_text(report) + quality_text(report) +
-         fmt::format("volume changed by {:.2g} (relative); {}\n", relative_error(report),
-                     report.change.ok ? "valid" : "INVALID") +
-         fmt::format("{:.3f} ms, hash {}\n", report.total_ms, hash_text(report.hash));
+         formatted("volume changed by {:.2g} (relative); {}\n", relative_error(report),
+                   report.change.ok ? "valid" : "INVALID") +
+         formatted("{:.3f} ms, hash {}\n", report.total_ms, hash_text(report.hash));
 }
 
 }  // namespace app

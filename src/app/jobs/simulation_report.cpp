@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/jobs/simulation_report.h"
 
-#include <fmt/format.h>
-
 #include "app/jobs/report_tree.h"
 #include "app/scene/exercise_score_tree.h"
 #include "app/text/counted.h"
+#include "app/text/formatted.h"
 
 namespace incise {
 inline namespace v0 {
@@ -85,31 +84,30 @@ std::string to_text(const SimulationReport& report) {
   const Percentiles ms = percentiles(report.frame_ms);
   const TimeShare share = share_of(report.job.times);
   const double seconds = static_cast<double>(report.frames) * report.frame_seconds;
-  std::string text = fmt::format("{}, {:.3g} s, after {} of settling\n", counted(report.frames, "frame"), seconds,
-                                 counted(report.settle_frames, "frame"));
+  std::string text = formatted("{}, {:.3g} s, after {} of settling\n", counted(report.frames, "frame"), seconds,
+                               counted(report.settle_frames, "frame"));
   text += to_text(report.job);
-  text += fmt::format("a frame took {:.2f} ms (median), {:.2f} (99 %), {:.2f} (longest); {:.0f} frames a second\n",
-                      ms.p50, ms.p99, ms.max,
-                      report.job.total_ms > 0 ? 1e3 * static_cast<double>(report.frames) / report.job.total_ms : 0.0);
-  text += fmt::format("collision {:.1f} %, mesh {:.1f} %, relaxation {:.1f} % of the time\n", 1e2 * share.collision,
-                      1e2 * share.geometry, 1e2 * share.relax);
+  text += formatted("a frame took {:.2f} ms (median), {:.2f} (99 %), {:.2f} (longest); {:.0f} frames a second\n",
+                    ms.p50, ms.p99, ms.max,
+                    report.job.total_ms > 0 ? 1e3 * static_cast<double>(report.frames) / report.job.total_ms : 0.0);
+  text += formatted("collision {:.1f} %, mesh {:.1f} %, relaxation {:.1f} % of the time\n", 1e2 * share.collision,
+                    1e2 * share.geometry, 1e2 * share.relax);
   const ForceFigures& f = report.forces;
   if (f.touching_frames > 0) {
-    text +=
-        fmt::format("blade: at most {:.3g} N on {:.3g} mm of its edge; {:.3g} J of fracture, {:.3g} J of friction\n",
-                    f.peak_force, 1e3 * f.engaged_length, f.fracture_work, f.friction_work);
+    text += formatted("blade: at most {:.3g} N on {:.3g} mm of its edge; {:.3g} J of fracture, {:.3g} J of friction\n",
+                      f.peak_force, 1e3 * f.engaged_length, f.fracture_work, f.friction_work);
   }
   if (report.haptics.peak_force > 0) {
-    text += fmt::format(
+    text += formatted(
         "a hand at 1 kHz: at most {:.3g} N; observed energy at least {:.3g} J; a tick takes {:.2g} us (99.9 %)\n",
         report.haptics.peak_force, report.haptics.sampled_minimum, report.haptics.compute_us.p999);
   }
-  if (f.peak_hook_force > 0) text += fmt::format("hooks: at most {:.3g} N\n", f.peak_hook_force);
+  if (f.peak_hook_force > 0) text += formatted("hooks: at most {:.3g} N\n", f.peak_hook_force);
   if (f.peak_suture_force > 0 || f.torn_sutures > 0) {
-    text += fmt::format("sutures: at most {:.3g} N, {} torn\n", f.peak_suture_force, f.torn_sutures);
+    text += formatted("sutures: at most {:.3g} N, {} torn\n", f.peak_suture_force, f.torn_sutures);
   }
   if (report.inverted_tets > 0) {
-    text += fmt::format("inverted as the body stands: {}\n", counted(report.inverted_tets, "tet"));
+    text += formatted("inverted as the body stands: {}\n", counted(report.inverted_tets, "tet"));
   }
   if (report.exercise) text += to_text(*report.exercise);
   return text;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/model/mesh_info.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "app/text/formatted.h"
 #include "app/text/json_write.h"
 
 namespace incise {
@@ -71,20 +70,20 @@ Json json_of(const MeshInfo& info) {
 std::string region_text(const MeshInfo& info) {
   std::string text;
   for (std::size_t i = 0; i < info.regions.size() && i < kMaxRegionsShown; ++i) {
-    text += fmt::format("{}{} ({} tets)", i == 0 ? "" : ", ", info.regions[i].first, info.regions[i].second);
+    text += formatted("{}{} ({} tets)", i == 0 ? "" : ", ", info.regions[i].first, info.regions[i].second);
   }
-  if (info.regions.size() > kMaxRegionsShown) text += fmt::format(", {} more", info.regions.size() - kMaxRegionsShown);
+  if (info.regions.size() > kMaxRegionsShown) text += formatted(", {} more", info.regions.size() - kMaxRegionsShown);
   return text;
 }
 
 std::string defect_text(const NamedDefect& defect, DefectKind kind) {
-  std::string text = fmt::format("    {:<22} {:>9}", defect.name, defect.count);
+  std::string text = formatted("    {:<22} {:>9}", defect.name, defect.count);
   if (defect.count == 0 || defect.examples.empty()) return text + "\n";
   const bool is_pair = kind == DefectKind::kNonmanifoldEdges;
   text += "   e.g.";
   for (std::size_t i = 0; i < defect.examples.size(); i += is_pair ? 2 : 1) {
-    text += fmt::format(" {}", defect.examples[i]);
-    if (is_pair && i + 1 < defect.examples.size()) text += fmt::format("-{}", defect.examples[i + 1]);
+    text += formatted(" {}", defect.examples[i]);
+    if (is_pair && i + 1 < defect.examples.size()) text += formatted("-{}", defect.examples[i + 1]);
   }
   return text + "\n";
 }
@@ -100,10 +99,10 @@ MeshInfo inspect(const io::MeshFile& file, const std::filesystem::path& path) {
   TetSoup turned = file.data.soup;
   const Normalised changes = normalise(turned);
   if (changes.flipped > 0) {
-    info.source.notes.push_back(fmt::format("tets of negative volume: {}; cutting turns them", changes.flipped));
+    info.source.notes.push_back(formatted("tets of negative volume: {}; cutting turns them", changes.flipped));
   }
   if (changes.dropped > 0) {
-    info.source.notes.push_back(fmt::format("exact duplicates of tets: {}; cutting drops them", changes.dropped));
+    info.source.notes.push_back(formatted("exact duplicates of tets: {}; cutting drops them", changes.dropped));
   }
   return info;
 }
@@ -133,30 +132,30 @@ std::string to_json(const MeshCheck& check) {
 
 std::string to_text(const MeshInfo& info) {
   const io::MeshSource& source = info.source;
-  std::string text = fmt::format("{}: {}\n", source.file, source.format);
-  text += fmt::format("  vertices    {}{}\n", source.vertices, source.ten_node ? " (mid-edge nodes included)" : "");
-  text += fmt::format("  tets        {}{}\n", source.tets, source.ten_node ? " of ten nodes" : "");
-  text += fmt::format("  components  {}\n", info.defects.components);
-  text += fmt::format("  regions     {}\n", region_text(info));
-  text += fmt::format("  bounds      ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", info.low.x(),
-                      info.low.y(), info.low.z(), info.high.x(), info.high.y(), info.high.z());
-  text += fmt::format("  volume      {:.9g}\n", info.volume);
+  std::string text = formatted("{}: {}\n", source.file, source.format);
+  text += formatted("  vertices    {}{}\n", source.vertices, source.ten_node ? " (mid-edge nodes included)" : "");
+  text += formatted("  tets        {}{}\n", source.tets, source.ten_node ? " of ten nodes" : "");
+  text += formatted("  components  {}\n", info.defects.components);
+  text += formatted("  regions     {}\n", region_text(info));
+  text += formatted("  bounds      ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", info.low.x(), info.low.y(),
+                    info.low.z(), info.high.x(), info.high.y(), info.high.z());
+  text += formatted("  volume      {:.9g}\n", info.volume);
   text += info.defects.none() ? "  defects     none\n" : "  defects\n";
   if (!info.defects.none()) {
     const auto list = list_defects(info.defects);
     for (std::size_t i = 0; i < list.size(); ++i) text += defect_text(list[i], static_cast<DefectKind>(i));
   }
-  for (const std::string& note : source.notes) text += fmt::format("  note        {}\n", note);
+  for (const std::string& note : source.notes) text += formatted("  note        {}\n", note);
   return text;
 }
 
 std::string to_text(const MeshCheck& check) {
   const QualityStats& q = check.quality;
   std::string text = to_text(check.info);
-  text += fmt::format("  L/r         min {:.4g}, mean {:.4g}, p99 {:.4g}, max {:.4g}; {:.3g} % over 200{}\n", q.lr_min,
-                      q.lr_mean, q.lr_p99, q.lr_max, q.lr_over_200_pct,
-                      q.flat_tets > 0 ? fmt::format("; {} flat", q.flat_tets) : std::string());
-  text += fmt::format("  dihedral    {:.4g} to {:.4g} degrees\n", q.dihedral_min_deg, q.dihedral_max_deg);
+  text += formatted("  L/r         min {:.4g}, mean {:.4g}, p99 {:.4g}, max {:.4g}; {:.3g} % over 200{}\n", q.lr_min,
+                    q.lr_mean, q.lr_p99, q.lr_max, q.lr_over_200_pct,
+                    q.flat_tets > 0 ? formatted("; {} flat", q.flat_tets) : std::string());
+  text += formatted("  dihedral    {:.4g} to {:.4g} degrees\n", q.dihedral_min_deg, q.dihedral_max_deg);
   return text + (check.ok ? "  valid\n" : "  INVALID\n");
 }
 

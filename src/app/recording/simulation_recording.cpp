@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t kSimulationVersion = 1;
 constexpr std::size_t kMaxItems = 1'000'000;  // hooks and tools of one frame
 constexpr std::array<const char*, 2> kReachNames = {"ball", "surface"};
-constexpr std::array<const char*, 6> kCallNames = {"settle", "frame", "undo", "redo", "suture", "unpick"};
+constexpr std::array<const char*, 6> kSimulationCallNames = {"settle", "frame", "undo", "redo", "suture", "unpick"};
 
 // ---- writing ----
 
@@ -63,9 +63,9 @@ void add_input(const FrameInput& input, Json& root) {
 
 // ---- reading ----
 
-class HeaderReader : public LineReader {
+class SimulationHeaderReader : public LineReader {
  public:
-  explicit HeaderReader(std::string_view file_name) : LineReader(file_name), file_name_(file_name) {}
+  explicit SimulationHeaderReader(std::string_view file_name) : LineReader(file_name), file_name_(file_name) {}
 
   Result<SimulationHeader> run(const JsonValue& root, const std::filesystem::path& folder) {
     const std::string path = "the header";
@@ -90,12 +90,12 @@ class HeaderReader : public LineReader {
   std::string_view file_name_;
 };
 
-class CallReader : public LineReader {
+class SimulationCallReader : public LineReader {
  public:
   using LineReader::LineReader;
 
   bool run(const JsonValue& root, SimulationCall& call) {
-    return read_call_kind(root, kPath, kCallNames, call.kind) && read_arguments(root, call) &&
+    return read_call_kind(root, kPath, kSimulationCallNames, call.kind) && read_arguments(root, call) &&
            read_error(root, call.error) &&
            (root.find("hash") == nullptr || read_hash(root, kPath, call.hash.emplace()));
   }
@@ -240,7 +240,7 @@ class CallReader : public LineReader {
 }  // namespace
 
 const char* name_of(SimulationCallKind kind) {
-  return kCallNames[static_cast<std::size_t>(kind)];
+  return kSimulationCallNames[static_cast<std::size_t>(kind)];
 }
 
 std::string to_line(const SimulationHeader& header) {
@@ -272,7 +272,7 @@ Result<SimulationHeader> SimulationCodec::parse_header(std::string_view text, st
                                                        const std::filesystem::path& folder) {
   const Result<JsonValue> root = parse_json(text, file_name, kLineLimits);
   if (!root.ok()) return root.error();
-  return HeaderReader(file_name).run(*root, folder);
+  return SimulationHeaderReader(file_name).run(*root, folder);
 }
 
 Result<SimulationCall> SimulationCodec::parse_call(std::string_view text, std::string_view file_name,
@@ -281,7 +281,7 @@ Result<SimulationCall> SimulationCodec::parse_call(std::string_view text, std::s
   if (!root.ok()) return root.error();
   SimulationCall call;
   call.line = line;
-  CallReader reader(file_name);
+  SimulationCallReader reader(file_name);
   if (!reader.run(*root, call)) return reader.error();
   return call;
 }

@@ -36,7 +36,7 @@ class BladeReader {
 };
 
 /// "stroke 2 (cut)".
-std::string name_of(const std::vector<BladeStroke>& blade, std::size_t index) {
+std::string stroke_name(const std::vector<BladeStroke>& blade, std::size_t index) {
   const std::string& name = blade[index].stroke.name;
   return "stroke " + std::to_string(index) + (name.empty() ? "" : " (" + name + ")");
 }
@@ -51,7 +51,7 @@ Result<std::vector<Stroke>> without_stops(Result<std::vector<BladeStroke>> blade
   for (std::size_t i = 0; i < blade->size(); ++i) {
     if (stops((*blade)[i])) {
       return Error{ErrorCode::kBadFile,
-                   std::string(file_name) + ": " + name_of(*blade, i) +
+                   std::string(file_name) + ": " + stroke_name(*blade, i) +
                        " has stop_at, which is not known here; incise cut --blade, scenes and batches stop at regions",
                    {i}};
     }
@@ -92,11 +92,11 @@ Result<std::vector<Stroke>> held_strokes(const std::vector<BladeStroke>& blade, 
     for (const std::string& name : blade[i].stop_names) {
       const Result<std::vector<std::int32_t>> found = find_regions(name, names);
       if (!found.ok())
-        return Error{ErrorCode::kBadFile, name_of(blade, i) + ": stop_at: " + found.error().message, {i}};
+        return Error{ErrorCode::kBadFile, stroke_name(blade, i) + ": stop_at: " + found.error().message, {i}};
       regions.insert(regions.end(), found->begin(), found->end());
     }
     Result<Stroke> held = hold_outside(mesh, blade[i].stroke, regions);
-    if (!held.ok()) return Error{ErrorCode::kBadFile, name_of(blade, i) + ": " + held.error().message, {i}};
+    if (!held.ok()) return Error{ErrorCode::kBadFile, stroke_name(blade, i) + ": " + held.error().message, {i}};
     strokes.back() = std::move(held).value();
   }
   return strokes;

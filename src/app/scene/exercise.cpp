@@ -14,7 +14,7 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-constexpr double kTail = 0.5;  // s, that a demonstration goes on after its last stroke
+constexpr double kDemonstrationTail = 0.5;  // s, that a demonstration goes on after its last stroke
 
 /// Frames until a time, no more than a scene may have.
 std::uint64_t frames_until(double seconds, double frame_seconds) {
@@ -43,7 +43,7 @@ Scene with_ideal(const Scene& scene) {
   Scene shown = scene;
   if (!scene.exercise || scene.exercise->ideal.empty()) return shown;
   shown.strokes = scene.exercise->ideal;
-  const double end = shown.strokes.back().stroke.times.back() + kTail;
+  const double end = shown.strokes.back().stroke.times.back() + kDemonstrationTail;
   const std::uint64_t frames = frames_until(end, scene.options.frame_seconds) + 1;
   shown.frames = std::max(shown.frames, std::min(frames, kMaxSceneFrames));
   return shown;

@@ -16,7 +16,7 @@ namespace app {
 namespace {
 
 constexpr double kNearTolerances = 3;  // how many tolerances of the line from it a cut is an attempt at it
-constexpr double kSteepest = 80;       // degrees, of what is counted as below the line
+constexpr double kSteepestWall = 80;   // degrees, of what is counted as below the line
 constexpr double kPiecesPerBin = 2;    // so that no part of the line is stepped over
 
 /// The boundary of a mesh as a soup, in the rest shape.
@@ -57,7 +57,7 @@ TargetLine::TargetLine(const Exercise& exercise, const TetMesh& mesh)
   for (std::size_t i = 1; i < points_.size(); ++i) {
     arcs_.push_back(arcs_.back() + (points_[i] - points_[i - 1]).norm());
   }
-  const double steepest = std::min(exercise.angle + exercise.tolerances.angle, kSteepest);
+  const double steepest = std::min(exercise.angle + exercise.tolerances.angle, kSteepestWall);
   slope_ = std::tan(steepest * std::numbers::pi / 180);
   skin_.resize(kBins);
   find_skin(mesh);

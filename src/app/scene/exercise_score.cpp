@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/scene/exercise_score.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "app/scene/exercise_measure.h"
 #include "app/scene/scene.h"
+#include "app/text/formatted.h"
 
 namespace incise {
 inline namespace v0 {
@@ -68,20 +67,20 @@ class Grader {
   void judge_line() {
     const double allowed = exercise_.tolerances.line;
     const double missed = std::max(0.0, score_.missed_length - 2 * allowed) / score_.target_length;
-    take("missed", kMissedPoints * missed, fmt::format("{:.0f} % of the line was not cut", 100 - score_.coverage_pct));
+    take("missed", kMissedPoints * missed, formatted("{:.0f} % of the line was not cut", 100 - score_.coverage_pct));
     take("line", kLinePoints * fault(score_.line_rms, allowed),
-         fmt::format("the cut runs {:.2g} beside the line (RMS); {:.2g} is allowed", score_.line_rms, allowed));
+         formatted("the cut runs {:.2g} beside the line (RMS); {:.2g} is allowed", score_.line_rms, allowed));
     take("overshoot", kOvershootPoints * fault(score_.overshoot, allowed),
-         fmt::format("the cut goes {:.2g} beyond the line's end; {:.2g} is allowed", score_.overshoot, allowed));
+         formatted("the cut goes {:.2g} beyond the line's end; {:.2g} is allowed", score_.overshoot, allowed));
   }
 
   void judge_depth() {
     const double allowed = exercise_.tolerances.depth;
     const double off = std::isfinite(score_.depth_error_mean) ? score_.depth_error_mean : 0;
     take("depth", kDepthPoints * fault(off, allowed),
-         fmt::format("the depth is off by {:.2g} on average; {:.2g} is allowed", off, allowed));
+         formatted("the depth is off by {:.2g} on average; {:.2g} is allowed", off, allowed));
     take("too_deep", kTooDeepPoints * fault(score_.too_deep, allowed),
-         fmt::format("the cut goes {:.2g} too deep; {:.2g} is allowed", score_.too_deep, allowed));
+         formatted("the cut goes {:.2g} too deep; {:.2g} is allowed", score_.too_deep, allowed));
     take("through", score_.is_through ? kThroughPoints : 0,
          "the blade went through, and out again or into another wall");
   }
@@ -90,28 +89,28 @@ class Grader {
     if (!std::isfinite(score_.angle_error_mean)) return;
     const double allowed = exercise_.tolerances.angle;
     take("angle", kAnglePoints * fault(score_.angle_error_mean, allowed),
-         fmt::format("the edge is off by {:.0f} degrees on average; {:.0f} are allowed", score_.angle_error_mean,
-                     allowed));
+         formatted("the edge is off by {:.0f} degrees on average; {:.0f} are allowed", score_.angle_error_mean,
+                   allowed));
   }
 
   void judge_elsewhere() {
     const double length = std::max(0.0, score_.away_length - exercise_.tolerances.line) / score_.target_length;
     take("elsewhere", kAwayPoints * std::min(1.0, 2 * length),
-         fmt::format("the skin was cut elsewhere, {:.2g} long", score_.away_length));
+         formatted("the skin was cut elsewhere, {:.2g} long", score_.away_length));
     const double area = score_.away_area / (score_.target_length * exercise_.depth);
     take("elsewhere_area", kAwayAreaPoints * fault(area, kAwayArea),
-         fmt::format("an area of {:.2g} was cut away from the line", score_.away_area));
+         formatted("an area of {:.2g} was cut away from the line", score_.away_area));
   }
 
   void judge_hand() {
     const std::uint32_t excess = score_.strokes > exercise_.strokes ? score_.strokes - exercise_.strokes : 0;
     take("strokes", std::min(kStrokePoints * excess, kMostStrokePoints),
-         fmt::format("{} strokes were made; allowed: {}", score_.strokes, exercise_.strokes));
+         formatted("{} strokes were made; allowed: {}", score_.strokes, exercise_.strokes));
     if (!(exercise_.max_force > 0)) return;
     const double above = score_.peak_force - exercise_.tolerances.force;
     take("force", kForcePoints * std::clamp(above / exercise_.max_force - 1, 0.0, 1.0),
-         fmt::format("the edge was pressed with {:.2g} N, in {} frames above {:.2g} N", score_.peak_force,
-                     score_.force_frames, exercise_.max_force));
+         formatted("the edge was pressed with {:.2g} N, in {} frames above {:.2g} N", score_.peak_force,
+                   score_.force_frames, exercise_.max_force));
   }
 
   static constexpr double kAwayArea = 0.1;  // of the area asked for, that may lie elsewhere: crumbs and bent walls

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
 
 #include <cmath>
 
 #include "app/scene/exercise_score_tree.h"
+#include "app/text/formatted.h"
 
 namespace incise {
 inline namespace v0 {
@@ -46,37 +46,36 @@ namespace {
 
 /// Figures that were measured, or nothing.
 std::string line_text(const ExerciseScore& s) {
-  std::string text = fmt::format("  line: {:.0f} % cut, {:.3g} missed, {:.3g} beyond its ends", s.coverage_pct,
-                                 s.missed_length, s.overshoot);
-  if (std::isfinite(s.line_rms))
-    text += fmt::format("; {:.3g} beside it (RMS), {:.3g} at most", s.line_rms, s.line_max);
+  std::string text = formatted("  line: {:.0f} % cut, {:.3g} missed, {:.3g} beyond its ends", s.coverage_pct,
+                               s.missed_length, s.overshoot);
+  if (std::isfinite(s.line_rms)) text += formatted("; {:.3g} beside it (RMS), {:.3g} at most", s.line_rms, s.line_max);
   return text + "\n";
 }
 
 std::string depth_text(const ExerciseScore& s) {
   if (!std::isfinite(s.depth_mean)) return {};
-  return fmt::format("  depth: {:.3g}, off by {:.3g} on average and {:.3g} at most{}\n", s.depth_mean,
-                     s.depth_error_mean, s.depth_error_max, s.is_through ? "; another wall was wounded" : "");
+  return formatted("  depth: {:.3g}, off by {:.3g} on average and {:.3g} at most{}\n", s.depth_mean, s.depth_error_mean,
+                   s.depth_error_max, s.is_through ? "; another wall was wounded" : "");
 }
 
 std::string angle_text(const ExerciseScore& s) {
   if (!std::isfinite(s.angle_error_mean)) return {};
-  return fmt::format("  angle: off by {:.3g} degrees on average and {:.3g} at most\n", s.angle_error_mean,
-                     s.angle_error_max);
+  return formatted("  angle: off by {:.3g} degrees on average and {:.3g} at most\n", s.angle_error_mean,
+                   s.angle_error_max);
 }
 
 std::string hand_text(const ExerciseScore& s) {
-  std::string text = fmt::format("  {} stroke{} in {:.3g} s, at most {:.3g} N", s.strokes, s.strokes == 1 ? "" : "s",
-                                 s.seconds, s.peak_force);
-  if (s.corrections > 0) text += fmt::format("; {} taken back", s.corrections);
+  std::string text = formatted("  {} stroke{} in {:.3g} s, at most {:.3g} N", s.strokes, s.strokes == 1 ? "" : "s",
+                               s.seconds, s.peak_force);
+  if (s.corrections > 0) text += formatted("; {} taken back", s.corrections);
   return text + "\n";
 }
 
 }  // namespace
 
 std::string to_text(const ExerciseScore& score) {
-  std::string text = fmt::format("exercise: {:.1f} of 100 points\n", score.points);
-  for (const ExerciseDeduction& d : score.deductions) text += fmt::format("  -{:.1f}: {}\n", d.points, d.reason);
+  std::string text = formatted("exercise: {:.1f} of 100 points\n", score.points);
+  for (const ExerciseDeduction& d : score.deductions) text += formatted("  -{:.1f}: {}\n", d.points, d.reason);
   return text + line_text(score) + depth_text(score) + angle_text(score) + hand_text(score);
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/session/probe.h"
 
-#include <fmt/format.h>
-
+#include "app/text/formatted.h"
 #include "incise/geom/quality.h"
 
 namespace incise {
@@ -12,7 +11,7 @@ namespace {
 
 std::string place_of(const ProbeInfo& probe) {
   if (probe.is_inside) return "inside";
-  return probe.stroke > 0 ? fmt::format("wall of stroke {}", probe.stroke) : "skin";
+  return probe.stroke > 0 ? formatted("wall of stroke {}", probe.stroke) : "skin";
 }
 
 }  // namespace
@@ -41,11 +40,11 @@ std::optional<ProbeInfo> probe(const TetMesh& mesh, Side side) {
 std::vector<std::string> to_lines(const ProbeInfo& probe) {
   const TetVertices& v = probe.vertices;
   return {
-      fmt::format("Tet {}, vertices {} {} {} {}", probe.tet.value, v[0].value, v[1].value, v[2].value, v[3].value),
-      fmt::format("Region {}, {}", probe.region, place_of(probe)),
-      fmt::format("L/r {:.4g}, dihedral angles {:.1f} to {:.1f} deg", probe.lr, probe.dihedral_min_deg,
-                  probe.dihedral_max_deg),
-      fmt::format("Volume {:.4g} at rest, now {:.3g} times that", probe.volume, probe.stretch),
+      formatted("Tet {}, vertices {} {} {} {}", probe.tet.value, v[0].value, v[1].value, v[2].value, v[3].value),
+      formatted("Region {}, {}", probe.region, place_of(probe)),
+      formatted("L/r {:.4g}, dihedral angles {:.1f} to {:.1f} deg", probe.lr, probe.dihedral_min_deg,
+                probe.dihedral_max_deg),
+      formatted("Volume {:.4g} at rest, now {:.3g} times that", probe.volume, probe.stretch),
   };
 }
 

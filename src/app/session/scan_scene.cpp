@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/session/scan_scene.h"
 
-#include <fmt/format.h>
-
 #include <system_error>
 #include <utility>
 
 #include "app/session/session.h"
+#include "app/text/formatted.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/bounds.h"
@@ -27,7 +26,7 @@ fs::path file_for(const OrganJob& job, const TetMesh& mesh) {
   std::string stem = fs::path(job.input).filename().string();
   stem = stem.substr(0, stem.find('.'));
   std::error_code code;
-  return fs::temp_directory_path(code) / fmt::format("incise-{}-{:016x}.msh", stem, mesh.hash());
+  return fs::temp_directory_path(code) / formatted("incise-{}-{:016x}.msh", stem, mesh.hash());
 }
 
 void note_materials(const OrganJob& job, const Organ& organ, std::vector<std::string>& notes) {
@@ -35,9 +34,8 @@ void note_materials(const OrganJob& job, const Organ& organ, std::vector<std::st
     const auto name = organ.names.find(label.label);
     const Tissue* tissue = name == organ.names.end() ? nullptr : tissue_of_region_name(name->second);
     const std::string called = name == organ.names.end() ? "" : " (" + name->second + ")";
-    notes.push_back(
-        fmt::format("{}: region {}{} is made of {}", job.input, label.label, called,
-                    tissue == nullptr ? "soft tissue, since no name says more" : std::string(tissue->name)));
+    notes.push_back(formatted("{}: region {}{} is made of {}", job.input, label.label, called,
+                              tissue == nullptr ? "soft tissue, since no name says more" : std::string(tissue->name)));
   }
 }
 

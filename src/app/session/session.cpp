@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/session/session.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "app/hands/grip.h"
 #include "app/session/session_state.h"
+#include "app/text/formatted.h"
 #include "app/text/json_write.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
@@ -219,8 +218,8 @@ void Session::State::count() {
 void Session::State::follow_stroke(const FrameReport& report) {
   stroke_cut += report.cut;
   if (report.stroke == 0 && stroke_under_way > 0) {
-    std::string text = fmt::format("Stroke {}: {} tets cut", stroke_under_way, stroke_cut.cut_tets);
-    if (stroke_peak > 0) text += fmt::format(", at most {:.2g} N", stroke_peak);
+    std::string text = formatted("Stroke {}: {} tets cut", stroke_under_way, stroke_cut.cut_tets);
+    if (stroke_peak > 0) text += formatted(", at most {:.2g} N", stroke_peak);
     note(Operation::Kind::kStroke, std::move(text));
   }
   if (report.stroke > 0 && report.stroke != stroke_under_way) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a session begins.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -12,6 +11,7 @@
 #include "app/recording/recorded_mesh.h"
 #include "app/scene/scene_simulation.h"
 #include "app/session/session_state.h"
+#include "app/text/formatted.h"
 #include "app/text/text_file.h"
 #include "incise/mesh/bounds.h"
 
@@ -204,7 +204,7 @@ fs::path Session::State::next_recording_name() const {
   fs::path name = first_recording;
   std::error_code code;
   for (unsigned i = 2; i == 2 || name == recording || fs::exists(name, code); ++i) {
-    name.replace_filename(fmt::format("{}-{}{}", stem, i, extension));
+    name.replace_filename(formatted("{}-{}{}", stem, i, extension));
   }
   return name;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/session/starting_body.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "app/session/session.h"
+#include "app/text/formatted.h"
 #include "incise/image/mesh_labels.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
@@ -23,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMillimetre = 1e-3;
+constexpr double kOrganUnit = 1e-3;  // m, of the bodies made here
 constexpr std::int32_t kMuscle = 1, kFat = 2, kSkin = 3;
 
 // --- the patch
@@ -133,7 +132,7 @@ Scene organ_scene(StartingBody organ, const fs::path& mesh, const Box& body) {
   Scene scene = scene_of_mesh(mesh, body, Vec3::UnitZ());
   scene.name = kStartingBodies[static_cast<std::size_t>(organ)].text;
   scene.has_materials_by_name = false;
-  scene.options.body.length_unit = kMillimetre;
+  scene.options.body.length_unit = kOrganUnit;
   scene.options.engine.maintain.work_units = 20'000;
   SceneView& view = scene.view.emplace();
   Material& material = scene.options.materials.fallback;
@@ -169,7 +168,7 @@ Scene skin_patch() {
   scene.model.regions = {{kMuscle, "muscle", {Vec3::UnitZ(), 12}},
                          {kFat, "fat", {-Vec3::UnitZ(), -12}},
                          {kSkin, "skin", {-Vec3::UnitZ(), -21}}};
-  scene.options.body.length_unit = kMillimetre;
+  scene.options.body.length_unit = kOrganUnit;
   scene.options.body.gravity = {0, 0, -9.81};
   scene.options.body.damping = 2;
   scene.options.body.self.on = true;
@@ -226,7 +225,7 @@ Result<Scene> scene_of(StartingBody body, const fs::path& folder) {
   const char* name = kStartingBodies[static_cast<std::size_t>(body)].name;
   std::error_code code;
   const fs::path file = (folder.empty() ? fs::temp_directory_path(code) : folder) /
-                        fmt::format("incise-{}-{:016x}.msh", name, made->mesh.hash());
+                        formatted("incise-{}-{:016x}.msh", name, made->mesh.hash());
   io::MeshData data = io::to_mesh_data(made->mesh, find_components(made->mesh));
   data.region_names = {{1, name}};
   io::WriteOptions written;

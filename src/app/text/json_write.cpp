@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/text/json_write.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include "app/text/formatted.h"
 
 namespace incise {
 inline namespace v0 {
@@ -53,7 +53,7 @@ Json encode(const ValidityReport& report) {
 }
 
 std::string hash_text(std::uint64_t hash) {
-  return fmt::format("{:016x}", hash);
+  return formatted("{:016x}", hash);
 }
 
 }  // namespace app

@@ -12,8 +12,8 @@ namespace app {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSteepest = 0.5 * kPi - 1e-3;  // of `elevation`: straight down has no right and left
-constexpr double kMargin = 1.08;                // of pictures around what they show
+constexpr double kSteepestView = 0.5 * kPi - 1e-3;  // of `elevation`: straight down has no right and left
+constexpr double kPictureMargin = 1.08;             // of pictures around what they show
 constexpr double kNearest = 1e-3, kFurthest = 1e3;
 
 /// Two unit vectors across `up`, where azimuth 0 and a quarter turn are.
@@ -55,7 +55,7 @@ void frame(Camera& camera, const Viewport& viewport, const Point* points, std::s
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 to = points[i].template cast<double>() - camera.target;
     const double reach = std::max(std::abs(to.dot(upward)), std::abs(to.dot(right)) / viewport.aspect()) / vertical;
-    distance = std::max(distance, kMargin * reach + to.dot(backward));
+    distance = std::max(distance, kPictureMargin * reach + to.dot(backward));
   }
   camera.distance = distance;
 }
@@ -125,7 +125,7 @@ std::optional<Vec2> to_pixel(const Camera& camera, const Viewport& viewport, con
 void orbit(Camera& camera, const Viewport& viewport, const Vec2& pixels) {
   const double turn = kPi / std::max(viewport.height, 1);
   camera.azimuth = std::remainder(camera.azimuth - turn * pixels.x(), 2 * kPi);
-  camera.elevation = std::clamp(camera.elevation + turn * pixels.y(), -kSteepest, kSteepest);
+  camera.elevation = std::clamp(camera.elevation + turn * pixels.y(), -kSteepestView, kSteepestView);
 }
 
 void pan(Camera& camera, const Viewport& viewport, const Vec2& pixels) {
@@ -155,7 +155,7 @@ void frame_points(Camera& camera, const Viewport& viewport, std::span<const Eige
 void look_along(Camera& camera, const Vec3& direction) {
   const Vec3 back = -direction.normalized();
   const auto [ahead, side] = ground_of(camera.up);
-  camera.elevation = std::clamp(std::asin(std::clamp(back.dot(camera.up), -1.0, 1.0)), -kSteepest, kSteepest);
+  camera.elevation = std::clamp(std::asin(std::clamp(back.dot(camera.up), -1.0, 1.0)), -kSteepestView, kSteepestView);
   const double x = back.dot(ahead), y = back.dot(side);
   if (std::abs(x) > 1e-9 || std::abs(y) > 1e-9) camera.azimuth = std::atan2(y, x);
 }

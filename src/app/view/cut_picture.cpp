@@ -10,7 +10,7 @@ namespace app {
 namespace {
 
 constexpr double kSpread = 0.25;
-constexpr double kSeeThrough = 0.4;
+constexpr double kPictureSeeThrough = 0.4;
 constexpr double kLeastGrowth = 1.02;
 constexpr double kAcross = 0.8, kAlong = 0.45, kAbove = 0.5;  // where the eye is, against the walls
 
@@ -64,7 +64,7 @@ Result<Picture> picture_of_cut(const TetMesh& mesh, const Journal& journal, cons
   const bool has_spread = spread(mesh, picture.surface);
   picture.options.theme = Theme::kLight;
   picture.options.shows_newest = false;
-  if (!has_spread && across.norm() > 0) picture.options.skin_opacity = kSeeThrough;
+  if (!has_spread && across.norm() > 0) picture.options.skin_opacity = kPictureSeeThrough;
   picture.camera = aim(across, picture.surface, viewport);
   return picture;
 }

@@ -23,9 +23,9 @@ constexpr double kIdealRatio = 4.898979485566356;  // 2√6, of a regular tet
 constexpr double kMostBytes = 255;
 
 /// Points of different kinds are never shared.
-enum Kind : std::size_t { kSkinPoint, kWallPoint, kInsidePoint, kKinds };
+enum PointKind : std::size_t { kSkinPoint, kWallPoint, kInsidePoint, kKinds };
 
-Kind kind_of(const TriangleLook& look) {
+PointKind kind_of(const TriangleLook& look) {
   if ((look.flags & TriangleLook::kInside) != 0) return kInsidePoint;
   return (look.flags & TriangleLook::kWall) != 0 ? kWallPoint : kSkinPoint;
 }
@@ -120,8 +120,8 @@ struct SurfaceView::State {
     return mesh.rest_volume(tet) < small_volume ? TriangleLook::kSmall : std::uint8_t{0};
   }
   std::uint32_t take_slot();
-  std::uint32_t take_point(VertexId vertex, Kind kind);
-  void drop_point(std::uint32_t point, Kind kind);
+  std::uint32_t take_point(VertexId vertex, PointKind kind);
+  void drop_point(std::uint32_t point, PointKind kind);
   void mark_newest(const TetMesh& mesh);
   void find_front(const TetMesh& mesh);
   void find_contour();
@@ -252,7 +252,7 @@ std::uint32_t SurfaceView::State::take_slot() {
   return static_cast<std::uint32_t>(work.triangles.size() - 1);
 }
 
-std::uint32_t SurfaceView::State::take_point(VertexId vertex, Kind kind) {
+std::uint32_t SurfaceView::State::take_point(VertexId vertex, PointKind kind) {
   std::uint32_t& point = point_of[kind][vertex.value];
   if (point == kNone && !free_points.empty()) {
     point = free_points.back();
@@ -267,7 +267,7 @@ std::uint32_t SurfaceView::State::take_point(VertexId vertex, Kind kind) {
   return point;
 }
 
-void SurfaceView::State::drop_point(std::uint32_t point, Kind kind) {
+void SurfaceView::State::drop_point(std::uint32_t point, PointKind kind) {
   if (--uses[point] > 0) return;
   point_of[kind][work.vertices[point].value] = kNone;
   work.vertices[point] = {};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/viewer/hud.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include "app/text/formatted.h"
 
 namespace incise {
 inline namespace v0 {
@@ -18,7 +18,7 @@ double per(double sum, std::uint64_t count) {
 }
 
 std::string ratio_text(double ratio) {
-  return ratio < 1000 ? fmt::format("{:.2f}", ratio) : fmt::format("{:.3g}", ratio);
+  return ratio < 1000 ? formatted("{:.2f}", ratio) : formatted("{:.3g}", ratio);
 }
 
 }  // namespace
@@ -65,14 +65,14 @@ std::array<StageRow, 4> Hud::stages() const {
 
 std::vector<HudRow> rate_rows(const Hud& hud, const SessionView& view) {
   std::vector<HudRow> rows;
-  rows.push_back({"Pictures", fmt::format("{:.0f} /s", hud.pictures_per_second()), ""});
+  rows.push_back({"Pictures", formatted("{:.0f} /s", hud.pictures_per_second()), ""});
   if (view.is_paused) {
     rows.push_back({"Simulation", "paused", "Space goes on"});
     return rows;
   }
-  rows.push_back({"Simulation", fmt::format("{:.0f} steps/s", view.steps_per_second), ""});
+  rows.push_back({"Simulation", formatted("{:.0f} steps/s", view.steps_per_second), ""});
   if (view.real_time > 0 && view.real_time < kKeepsUp) {
-    rows.back().remark = fmt::format("slow: {:.2f} of real time", view.real_time);
+    rows.back().remark = formatted("slow: {:.2f} of real time", view.real_time);
   }
   return rows;
 }
@@ -81,9 +81,9 @@ std::vector<HudRow> mesh_rows(const SessionView& view) {
   const SessionFigures& f = view.figures;
   const auto start = static_cast<double>(std::max<std::uint64_t>(f.tets_at_start, 1));
   std::vector<HudRow> rows;
-  rows.push_back({"Tets", with_commas(f.tets), fmt::format("{:.2f} x the start", static_cast<double>(f.tets) / start)});
+  rows.push_back({"Tets", with_commas(f.tets), formatted("{:.2f} x the start", static_cast<double>(f.tets) / start)});
   rows.push_back({"Vertices", with_commas(f.vertices), ""});
-  rows.push_back({"Strokes", with_commas(f.strokes), fmt::format("{} tets cut", with_commas(f.cut.cut_tets))});
+  rows.push_back({"Strokes", with_commas(f.strokes), formatted("{} tets cut", with_commas(f.cut.cut_tets))});
   return rows;
 }
 
@@ -92,15 +92,15 @@ std::vector<QualityRow> quality_rows(const SessionView& view) {
   return {{"min", ratio_text(a.lr_min), ratio_text(b.lr_min)},
           {"mean", ratio_text(a.lr_mean), ratio_text(b.lr_mean)},
           {"max", ratio_text(a.lr_max), ratio_text(b.lr_max)},
-          {"over 200", fmt::format("{:.2f} %", a.lr_over_200_pct), fmt::format("{:.2f} %", b.lr_over_200_pct)}};
+          {"over 200", formatted("{:.2f} %", a.lr_over_200_pct), formatted("{:.2f} %", b.lr_over_200_pct)}};
 }
 
 std::vector<HudRow> force_rows(const SessionView& view) {
   const SessionFigures& f = view.figures;
   std::vector<HudRow> rows;
-  rows.push_back({"Now", fmt::format("{:.2f} N", f.blade.force.norm()), f.blade.touches ? "touches" : ""});
-  rows.push_back({"At most", fmt::format("{:.2f} N", f.peak_force), ""});
-  rows.push_back({"Edge in tissue", fmt::format("{:.1f} mm", 1e3 * f.blade.engaged_length), ""});
+  rows.push_back({"Now", formatted("{:.2f} N", f.blade.force.norm()), f.blade.touches ? "touches" : ""});
+  rows.push_back({"At most", formatted("{:.2f} N", f.peak_force), ""});
+  rows.push_back({"Edge in tissue", formatted("{:.1f} mm", 1e3 * f.blade.engaged_length), ""});
   return rows;
 }
 

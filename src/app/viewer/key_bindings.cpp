@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/viewer/key_bindings.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <iterator>
+
+#include "app/text/formatted.h"
 
 namespace incise {
 inline namespace v0 {
@@ -87,7 +87,7 @@ std::optional<Action> action_of(const KeyPress& press) {
 }
 
 std::string to_text(const KeyPress& press) {
-  return fmt::format("{}{}{}", press.control ? "Ctrl+" : "", press.shift ? "Shift+" : "", press.key);
+  return formatted("{}{}{}", press.control ? "Ctrl+" : "", press.shift ? "Shift+" : "", press.key);
 }
 
 std::string key_of(Action action) {
@@ -115,9 +115,9 @@ std::string list_of_keys() {
   std::string list;
   std::string_view group;
   for (const KeyRow& row : key_rows()) {
-    if (row.group != group) list += fmt::format("{}:\n", row.group);
+    if (row.group != group) list += formatted("{}:\n", row.group);
     group = row.group;
-    list += fmt::format("  {:<20} {}\n", row.keys, row.text);
+    list += formatted("  {:<20} {}\n", row.keys, row.text);
   }
   return list;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/viewer/viewer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "app/scene/view_names.h"
+#include "app/text/formatted.h"
 #include "app/view/drapes.h"
 #include "app/view/scene_camera.h"
 #include "app/viewer/first_steps.h"
@@ -36,7 +35,7 @@ constexpr std::uint64_t kMostFiles = 1'000'000;
 fs::path free_name(const fs::path& folder, const std::string& stem, const std::string& extension) {
   std::error_code code;
   for (std::uint64_t i = 1; i < kMostFiles; ++i) {
-    fs::path path = folder / fmt::format("{}-{:04}{}", stem, i, extension);
+    fs::path path = folder / formatted("{}-{:04}{}", stem, i, extension);
     if (!fs::exists(path, code)) return path;
   }
   return folder / (stem + extension);
@@ -556,7 +555,7 @@ std::optional<fs::path> Viewer::take_screenshot() {
   const std::array<std::uint64_t, 3> frame = {view.session, view.figures.frames, view.place.call};
   if (!s.shown.saves_sequence || s.sequence_frame == frame) return std::nullopt;
   s.sequence_frame = frame;
-  return s.sequence_folder / fmt::format("{:06}.png", ++s.sequence_number);
+  return s.sequence_folder / formatted("{:06}.png", ++s.sequence_number);
 }
 
 }  // namespace app

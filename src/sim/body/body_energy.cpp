@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // An implicit step only ever takes energy from a body that is left alone. A descent that was not finished may add some,
 // and light vertices may carry it on until all flies apart: so what a step has added is taken from the motion.
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "sim/body/body_state.h"
+#include "sim/body/turning.h"
 
 namespace incise {
 inline namespace v0 {
@@ -15,14 +15,6 @@ namespace {
 
 /// Of the sum of single-precision energies, which do not start at 0: changes below are rounding.
 constexpr double kNoise = 2e-7;
-
-/// The turning by a small ω dt, by Cayley's formula: as good as exact, without sines.
-Mat3 turning_by(const Vec3& angle) {
-  Mat3 half;
-  const Vec3 a = 0.5 * angle;
-  half << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return (Mat3::Identity() - half).inverse() * (Mat3::Identity() + half);
-}
 
 }  // namespace
 
@@ -173,7 +165,7 @@ void DeformableBody::State::step_back(double most, double dt) {
   const std::vector<detail::Drift> moved = drifts;
   std::vector<Mat3> turns(moved.size(), Mat3::Identity());
   std::vector<Vec3> centres(moved.size(), Vec3::Zero());  // before
-  for (std::size_t i = 0; i < moved.size(); ++i) turns[i] = turning_by(dt * moved[i].turn);
+  for (std::size_t i = 0; i < moved.size(); ++i) turns[i] = detail::turning_by(dt * moved[i].turn);
   for_each_awake([&](std::uint32_t slot) {
     const std::uint32_t group = group_at(VertexId(slot));
     if (groups[group].is_free)

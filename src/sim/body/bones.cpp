@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "sim/body/body_state.h"
+#include "sim/body/turning.h"
 
 namespace incise {
 inline namespace v0 {
@@ -32,14 +33,6 @@ Mat3 turning_of(const Mat3& products) {
     turn = (0.5 * (scale * turn + other / scale)).eval();
   }
   return turn;
-}
-
-/// A turning by a small angle, by Cayley's formula.
-Mat3 turning_by(const Vec3& angle) {
-  Mat3 half;
-  const Vec3 a = 0.5 * angle;
-  half << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return (Mat3::Identity() - half).inverse() * (Mat3::Identity() + half);
 }
 
 Vec3 place_of(const DeformableBody::State& s, std::uint32_t slot) {

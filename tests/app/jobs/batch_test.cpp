@@ -328,6 +328,20 @@ TEST_F(Batch, a_merge_takes_an_item_that_was_computed_twice_once) {
   EXPECT_EQ(read(report->file), whole);
 }
 
+TEST(BatchShard, is_known_by_its_name_alone) {
+  for (const app::Shard shard : {app::Shard{0, 1}, app::Shard{7, 12}, app::Shard{99'998, 99'999}}) {
+    const auto named = app::shard_named(app::name_of(shard));
+    ASSERT_TRUE(named.has_value());
+    EXPECT_EQ(named->index, shard.index);
+    EXPECT_EQ(named->count, shard.count);
+  }
+  for (const char* name :
+       {"", "shard-", "shard-00001-of-0000x", "shard-1-of-2", "shard-+0001-of-00002", "shard-00001-of-00002x",
+        "Shard-00001-of-00002", "shard-00001-to-00002", "shard- 0001-of-00002"}) {
+    EXPECT_FALSE(app::shard_named(name).has_value()) << name;
+  }
+}
+
 TEST_F(Batch, a_merge_takes_away_what_killed_workers_left_half_written) {
   run("out", {0, 3});
   run("out", {1, 3});
@@ -336,6 +350,8 @@ TEST_F(Batch, a_merge_takes_away_what_killed_workers_left_half_written) {
   const std::string of_gone = folder_.write("out/before/0.vtu.shard-00007-of-00009", "<VTK");
   const std::string of_live = folder_.write("out/strokes/half.json.shard-00002-of-00003.incise-part", "{");
   const std::string of_other = folder_.write("out/after/notes.txt", "mine");
+  const std::string of_nobody = folder_.write("out/after/.shard-00001-of-00003", "mine");
+  const std::string longer = folder_.write("out/after/half.vtu.shard-000010-of-00003.incise-part", "mine");
   const auto live = app::ShardFile::open(folder_ / "out", {2, 3});
   ASSERT_TRUE(live.ok());
   EXPECT_NE(merged("out"), "");
@@ -343,6 +359,8 @@ TEST_F(Batch, a_merge_takes_away_what_killed_workers_left_half_written) {
   EXPECT_FALSE(fs::exists(of_gone));
   EXPECT_TRUE(fs::exists(of_live));
   EXPECT_TRUE(fs::exists(of_other));
+  EXPECT_TRUE(fs::exists(of_nobody));
+  EXPECT_TRUE(fs::exists(longer));
   EXPECT_TRUE(fs::exists(folder_ / "out/after/half.vtu"));
 }
 
