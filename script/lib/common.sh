@@ -104,13 +104,19 @@ with_progress() {
     {print; fflush()}' >&2
 }
 
-# build_preset PRESET [CMAKE-ARGUMENT...]: configures, and builds the array `targets`, or all where there is none.
+# build_preset PRESET [CMAKE-ARGUMENT...]: configures, and builds the array `targets`, or all where there is none. Two scripts
+# that build one preset at once wait for each other.
 build_preset() {
-  local preset=$1
+  local preset=$1 status=0 turn
   shift
   cd "$root"
+  mkdir -p "build/$preset"
+  exec {turn}<"build/$preset"
+  flock "$turn"
   quietly "configuring the preset $preset" cmake --preset "$preset" "$@"
-  with_progress cmake --build --preset "$preset" -j "$jobs" ${targets:+--target "${targets[@]}"}
+  with_progress cmake --build --preset "$preset" -j "$jobs" ${targets:+--target "${targets[@]}"} || status=$?
+  exec {turn}<&-
+  return "$status"
 }
 
 # branch_point: the commit where this branch left origin/main; the last commit where there is none, or nothing since.
