@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/text/json_tree.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "app/text/formatted.h"
 
 namespace incise {
 inline namespace v0 {
@@ -271,7 +271,7 @@ std::string at(const std::string& path, std::size_t index) {
 
 std::string short_number(double x) {
   constexpr double kSmall = 1e-5, kLarge = 1e15;  // beyond these all digits would say less
-  if (x != 0 && !(std::abs(x) >= kSmall && std::abs(x) < kLarge)) return fmt::format("{:.6g}", x);
+  if (x != 0 && !(std::abs(x) >= kSmall && std::abs(x) < kLarge)) return formatted("{:.6g}", x);
   std::string text = std::to_string(x);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
