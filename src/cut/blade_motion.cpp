@@ -29,8 +29,11 @@ constexpr double kByFront = 0.75;
 constexpr double kGetsOn = 0.7;
 /// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
 constexpr double kFrontShare = 1.5;
-/// A sheet overlaps the one before it, of the same stroke, by so many spacings at least.
-constexpr double kOverlap = 0.3;
+/// A sheet lays so many spacings of the one before it, of the same stroke, once more at least. Where the blade has
+/// turned sharply both legs pass within an element of each other, and the wall ends an element before the turn.
+constexpr double kOverlap = 1.0;
+/// One that starts in the slit reaches through its wall by so many spacings.
+constexpr double kThroughSlit = 0.3;
 /// The end of a blade draws back by less than this share of its last segment.
 constexpr double kMostRetreat = 0.5;
 /// Older walls are looked for along the blade at places so many spacings apart, but at so many at most.
@@ -349,7 +352,7 @@ void BladeMotion::reach_back(SweptSurface& surface, const Surroundings& around) 
   for (std::size_t c = 0; c < back.size(); ++c) back[c] = -ways_[c];
   Surroundings known = around;
   known.reach = [&](const Vec3& place, const Vec3& outwards, const Vec3& normal) {
-    return std::max(starts_at_wall_ ? kOverlap * spacing_ : 0.0, around.reach(place, outwards, normal));
+    return std::max(starts_at_wall_ ? kThroughSlit * spacing_ : 0.0, around.reach(place, outwards, normal));
   };
   reach_from_row(surface, front_, back, known);
 }

@@ -70,6 +70,17 @@ constexpr double kStands = 0.05;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
 
+/// The one of some places that is nearest to all others.
+Vec3 middle_of(std::span<const Vec3> places) {
+  const auto sum_from = [&](const Vec3& place) {
+    double sum = 0;
+    for (const Vec3& other : places) sum += (other - place).norm();
+    return sum;
+  };
+  return *std::min_element(places.begin(), places.end(),
+                           [&](const Vec3& a, const Vec3& b) { return sum_from(a) < sum_from(b); });
+}
+
 }  // namespace
 
 Cutter::Cutter(CutOptions options) : options_(options), stroke_cut_(options) {}
@@ -137,6 +148,7 @@ Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& t
       stroke_.is_last = true;
       if (status && !stroke_.has_ended) status = cut_to(context, stroke_.last_row, stroke_.direction, true);
       stroke_.is_last = false;
+      if (status) status = end_in_point(context);
     } else if (goes_on_shortly(context.mesh, stroke_.last_row)) {
       status = end_shortly(context, stroke_.last_row);
     } else {
@@ -511,6 +523,22 @@ Status Cutter::end_shortly(const CutContext& context, std::span<const Vec3> row)
   stroke_cut_.begin(stroke_.tag, stroke_.spacing);
   stroke_.motion.begin(row, stroke_.spacing);
   return {};
+}
+
+/// A closed edge that ends as a point has cut off what it went round: what tissue that moved, or points that were held,
+/// left of its front is drawn together.
+Status Cutter::end_in_point(const CutContext& context) {
+  const std::vector<Vec3>& row = stroke_.last_row;
+  if (stroke_.motion.is_at_start() || row.size() < 3 || row.front() != row.back()) return {};
+  for (const Vec3& place : row) {
+    if ((place - row.front()).norm() > kStands * stroke_.spacing) return {};
+  }
+  const std::vector<Vec3> front = stroke_.motion.front();
+  BladeMotion::Move move;
+  move.strip = stroke_.motion.accept(stroke_.motion.propose(std::vector<Vec3>(front.size(), middle_of(front))),
+                                     surroundings(context));
+  stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
+  return follow(context, std::move(move));
 }
 
 /// A row that is about an element behind another one, against its way.

@@ -130,6 +130,7 @@ class Cutter {
   double carry(const CutContext& context, std::span<const Vec3> from, std::span<const Vec3> to);
   double carry_along(const CutContext& context, std::span<const Vec3> row);
   Status end_shortly(const CutContext& context, std::span<const Vec3> row);
+  Status end_in_point(const CutContext& context);
   [[nodiscard]] std::vector<Vec3> drawn_back(std::vector<Vec3> row, std::span<const Vec3> to) const;
   void finish_sheet(const CutContext& context);
   Status follow(const CutContext& context, BladeMotion::Move move);

@@ -286,17 +286,17 @@ TEST(BladeMotion, starts_anew_where_it_meets_itself) {
 TEST(BladeMotion, lays_the_last_strips_once_more_in_a_new_sheet) {
   Motion blade(at(0));
   blade.meet_older_cuts([](const Vec3&, const Vec3&) { return 0.0; });
-  for (const double x : {1.0, 1.5, 1.7, 1.9}) blade.advance(at(x));
+  for (const double x : {0.5, 1.0, 1.5, 1.7, 1.9}) blade.advance(at(x));
   blade.advance(at(1.9, 1.1));
   blade.lay_anew();
-  EXPECT_EQ(blade.last().sheet.bounds().lo.x(), 1.5);
+  EXPECT_EQ(blade.last().sheet.bounds().lo.x(), 0.5);
   EXPECT_EQ(blade.last().sheet.bounds().hi.z(), 1.1);
   double area = 0, again = 0;
   for (std::uint32_t t = 0; t < blade.last().sheet.triangle_count(); ++t) {
     (blade.last().sheet.reaches_on(t) ? again : area) += 0.5 * blade.last().sheet.normal(t).norm();
   }
   EXPECT_NEAR(area, 2 * 1.1, 1e-12);
-  EXPECT_NEAR(again, 2 * 0.4, 1e-12);
+  EXPECT_NEAR(again, 2 * 1.4, 1e-12);
 }
 
 /// A blade that turns about its end at the origin.
