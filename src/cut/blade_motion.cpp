@@ -171,6 +171,29 @@ bool BladeMotion::meets(const SweptSurface& surface, const OwnSheet& sheet) cons
   });
 }
 
+/// Whether a point of the blade comes, from elsewhere, to beside where the blade was well before: as at the end of a
+/// full turn. The two ends of the sheet lie beside each other there, and miss each other by what the blade trembled.
+bool BladeMotion::comes_round(const Row& to, const OwnSheet& sheet) const {
+  const double reach = kSlitShare * spacing_;
+  const auto distance = [&](const Vec3& place) {
+    const Vec3 margin = Vec3::Constant(reach);
+    double least = std::numeric_limits<double>::infinity();
+    static_cast<void>(sheet.any_near({place - margin, place + margin}, [&](const Strip& strip) {
+      if (sheet.travel() - strip.travel <= kFrontShare * spacing_) return false;
+      least = std::min(least, std::sqrt(strip.sheet.tree().closest(place, reach).distance2));
+      return false;
+    }));
+    return least;
+  };
+  for (std::size_t c = 0; c < to.size(); ++c) {
+    if (to[c].key == front_[c].key) continue;
+    const double from_old = distance(to[c].position);
+    const bool is_beside = from_old <= reach && from_old > kMeetingShare * spacing_;
+    if (is_beside && distance(front_[c].position) > reach) return true;
+  }
+  return false;
+}
+
 /// The segments of the front that the strip to `to` leaves behind.
 std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row& to) const {
   std::vector<std::array<std::uint64_t, 2>> inner = seam_segments_;
@@ -483,7 +506,7 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnShe
   if (free.empty() || waits(free, row, sheet, flushes)) return {};
   if (!comes_by_front(free, row)) return leave_slit(row, sheet, touches, around);
   const Row to = number(wanted);
-  const bool does_meet = meets(lay(front_, to), sheet);
+  const bool does_meet = meets(lay(front_, to), sheet) || comes_round(to, sheet);
   Move move = move_to(to, around);
   move.starts_anew = does_meet;
   return move;

@@ -68,6 +68,7 @@ class BladeMotion {
 
   [[nodiscard]] Row number(std::span<const Vec3> row);
   [[nodiscard]] bool goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const;
+  [[nodiscard]] bool comes_round(const Row& to, const OwnSheet& sheet) const;
   [[nodiscard]] bool is_on(const Vec3& point, const OwnSheet& sheet, double distance) const;
   [[nodiscard]] double distance2_to_front(const Vec3& point) const;
   [[nodiscard]] bool waits(std::span<const std::size_t> points, std::span<const Vec3> row, const OwnSheet& sheet,

@@ -311,6 +311,15 @@ TEST(BladeMotion, starts_anew_where_it_laps_over_its_start_about_an_end) {
   EXPECT_TRUE(blade.advance(turned(1.03)).starts_anew);
 }
 
+// Fails where only strips that meet count: these pass beside each other.
+TEST(BladeMotion, starts_anew_where_it_comes_round_a_little_beside_its_start) {
+  Motion blade(turned(0), 0.2);
+  for (int i = 1; i < 100; ++i) EXPECT_FALSE(blade.advance(turned(0.01 * i)).starts_anew) << i;
+  Row row = turned(1.003);
+  row.back().z() += 0.03;
+  EXPECT_TRUE(blade.advance(row).starts_anew);
+}
+
 // Fails where a way is asked at a few shares of its length: it begins with a gap, and is held.
 TEST(BladeMotion, goes_on_over_a_gap_into_its_slit) {
   Motion blade(turned(0), 0.2);
