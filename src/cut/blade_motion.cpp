@@ -174,22 +174,14 @@ bool BladeMotion::meets(const SweptSurface& surface, const OwnSheet& sheet) cons
 /// Whether a point of the blade comes, from elsewhere, to beside where the blade was well before: as at the end of a
 /// full turn. The two ends of the sheet lie beside each other there, and miss each other by what the blade trembled.
 bool BladeMotion::comes_round(const Row& to, const OwnSheet& sheet) const {
-  const double reach = kSlitShare * spacing_;
-  const auto distance = [&](const Vec3& place) {
-    const Vec3 margin = Vec3::Constant(reach);
-    double least = std::numeric_limits<double>::infinity();
-    static_cast<void>(sheet.any_near({place - margin, place + margin}, [&](const Strip& strip) {
-      if (sheet.travel() - strip.travel <= kFrontShare * spacing_) return false;
-      least = std::min(least, std::sqrt(strip.sheet.tree().closest(place, reach).distance2));
-      return false;
-    }));
-    return least;
+  const auto distance2 = [&](const SosPoint& point) {
+    return sheet.closest(point.position, kSlitShare * spacing_, sheet.travel() - kFrontShare * spacing_).distance2;
   };
+  const double reach2 = std::pow(kSlitShare * spacing_, 2), on2 = std::pow(kMeetingShare * spacing_, 2);
   for (std::size_t c = 0; c < to.size(); ++c) {
     if (to[c].key == front_[c].key) continue;
-    const double from_old = distance(to[c].position);
-    const bool is_beside = from_old <= reach && from_old > kMeetingShare * spacing_;
-    if (is_beside && distance(front_[c].position) > reach) return true;
+    const double now2 = distance2(to[c]);
+    if (now2 <= reach2 && now2 > on2 && distance2(front_[c]) > reach2) return true;
   }
   return false;
 }

@@ -512,10 +512,7 @@ Status Cutter::end_shortly(const CutContext& context, std::span<const Vec3> row)
   stroke_cut_.begin(stroke_.tag, stroke_.spacing);
   stroke_cut_.prepare(context.mesh, context.journal);
   stroke_.motion.begin(back, stroke_.spacing);
-  BladeMotion::Move move;
-  move.strip = stroke_.motion.accept(stroke_.motion.propose(row), surroundings(context));
-  if (stroke_.is_in_material) stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
-  Status status = follow(context, std::move(move));
+  Status status = follow_to(context, row);
   if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context)));
   if (!status) return status;
   finish_sheet(context);
@@ -534,10 +531,14 @@ Status Cutter::end_in_point(const CutContext& context) {
     if ((place - row.front()).norm() > kStands * stroke_.spacing) return {};
   }
   const std::vector<Vec3> front = stroke_.motion.front();
+  return follow_to(context, std::vector<Vec3>(front.size(), middle_of(front)));
+}
+
+/// Cuts from the front to a row that the tissue did not choose.
+Status Cutter::follow_to(const CutContext& context, std::span<const Vec3> row) {
   BladeMotion::Move move;
-  move.strip = stroke_.motion.accept(stroke_.motion.propose(std::vector<Vec3>(front.size(), middle_of(front))),
-                                     surroundings(context));
-  stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
+  move.strip = stroke_.motion.accept(stroke_.motion.propose(row), surroundings(context));
+  if (stroke_.is_in_material) stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
   return follow(context, std::move(move));
 }
 

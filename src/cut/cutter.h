@@ -131,6 +131,7 @@ class Cutter {
   double carry_along(const CutContext& context, std::span<const Vec3> row);
   Status end_shortly(const CutContext& context, std::span<const Vec3> row);
   Status end_in_point(const CutContext& context);
+  Status follow_to(const CutContext& context, std::span<const Vec3> row);
   [[nodiscard]] std::vector<Vec3> drawn_back(std::vector<Vec3> row, std::span<const Vec3> to) const;
   void finish_sheet(const CutContext& context);
   Status follow(const CutContext& context, BladeMotion::Move move);

@@ -73,7 +73,7 @@ const Strip& OwnSheet::add(std::unique_ptr<Strip> strip) {
   return *strips_.back();
 }
 
-SheetPlace OwnSheet::closest(const Vec3& point, double max_distance) const {
+SheetPlace OwnSheet::closest(const Vec3& point, double max_distance, double travelled) const {
   SheetPlace best;
   double reach = max_distance;
   for (std::size_t i = strips_.size(); i-- > 0;) {
@@ -82,7 +82,7 @@ SheetPlace OwnSheet::closest(const Vec3& point, double max_distance) const {
       continue;
     }
     const Sheet& sheet = strips_[i]->sheet;
-    if (sheet.bounds().distance2(point) > reach * reach) continue;
+    if (strips_[i]->travel > travelled || sheet.bounds().distance2(point) > reach * reach) continue;
     const auto hit = sheet.tree().closest(point, reach);
     if (hit.is_valid() && hit.distance2 < best.distance2) {
       best = {hit.point, sheet.normal(hit.triangle).normalized(), hit.distance2};

@@ -46,7 +46,9 @@ class OwnSheet {
   [[nodiscard]] const std::vector<Strip::Segment>& border() const { return border_; }
   [[nodiscard]] const std::deque<std::shared_ptr<const Strip>>& strips() const { return strips_; }
   /// The nearest place within `max_distance`; the latest strip wins ties. Cost: one box for 16 strips, then those near.
-  [[nodiscard]] SheetPlace closest(const Vec3& point, double max_distance) const;
+  /// `travelled`: strips that the blade laid later than that far from the sheet's beginning do not count.
+  [[nodiscard]] SheetPlace closest(const Vec3& point, double max_distance,
+                                   double travelled = std::numeric_limits<double>::infinity()) const;
   /// How far the blade has travelled.
   [[nodiscard]] double travel() const { return strips_.empty() ? 0.0 : strips_.back()->travel; }
   /// Whether some strip has a property, of those whose boxes are near a box: the latest first. Cost: as `closest`.
