@@ -317,9 +317,9 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
   }
 }
 
-std::vector<Vec3> BladeMotion::front() const {
+std::vector<Vec3> BladeMotion::places_of(const Row& row) {
   std::vector<Vec3> points;
-  for (const SosPoint& p : front_) points.push_back(p.position);
+  for (const SosPoint& p : row) points.push_back(p.position);
   return points;
 }
 

@@ -48,7 +48,9 @@ class BladeMotion {
   }
   /// Divides the segments of the front, and of all rows to come, at shares of their lengths, the last one 1.
   void refine(const std::vector<std::vector<double>>& shares);
-  [[nodiscard]] std::vector<Vec3> front() const;
+  [[nodiscard]] std::vector<Vec3> front() const { return places_of(front_); }
+  /// Where it was before the last strip.
+  [[nodiscard]] std::vector<Vec3> before() const { return places_of(before_); }
   /// Whether no strip was laid yet.
   [[nodiscard]] bool is_at_start() const { return is_first_strip_; }
 
@@ -66,6 +68,7 @@ class BladeMotion {
   using Row = std::vector<SosPoint>;
   using Segments = std::vector<std::array<std::uint64_t, 2>>;
 
+  [[nodiscard]] static std::vector<Vec3> places_of(const Row& row);
   [[nodiscard]] Row number(std::span<const Vec3> row);
   [[nodiscard]] bool goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const;
   [[nodiscard]] bool comes_round(const Row& to, const OwnSheet& sheet) const;

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <iterator>
 #include <new>
 #include <utility>
 
 #include "cut/blade_motion.h"
+#include "cut/bridges.h"
 #include "cut/constants.h"
 #include "cut/far_blade.h"
 #include "cut/front_carry.h"
@@ -70,6 +72,20 @@ constexpr double kStands = 0.05;
 /// Front points of a moving body stay while the blade pierces their face within so many spacings.
 constexpr double kPointReach = 0.2;
 
+void add_triangles(SweptTriangles& to, const SweptSurface& surface) {
+  const auto first = static_cast<std::uint32_t>(to.points.size());
+  for (const SosPoint& point : surface.points) to.points.push_back(point.position);
+  for (const SweptTriangle& triangle : surface.triangles) {
+    to.triangles.push_back({first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
+  }
+}
+
+SweptTriangles triangles_of(const SweptSurface& surface) {
+  SweptTriangles triangles;
+  add_triangles(triangles, surface);
+  return triangles;
+}
+
 /// The one of some places that is nearest to all others.
 Vec3 middle_of(std::span<const Vec3> places) {
   const auto sum_from = [&](const Vec3& place) {
@@ -101,6 +117,7 @@ void Cutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const 
                    std::uint32_t tag) {
   stroke_.tag = tag;
   stroke_.swept = {};
+  stroke_.joints = {};
   stroke_.spacing = spacing_of(mesh, has_moved);
   stroke_cut_.begin(tag, stroke_.spacing);
   stroke_cut_.prepare(mesh, journal);
@@ -156,6 +173,7 @@ Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& t
     }
     if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context)));
     if (status && !(stroke_.has_left && stroke_.motion.is_at_start())) finish_sheet(context);
+    if (status) cut_bridges(context, stroke_.swept, stroke_.joints, stroke_.tag);
     return status;
   });
 }
@@ -499,7 +517,7 @@ double Cutter::carry(const CutContext& context, std::span<const Vec3> from, std:
 
 /// The same for the blade as it stands; what it swept is what walls are judged by.
 double Cutter::carry_along(const CutContext& context, std::span<const Vec3> row) {
-  note_swept(stroke_.motion.propose(row).surface);
+  add_triangles(stroke_.swept, stroke_.motion.propose(row).surface);
   return carry(context, stroke_.motion.front(), row);
 }
 
@@ -558,6 +576,31 @@ void Cutter::finish_sheet(const CutContext& context) {
   ++context.statistics.sheets;
 }
 
+/// What the sheets of a stroke left joined where they meet is opened, now that all of them are known.
+void Cutter::cut_bridges(const CutContext& context, const SweptTriangles& swept, const SweptTriangles& joints,
+                         std::uint32_t tag) {
+  if (joints.triangles.empty() || options_.snap <= 0) return;
+  stroke_cut_.prepare(context.mesh, context.journal);
+  const std::size_t vertices = context.mesh.vertex_count();
+  Transaction transaction(context.mesh);
+  const std::vector<Side> opened =
+      incise::cut_bridges(transaction, stroke_cut_.surface(), swept, joints, stroke_.spacing, tag);
+  context.journal.append_if_changed(transaction.commit());
+  context.statistics.incision_faces += opened.size() / 2;
+  context.statistics.copied_vertices += context.mesh.vertex_count() - vertices;
+  if (!opened.empty()) stroke_cut_.part_edges(context, opened);
+}
+
+/// Notes that one sheet ends and another one begins where the blade is, or was.
+void Cutter::note_joint(std::span<const Vec3> row) {
+  SweptTriangles& joints = stroke_.joints;
+  for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+    const auto first = static_cast<std::uint32_t>(joints.points.size());
+    joints.points.insert(joints.points.end(), {row[c], row[c + 1]});
+    joints.triangles.push_back({first, first + 1, first + 1});
+  }
+}
+
 /// Cuts along what the blade's motion asks for. A strip that meets what the sheet has cut through is the first of a
 /// new sheet, to which the one so far is an older cut.
 Status Cutter::follow(const CutContext& context, BladeMotion::Move move) {
@@ -569,9 +612,11 @@ Status Cutter::follow(const CutContext& context, BladeMotion::Move move) {
     stroke_cut_.prepare(context.mesh, context.journal);
     if (stroke_.is_in_material)
       stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
+    note_joint(stroke_.motion.before());
+    note_joint(stroke_.motion.front());
     move.strip = stroke_.motion.lay_anew(surroundings(context));
   }
-  note_swept(move.strip->surface);
+  add_triangles(stroke_.swept, move.strip->surface);
   stroke_cut_.keep_pieces(stroke_.is_in_material);
   Status status = stroke_cut_.advance(context, std::move(move.strip), rules());
   if (!status) return status;
@@ -596,6 +641,7 @@ void Cutter::go_on_from_front(const CutContext& context) {
   stroke_cut_.begin(stroke_.tag, stroke_.spacing);
   stroke_cut_.prepare(context.mesh, context.journal);
   stroke_.motion.begin_anew();
+  note_joint(stroke_.motion.front());
   if (stroke_.is_in_material) stroke_.material.find_masters(context.mesh, stroke_cut_.surface(), stroke_cut_.complex());
 }
 
@@ -606,25 +652,20 @@ FrontRules Cutter::rules() const {
   return rules;
 }
 
-void Cutter::note_swept(const SweptSurface& surface) {
-  const auto first = static_cast<std::uint32_t>(stroke_.swept.points.size());
-  for (const SosPoint& point : surface.points) stroke_.swept.points.push_back(point.position);
-  for (const SweptTriangle& triangle : surface.triangles) {
-    stroke_.swept.triangles.push_back(
-        {first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
-  }
-}
-
 /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
 Status Cutter::cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   stroke_.is_in_material = false;
   const double spacing = stroke_.spacing = spacing_of(context.mesh, false);
   const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
   const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
+  std::vector<std::uint32_t> before, joints;
   for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
     if (Status status = cut_strip(context, part_of(surface, part), tag); !status) return status;
     ++context.statistics.sheets;
+    std::set_intersection(before.begin(), before.end(), part.begin(), part.end(), std::back_inserter(joints));
+    before = part;
   }
+  cut_bridges(context, triangles_of(surface), triangles_of(part_of(surface, joints)), tag);
   return {};
 }
 

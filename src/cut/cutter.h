@@ -91,6 +91,7 @@ class Cutter {
 
     BladeMotion motion;
     SweptTriangles swept;
+    SweptTriangles joints;  // where one sheet ends and another one begins
     MaterialBlade material;
     EdgeDivision edge;
     std::vector<Vec3> given_row;  // the last one
@@ -134,11 +135,13 @@ class Cutter {
   Status follow_to(const CutContext& context, std::span<const Vec3> row);
   [[nodiscard]] std::vector<Vec3> drawn_back(std::vector<Vec3> row, std::span<const Vec3> to) const;
   void finish_sheet(const CutContext& context);
+  void cut_bridges(const CutContext& context, const SweptTriangles& swept, const SweptTriangles& joints,
+                   std::uint32_t tag);
+  void note_joint(std::span<const Vec3> row);
   Status follow(const CutContext& context, BladeMotion::Move move);
   bool comes_back(const CutContext& context, const Strip& strip);
   void go_on_from_front(const CutContext& context);
   [[nodiscard]] FrontRules rules() const;
-  void note_swept(const SweptSurface& surface);
   Status cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
   Status cut_strip(const CutContext& context, SweptSurface part, std::uint32_t tag);
   static SweptSurface part_of(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles);

@@ -619,7 +619,7 @@ void StrokeCut::finish(const CutContext& context, const FrontRules& rules) {
     const std::vector<Side> opened = sides_of(rebuild_.opened());
     pinched_.insert(pinched_.end(), opened.begin(), opened.end());
   }
-  if (!pinched_.empty()) part_edges(context);
+  if (!pinched_.empty()) part_edges(context, pinched_);
   forget();
 }
 
@@ -668,10 +668,10 @@ void StrokeCut::land(const CutContext& context) {
   context.journal.append_if_changed(transaction.commit());
 }
 
-void StrokeCut::part_edges(const CutContext& context) {
+void StrokeCut::part_edges(const CutContext& context, std::span<const Side> walls) {
   const std::size_t tets = context.mesh.tet_count(), vertices = context.mesh.vertex_count();
   Transaction transaction(context.mesh);
-  context.statistics.pinched_edges += part_pinched_edges(transaction, pinched_, walker_);
+  context.statistics.pinched_edges += part_pinched_edges(transaction, walls, walker_);
   Step step = transaction.commit();
   context.statistics.created_tets += context.mesh.tet_count() - tets;
   context.statistics.new_vertices += context.mesh.vertex_count() - vertices;

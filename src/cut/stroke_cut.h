@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "cut/closed_complex.h"
@@ -83,6 +84,8 @@ class StrokeCut {
   void go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag);
   /// Ends the sheet: what it cut stays as it is. Repairs what was left joined for the time being.
   void finish(const CutContext& context, const FrontRules& rules);
+  /// Parts the edges of some walls along which two fans of tets touch, in a step of its own. Cost: O(walls).
+  void part_edges(const CutContext& context, std::span<const Side> walls);
   /// Forgets a sheet whose cut was taken back.
   void forget();
 
@@ -140,7 +143,6 @@ class StrokeCut {
   void choose_on(const TetMesh& mesh, std::span<const std::uint32_t> masters, const SnapRules& rules,
                  CutStatistics& statistics);
   void land(const CutContext& context);
-  void part_edges(const CutContext& context);
   [[nodiscard]] double snap() const { return options_.snap; }
   [[nodiscard]] double beside() const { return snap() > 0 ? kBesideWall : kBesideExactly; }
 
