@@ -118,7 +118,7 @@ class BridgeCutter {
     return tet.value < index_of_.capacity() ? index_of_[tet.value] - 1U : kInvalidIndex;
   }
 
-  /// The faces on the sweep all of whose vertices are on the surface.
+  /// The faces on the sweep all of whose vertices are on the surface, sound when they were loaded.
   void find_faces() {
     faces_.clear();
     for (std::uint32_t i = 0; i < tets_.size(); ++i) {
@@ -134,8 +134,11 @@ class BridgeCutter {
   }
   [[nodiscard]] bool is_on_surface(Side side) const {
     const auto v = mesh_.vertices(side);
-    return std::all_of(v.begin(), v.end(),
-                       [&](VertexId u) { return (mesh_.shape_of(u) & (shape::kSkin | shape::kWall)) != 0; });
+    return std::all_of(v.begin(), v.end(), [&](VertexId u) {
+      const std::uint8_t bits = mesh_.shape_of(u);
+      return (bits & (shape::kSkin | shape::kWall)) != 0 &&
+             (bits & shape::kPinched) == 0;  // else its star is not known
+    });
   }
   [[nodiscard]] bool is_on_sweep(Side side) const {
     const Vec3 middle = middle_of(mesh_, side);
