@@ -146,15 +146,18 @@ use_corpus() {
   fi
 }
 
-# shellcheck disable=SC2034  # read by the scripts
-build_packages=(
+# What the command and the window are built from; and, with it, what else is built and what tests need.
+program_packages=(
   cmake ninja-build g++ ccache git ca-certificates
   libeigen3-dev libtbb-dev libhwy-dev libpugixml-dev zlib1g-dev libfmt-dev nlohmann-json3-dev libcli11-dev
-  libboost-dev
-  libgtest-dev libgmock-dev librapidcheck-dev
   libepoxy-dev libegl-dev libstb-dev libegl1 libgl1-mesa-dri libglfw3-dev libimgui-dev fonts-dejavu-core
-  xvfb xdotool pkg-config
-  python3:python3 python3-numpy python3-pytest python3-meshio mypy python3-pip
+  python3:python3
+)
+# shellcheck disable=SC2034  # read by the scripts
+build_packages=(
+  "${program_packages[@]}"
+  libboost-dev libgtest-dev libgmock-dev librapidcheck-dev xvfb xdotool pkg-config
+  python3-numpy python3-pytest python3-meshio mypy python3-pip
 )
 # shellcheck disable=SC2034
 quality_packages=(clang-format-14 clang-tidy-14 clang-14 universal-ctags doxygen python3:python3 python3-nibabel)
