@@ -335,17 +335,16 @@ std::vector<Vec3> places_of(const TetMesh& mesh, const SurfaceIndex& surface, co
     if (mesh.link(side).tag() == 0) return;
     const Vec3 middle = middle_of(mesh, side);
     if (!tree.closest(middle, kNearJoint * spacing).is_valid()) return;
-    Cell cell{};
-    for (unsigned k = 0; k < 3; ++k) cell[k] = std::llround((middle[k] - surface.bounds().lo[k]) / spacing);
-    cells.push_back(cell);
+    const Vec3 from_low = (middle - surface.bounds().lo) / spacing;
+    cells.push_back({std::llround(from_low.x()), std::llround(from_low.y()), std::llround(from_low.z())});
   });
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   std::vector<Vec3> places;
   for (const Cell& cell : cells) {
-    Vec3 place = surface.bounds().lo;
-    for (unsigned k = 0; k < 3; ++k) place[k] += static_cast<double>(cell[k]) * spacing;
-    places.push_back(place);
+    const auto [x, y, z] = cell;
+    const Vec3 from_low(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+    places.emplace_back(surface.bounds().lo + spacing * from_low);
   }
   return places;
 }
