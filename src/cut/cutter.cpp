@@ -665,7 +665,7 @@ Status Cutter::cut_parts(const CutContext& context, const Stroke& stroke, std::u
     std::set_intersection(before.begin(), before.end(), part.begin(), part.end(), std::back_inserter(joints));
     before = part;
   }
-  cut_bridges(context, triangles_of(surface), triangles_of(part_of(surface, joints)), tag);
+  if (!joints.empty()) cut_bridges(context, triangles_of(surface), triangles_of(part_of(surface, joints)), tag);
   return {};
 }
 

@@ -100,7 +100,9 @@ TEST(Bridges, within_a_cut_that_ends_elsewhere_are_cut) {
 
 TEST(Bridges, are_not_what_the_blade_has_not_reached) {
   CubeWithWall body([](const Vec3& middle) { return !is_in_cell(middle, 5, 6); });
-  EXPECT_EQ(body.cut_bridges(swept_up_to(5 * kCell), joint_at(5.5 * kCell)), 0U);
+  for (const double border : {4.0, 5.2}) {  // far from it, and where one of the two faces lies just beyond the border
+    EXPECT_EQ(body.cut_bridges(swept_up_to(border * kCell), joint_at(5.5 * kCell)), 0U) << border;
+  }
 }
 
 TEST(Bridges, are_not_where_the_cut_ends_nearby) {
