@@ -90,7 +90,7 @@ bool tool_settings(Viewer& viewer) {
   if (tool == app::ToolKind::kPunch) length("##ring", "Ring %.1f mm", settings.punch_radius);
   if (tool == app::ToolKind::kScalpel) {
     auto angle = static_cast<float>(settings.angle * 180 / std::numbers::pi);
-    if (ImGui::SliderFloat("##angle", &angle, -68, 68, "Angle %.0f deg")) {
+    if (ImGui::DragFloat("##angle", &angle, 0.5F, -68, 68, "Angle %.0f deg")) {
       settings.angle = static_cast<double>(angle) * std::numbers::pi / 180;
       has_changed = true;
     }

@@ -328,7 +328,7 @@ void key_columns() {
   bool is_second = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].group != group) {
-      if (!is_second && 5 * i >= 2 * all.size()) {
+      if (!is_second && 2 * i >= all.size()) {
         ImGui::NextColumn();
         is_second = true;
       }
@@ -336,8 +336,10 @@ void key_columns() {
     }
     group = all[i].group;
     text(all[i].keys);
-    ImGui::SameLine(10.5F * em());
+    ImGui::SameLine(std::max(9.5F * em(), ImGui::CalcTextSize(all[i].keys.c_str()).x + em()));
+    ImGui::PushTextWrapPos(0);
     text(std::string(all[i].text));
+    ImGui::PopTextWrapPos();
   }
 }
 
@@ -345,7 +347,7 @@ void draw_help(app::ViewerState& state) {
   if (!state.shows_help) return;
   const ImVec2 screen = ImGui::GetMainViewport()->Size;
   ImGui::SetNextWindowPos({0.5F * screen.x, 0.5F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(66 * em(), 0.97F * screen.x), std::min(46 * em(), 0.98F * screen.y)});
+  ImGui::SetNextWindowSize({std::min(66 * em(), 0.97F * screen.x), std::min(52 * em(), 0.98F * screen.y)});
   ImGui::SetNextWindowFocus();  // over the other panels
   ImGui::SetNextWindowBgAlpha(1);
   if (ImGui::Begin("Keys", &state.shows_help, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {

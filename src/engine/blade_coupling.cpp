@@ -23,6 +23,7 @@ constexpr double kAhead = 0.05;       // of the spacing: how far ahead of the fr
 constexpr double kBehind = 0.25;  // of the spacing: how far behind the front an edge is told to be that does not yield
 constexpr double kSlides = 0.5;   // of the spacing: so far along the edge a point keeps its material
 constexpr double kSpan = 0.5;     // of the spacing: between points of the edge
+constexpr double kPoint = 1e-3;   // of the spacing: a blade no wider than this is a point
 constexpr double kLetGo = 0.5;    // of the spacing: withdrawn so far, the blade has let go of the tissue
 constexpr double kMostBulge = 1.25;  // what tissue along the edge may be pressed together by: more is a ragged front
 constexpr std::size_t kTangentSpan = 3;  // points to both sides by which the direction of the edge is told
@@ -95,6 +96,7 @@ void BladeCoupling::move_to(const BladePose& pose) {
   for (Sample& s : samples_) {
     s.before = s.place;
     s.place = on_edge(pose.edge, s.segment, s.share);
+    s.pushed = 1 / (1 + pose.slicing * pose.slicing);
     motion += s.place - s.before;
   }
   const Vec3 before = direction_;
@@ -336,6 +338,7 @@ BladePose BladeCoupling::yield(const TetMesh& mesh) {
     account(s);
   }
   retreat_outside();
+  if (is_point()) retreat_together();
   BladePose pose;
   pose.direction = direction_;
   for (Sample& s : samples_) {
@@ -422,6 +425,19 @@ void BladeCoupling::retreat_outside() {
   for (std::size_t i = samples_.size() - 1; i > 0; --i) go_with(samples_[i - 1], samples_[i]);
 }
 
+/// Whether the edge has drawn together, as a ring does that closes below what it has cut around.
+bool BladeCoupling::is_point() const {
+  return std::all_of(samples_.begin(), samples_.end(),
+                     [&](const Sample& s) { return (s.place - samples_.front().place).norm() <= kPoint * spacing_; });
+}
+
+/// A point stays one, wherever the tissue holds it back: the cut ends in it.
+void BladeCoupling::retreat_together() {
+  double most = 0;
+  for (const Sample& s : samples_) most = std::max(most, s.retreat);
+  for (Sample& s : samples_) s.retreat = most;
+}
+
 void BladeCoupling::account(Sample& sample) {
   const double way = direction_.dot(sample.place - sample.before) * unit_;
   state_.touches = state_.touches || sample.force > 0;
@@ -446,7 +462,9 @@ void BladeCoupling::pay_for(double area) {
     if (!s.grip || s.limit() <= 0) continue;
     const double opened = planned > 0 ? s.advance * area * unit_ / planned : area * unit_ / length;
     s.paid -= opened;
-    state_.fracture_work += s.toughness * s.length * opened * unit_;
+    const double work = s.toughness * s.length * opened * unit_;
+    state_.fracture_work += work;
+    state_.tool_work += (1 - s.pushed) * work;  // by what moves the edge along itself
   }
 }
 
@@ -481,7 +499,7 @@ HapticSnapshot BladeCoupling::snapshot(const Solver& solver, const TetMesh& mesh
     if (!s.grip) continue;
     held += 1;
     snapshot.contact_point += unit_ * s.cut;
-    limit += s.toughness * s.length;
+    limit += s.pushed * s.toughness * s.length;
     friction += s.friction * s.length;
     for (unsigned i = 0; i < 4; ++i) {
       stiffness += s.grip->weights[i] * s.grip->weights[i] * solver.local_stiffness(mesh.vertices(s.grip->tet)[i]);

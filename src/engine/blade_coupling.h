@@ -20,8 +20,9 @@ namespace detail {
 ///
 /// The edge is taken at points along it. Where one is in tissue it presses on the vertices around the front
 /// (`ProcessZone`), in the direction of cutting, by stiff springs that give way at the force that the material bears:
-/// (toughness + friction) · its share of the edge. What the springs have slipped pays for the front to go on. Without
-/// toughness and friction the edge passes unhindered, and nothing here does anything.
+/// (toughness + friction) · its share of the edge, of the toughness the less the more the edge slices. What the springs
+/// have slipped pays for the front to go on. Without toughness and friction the edge passes unhindered, and nothing
+/// here does anything.
 class BladeCoupling {
  public:
   /// Puts the blade in place. `spacing`: a typical edge of the mesh.
@@ -69,9 +70,10 @@ class BladeCoupling {
     double radius = 0;                                 // of its zone
     double toughness = 0, friction = 0;                // N/m, of the material at the grip
     double rupture = 0;                                // likewise
+    double pushed = 1;                                 // the share of the toughness that the push bears
     double force = 0, force_before = 0;                // N
 
-    [[nodiscard]] double limit() const { return (toughness + friction) * length; }
+    [[nodiscard]] double limit() const { return (pushed * toughness + friction) * length; }
     [[nodiscard]] double bears() const;
   };
 
@@ -82,6 +84,8 @@ class BladeCoupling {
   [[nodiscard]] Vec3 tangent_at(std::size_t sample) const;
   [[nodiscard]] double length_within(std::size_t index, const Vec3& way, const TetMesh& mesh) const;
   void retreat_outside();
+  [[nodiscard]] bool is_point() const;
+  void retreat_together();
   void slide(const TetMesh& mesh);
   void enter(const TetMesh& mesh);
   void enter(Sample& sample, const TissuePoint& inside, const TetMesh& mesh);

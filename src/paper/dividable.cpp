@@ -35,6 +35,7 @@ class PaperSeparator {
     for (auto& [vertex, tets] : tets_of_) {
       tets = walker_.star(mesh_, vertex);
     }
+    if (mesh_.touched_itself_at_load()) find_all_fans();
   }
 
   /// Algorithm 1. Lines 1-6 find the potential vertices of type II; every vertex of a face may be of type I.
@@ -65,6 +66,20 @@ class PaperSeparator {
   }
 
  private:
+  /// Where two fans of tets touched along an edge at load, what divides the edge lies in both, and a walk from one does
+  /// not come to the other. All tets around a new vertex are new.
+  void find_all_fans() {
+    std::map<VertexId, std::vector<TetId>> around;
+    for (const VertexId v : transaction_.new_vertices()) around.try_emplace(v);
+    for (const TetId tet : transaction_.new_tets()) {
+      for (const VertexId v : mesh_.vertices(tet)) {
+        if (const auto at = around.find(v); at != around.end()) at->second.push_back(tet);
+      }
+    }
+    for (auto& [vertex, tets] : around) {
+      if (!tets.empty() && walker_.star(mesh_, vertex).size() < tets.size()) tets_of_[vertex] = std::move(tets);
+    }
+  }
   void mark(Side side) {
     marks_.ensure(std::size_t{side.tet().value} + 1);
     marks_[side.tet().value] = static_cast<std::uint8_t>(marks_[side.tet().value] | 1U << side.side());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "incise/mesh/components.h"
@@ -131,17 +132,21 @@ struct Cutting {
   double steady = 0;   ///< mean force from 1 mm after the first opening on, N
   double dented = 0;   ///< the greatest before it
   double balance = 0;  ///< work at the holds by what it pays for
+  double paid = 0;     ///< work of the tool by the same
   std::size_t inverted = 0;
   std::size_t cracks = 0;  ///< falls of the force from above 1.1 of toughness · length to below 0.9
 };
 
-Cutting cut_deep(Block& block, double toughness) {
+Cutting cut_deep(Block& block, double toughness, double slicing = 0) {
   Cutting cutting;
-  double work = 0, last_force = 0, opened = -1, sum = 0, count = 0;
+  double tool_work = 0, work = 0, last_force = 0, opened = -1, sum = 0, count = 0;
   bool is_high = false;
   for (unsigned i = 0; i <= 31; ++i) {
     const double z = 0.0205 - 0.0005 * i;
-    const BladeState blade = block.frame(Block::blade_at(z)).blade;
+    FrameInput input = Block::blade_at(z);
+    input.blade->slicing = slicing;
+    const BladeState blade = block.frame(input).blade;
+    tool_work += blade.tool_work;
     const double force = block.sim().body().force_on_holds().z();
     work -= 0.5 * (force + last_force) * 0.0005;
     last_force = force;
@@ -157,7 +162,9 @@ Cutting cut_deep(Block& block, double toughness) {
   }
   const BodyEnergy energy = block.sim().body().energy();
   cutting.steady = sum / count;
-  cutting.balance = work / (toughness * wall_area(block.sim().mesh()) + energy.elastic + energy.kinetic);
+  const double bought = toughness * wall_area(block.sim().mesh()) + energy.elastic + energy.kinetic;
+  cutting.balance = work / bought;
+  cutting.paid = tool_work / bought;
   return cutting;
 }
 
@@ -169,6 +176,62 @@ TEST(Simulation, SoftTissueThatStiffensIsCutWithTheForceOfItsToughnessAndTheWork
   EXPECT_NEAR(cutting.steady, 150 * 0.02, 0.05 * 150 * 0.02);
   EXPECT_NEAR(cutting.balance, 1, 0.15);
   EXPECT_EQ(cutting.inverted, 0U);
+}
+
+// Atkins, Xu and Jeronimidis (2004): the push falls by 1 + ξ², and what is cut costs the same.
+TEST(Simulation, AnEdgeThatSlicesIsPushedWithLessAndItsWorkIsPaidAllTheSame) {
+  Material liver;
+  liver.stiffening = 20;
+  for (const double slicing : {0.0, 1.0, 2.0}) {
+    Block block(5e3, 150, 1, liver);
+    const Cutting cutting = cut_deep(block, 150, slicing);
+    const double pushed = 150 * 0.02 / (1 + slicing * slicing);
+    EXPECT_NEAR(cutting.steady, pushed, 0.06 * pushed) << slicing;
+    EXPECT_NEAR(cutting.paid, 1, 0.15) << slicing;
+  }
+}
+
+/// A ring of 16 corners around a place of the block.
+BladePose ring_at(double z, double radius) {
+  BladePose pose;
+  for (int i = 0; i < 16; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 16;
+    pose.edge.emplace_back(0.0212 + radius * std::cos(angle), 0.0093 + radius * std::sin(angle), z);
+  }
+  pose.edge.push_back(pose.edge.front());
+  pose.direction = -Vec3::UnitZ();
+  return pose;
+}
+
+/// Drives it into soft, tough tissue, and draws it together below. Returns how many pieces there are.
+std::size_t pieces_of_a_core(double slicing) {
+  Block block(4e3, 300);
+  for (unsigned i = 0; i <= 36; ++i) {
+    const double drawn = i < 24 ? 0 : (i - 24) / 12.0;
+    FrameInput input;
+    input.blade = ring_at(0.022 - 0.010 * i / 36.0, (1 - drawn) * 0.005);
+    input.blade->slicing = slicing;
+    block.frame(input);
+  }
+  block.frame({});
+  EXPECT_TRUE(validate(block.sim().mesh(), ValidateLevel::kGeometry).ok);
+  return find_components(block.sim().mesh()).count();
+}
+
+TEST(Simulation, ARingThatIsTwistedTakesACoreOutWhereOneThatIsPressedDoesNot) {
+  EXPECT_EQ(pieces_of_a_core(6), 2U);
+  EXPECT_EQ(pieces_of_a_core(0), 1U);
+}
+
+TEST(Simulation, PosesWithASlicingThatIsNoneAreRefused) {
+  for (const double slicing : {-1.0, 101.0, kInfinity, std::nan("")}) {
+    Block block;
+    FrameInput input = Block::blade_at(0.021);
+    input.blade->slicing = slicing;
+    const auto report = block.sim().frame(input);
+    ASSERT_FALSE(report.ok());
+    EXPECT_NE(report.error().message.find("slicing"), std::string::npos);
+  }
 }
 
 TEST(Simulation, AFrontThatRupturesBearsMoreAtRestThanWhileItRuns) {

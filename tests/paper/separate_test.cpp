@@ -426,6 +426,29 @@ TEST(PaperSeparation, equals_star_components_on_straight_oblique_and_coring_cuts
   }
 }
 
+/// Two bars that touch along an edge, x = y = 1, and nowhere else: a defect of the input.
+TetSoup bars_that_touch() {
+  TetSoup soup = kuhn_box(Vec3::Zero(), Vec3(2, 2, 1), {4, 4, 2});
+  std::erase_if(soup.tets, [&](const auto& tet) {
+    Vec3 centre = Vec3::Zero();
+    for (const auto v : tet) centre += 0.25 * soup.points[v];
+    return (centre.x() < 1) != (centre.y() < 1);
+  });
+  return soup;
+}
+
+TEST(PaperSeparation, divides_an_edge_that_two_fans_share_once_for_each) {
+  Engine engine = make_engine(bars_that_touch(), 0.0, Profile::kPaper);
+  const std::uint64_t singletons =
+      validate(engine.mesh(), ValidateLevel::kTopology).count(ViolationKind::kSingletonVertex);
+  ASSERT_GT(singletons, 0U);
+  for (const double z : {0.3, 0.71}) ASSERT_TRUE(engine.cut(plane(engine, Vec3(0.1, -0.05, 1), z)).ok());
+  const ValidityReport report = validate(engine.mesh(), ValidateLevel::kTopology);
+  EXPECT_EQ(report.count(ViolationKind::kSingletonCutVertex), 0U);
+  EXPECT_EQ(report.count(ViolationKind::kSingletonVertex), singletons);
+  EXPECT_EQ(find_components(engine.mesh()).count(), 6U);
+}
+
 TEST(PaperSeparation, equals_star_components_on_random_planes) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);

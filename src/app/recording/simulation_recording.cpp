@@ -57,6 +57,7 @@ void add_suture(const SutureCall& call, Json& root) {
 
 void add_input(const FrameInput& input, Json& root) {
   if (input.blade) root["blade"] = {{"edge", encode(input.blade->edge)}, {"direction", encode(input.blade->direction)}};
+  if (input.blade && input.blade->slicing != 0) root["blade"]["slicing"] = input.blade->slicing;
   for (const Hook& hook : input.hooks) root["hooks"].push_back(encode_hook(hook));
   for (const Tool& tool : input.tools) root["tools"].push_back(encode_tool(tool));
 }
@@ -158,10 +159,11 @@ class SimulationCallReader : public LineReader {
   bool read_blade(const JsonValue* value, FrameInput& input) {
     if (value == nullptr) return true;
     BladePose& pose = input.blade.emplace();
-    if (!read_.is_object(*value, "blade", {"edge", "direction"})) return false;
+    if (!read_.is_object(*value, "blade", {"edge", "direction", "slicing"})) return false;
     const JsonValue* edge = read_.member(*value, "blade", "edge");
     return edge != nullptr && read_.points(*edge, "blade.edge", kMaxBladePoints, pose.edge) &&
-           read_point(*value, "blade", "direction", pose.direction);
+           read_point(*value, "blade", "direction", pose.direction) &&
+           (value->find("slicing") == nullptr || read_number(*value, "blade", "slicing", pose.slicing));
   }
   template <class ReadItem>
   bool read_items(const JsonValue& root, const std::string& key, const ReadItem& read_item) {

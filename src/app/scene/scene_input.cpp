@@ -83,7 +83,7 @@ std::optional<BladePose> blade_at(const std::vector<SceneStroke>& strokes, doubl
   for (const SceneStroke& s : strokes) {
     const auto span = find_span(s.stroke.times, now);
     if (!span) continue;
-    BladePose pose{s.stroke.edges[span->from], s.direction};
+    BladePose pose{s.stroke.edges[span->from], s.direction, s.slicing};
     const std::vector<Vec3>& next = s.stroke.edges[span->to];
     for (std::size_t i = 0; i < pose.edge.size(); ++i) pose.edge[i] = between(pose.edge[i], next[i], span->share);
     return pose;

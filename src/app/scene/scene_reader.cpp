@@ -31,6 +31,7 @@ constexpr double kMaxBoxTets = 268435456;                  // as `kuhn_box`
 constexpr double kMaxPoisson = 0.499;                      // as `Material`
 constexpr double kMaxSnap = 0.4;                           // as `CutOptions`
 constexpr double kMaxJitter = 0.15;                        // as `jitter`
+constexpr double kMostSlicing = 100;                       // of a blade
 constexpr double kMaxStretch = 1e6;                        // of the times of a blade
 constexpr double kLeastStretch = 0.5, kMostStretch = 2.0;  // of the body
 constexpr double kLatestStart = 1e7;                       // s, of a suture: beyond the last frame that there may be
@@ -534,12 +535,13 @@ class SceneHandsReader : public SceneOptionsReader {
     Timing timing;
     Vec3 direction = Vec3::Zero();
     SceneStroke stop;
-    if (!read_.is_object(value, path, {"blade", "start", "stretch", "pause", "direction", "stop_at"}) ||
+    if (!read_.is_object(value, path, {"blade", "start", "stretch", "pause", "direction", "slicing", "stop_at"}) ||
         !read_blade_of(value, path, strokes) ||
         !read_.optional_ranged(value, path, "start", kBoundedAtLeast0, timing.start) ||
         !read_.optional_ranged(value, path, "stretch", {0, kMaxStretch, true}, timing.stretch) ||
         !read_.optional_ranged(value, path, "pause", kBoundedAtLeast0, timing.pause) ||
         !read_.optional_point(value, path, "direction", direction) ||
+        !read_.optional_ranged(value, path, "slicing", {0, kMostSlicing}, stop.slicing) ||
         !read_stops(read_, value, path, stop.stop_at, stop.stop_names)) {
       return false;
     }
@@ -551,7 +553,7 @@ class SceneHandsReader : public SceneOptionsReader {
       // Its own, and those of the whole blade.
       stop_at.insert(stop_at.end(), stop.stop_at.begin(), stop.stop_at.end());
       stop_names.insert(stop_names.end(), stop.stop_names.begin(), stop.stop_names.end());
-      out.push_back({std::move(stroke), direction, std::move(stop_at), std::move(stop_names)});
+      out.push_back({std::move(stroke), direction, std::move(stop_at), std::move(stop_names), stop.slicing});
     }
     return true;
   }

@@ -17,6 +17,7 @@ struct SceneStroke {
   Vec3 direction = Vec3::Zero();             ///< as in `BladePose`
   std::vector<std::int32_t> stop_at = {};    ///< regions that the edge is held outside of, see `RegionGuard`
   std::vector<std::string> stop_names = {};  ///< more of them, until `take_model` knows their numbers
+  double slicing = 0;                        ///< as in `BladePose`
 };
 
 }  // namespace app

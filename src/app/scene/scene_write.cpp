@@ -155,6 +155,7 @@ Json json_of(const SceneStroke& s) {
     stroke["edges"].push_back({{"t", s.stroke.times[i]}, {"points", encode(s.stroke.edges[i])}});
   }
   Json root = {{"blade", Json::array({std::move(stroke)})}, {"direction", encode(s.direction)}};
+  if (s.slicing > 0) root["slicing"] = s.slicing;
   for (const std::int32_t region : s.stop_at) root["stop_at"].push_back(region);
   for (const std::string& name : s.stop_names) root["stop_at"].push_back(name);
   return root;

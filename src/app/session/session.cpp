@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/hands/grip.h"
+#include "app/hands/punch.h"
 #include "app/session/session_state.h"
 #include "app/text/formatted.h"
 #include "app/text/json_write.h"
@@ -253,6 +254,7 @@ void Session::follow(const Stroke& stroke, std::optional<ToolKind> tool) {
       s.followed->strokes.empty() ? 0 : s.followed->strokes.back().stroke.times.back() + kPauses * frame;
   SceneStroke& added = s.followed->strokes.emplace_back(SceneStroke{stroke, Vec3::Zero()});
   if (tool) added.stop_at = spared_by(s.scene, *tool);
+  if (tool == ToolKind::kPunch) added.slicing = kPunchTwist;
   for (double& time : added.stroke.times) time += begin - stroke.times.front();
   s.followed->frames = static_cast<std::uint64_t>(added.stroke.times.back() / frame) + 2;
 }

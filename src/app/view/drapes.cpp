@@ -14,19 +14,21 @@ namespace {
 constexpr Finish kCloth{{62, 128, 124, 255}, 0};
 constexpr int kAlongSide = 24, kAroundCorner = 6;
 
-/// Outwards from the opening: how far, and how high above the body's top, in lengths of its longest side.
+/// Outwards from the opening: how far, and how high above the body's top, in lengths of its longest side. The cloth
+/// hangs down beside the body: where that draws back from the rim, cloth is seen, and not what lies behind the picture.
 struct Row {
   double out, high, folds;
 };
-constexpr std::array<Row, 9> kRows = {{{0.004, -0.05, 0},
-                                       {0.004, 0.004, 0},
-                                       {0.012, 0.016, 0},
-                                       {0.026, 0.014, 0},
-                                       {0.045, 0.000, 0.1},
-                                       {0.16, -0.012, 0.8},
-                                       {0.42, -0.04, 1},
-                                       {0.9, -0.10, 1},
-                                       {3.2, -0.45, 1}}};
+constexpr std::array<Row, 10> kRows = {{{0.004, -1, 0},
+                                        {0.004, -0.05, 0},
+                                        {0.004, 0.004, 0},
+                                        {0.012, 0.016, 0},
+                                        {0.026, 0.014, 0},
+                                        {0.045, 0.000, 0.1},
+                                        {0.16, -0.012, 0.8},
+                                        {0.42, -0.04, 1},
+                                        {0.9, -0.10, 1},
+                                        {3.2, -0.45, 1}}};
 
 /// A place of the opening's rim, and the way outwards from there.
 struct RimPlace {

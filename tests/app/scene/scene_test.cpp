@@ -405,7 +405,7 @@ TEST(Scene, goes_on_half_a_second_after_the_last_key_time_unless_told_otherwise)
 TEST(SceneInput, moves_the_blade_from_its_first_to_its_last_key) {
   Json json = least_scene();
   json["frame_seconds"] = 0.1;
-  json["strokes"] = {{{"blade", {blade_stroke(0.25, 0.65)}}, {"direction", {0, 1, 0}}}};
+  json["strokes"] = {{{"blade", {blade_stroke(0.25, 0.65)}}, {"direction", {0, 1, 0}}, {"slicing", 2.5}}};
   const app::Scene scene = parsed(json);
   EXPECT_FALSE(scene_input(scene, 1).blade.has_value());  // ends at 0.2
   const auto y = [&](std::uint64_t frame) { return scene_input(scene, frame).blade->edge[1].y(); };
@@ -415,6 +415,8 @@ TEST(SceneInput, moves_the_blade_from_its_first_to_its_last_key) {
   EXPECT_EQ(y(6), 1.2);
   EXPECT_FALSE(scene_input(scene, 7).blade.has_value());
   EXPECT_EQ(scene_input(scene, 3).blade->direction, Vec3(0, 1, 0));
+  EXPECT_EQ(scene_input(scene, 3).blade->slicing, 2.5);
+  EXPECT_EQ(scene_input(app::parse_scene(app::to_json(scene), "again.json").value(), 3).blade->slicing, 2.5);
 }
 
 TEST(SceneInput, of_a_stroke_that_begins_at_once_has_its_first_key_in_one_frame_alone) {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "app/hands/punch.h"
+#include "app/jobs/replay_job.h"
 #include "app/session/session_cases.h"
+#include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
 
@@ -45,6 +48,28 @@ TEST(StartingBody, two_idle_seconds_pass_before_anything_is_cut) {
   session.end_script();
   while (session.figures().seconds < 3) ASSERT_TRUE(session.frame().ok());
   EXPECT_EQ(session.figures().strokes, 0U);
+}
+
+TEST(StartingBody, a_punch_takes_cores_out_of_the_patch_and_what_is_recorded_replays) {
+  const Folder folder;
+  app::SessionOptions options;
+  options.record = folder / "log.jsonl";
+  {
+    app::Session session = app::Session::open(app::skin_patch(), options).value();
+    session.end_script();
+    const app::ToolSettings settings = app::settings_for(rest_bounds(session.mesh()), 12e3, 1e-3);
+    std::size_t pieces = 1;
+    for (const Vec3& place : {Vec3(42, 30, 24), Vec3(23.4, 18.2, 24), Vec3(61.7, 41.9, 24)}) {
+      session.follow(app::punch_stroke(place, Vec3::UnitZ(), settings), app::ToolKind::kPunch);
+      while (session.is_following()) ASSERT_TRUE(session.frame().ok());
+      EXPECT_EQ(find_components(session.mesh()).count(), ++pieces) << place.transpose();
+    }
+    EXPECT_TRUE(validate(session.mesh(), ValidateLevel::kGeometry).ok);
+    session.stop_recording();
+  }
+  const Result<app::ReplayResult> result = app::run_replay({folder / "log.jsonl", true});
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  EXPECT_FALSE(result->difference.has_value());
 }
 
 TEST(StartingBody, a_scene_says_all_of_it) {
