@@ -121,7 +121,7 @@ Result<TetMesh> mesh_of(const incise_mesh_arrays* given) {
 void fill(incise_report& report, const CutStatistics& cut) {
   report.steps = cut.steps;
   report.cut_tets = cut.cut_tets;
-  report.created_tets = static_cast<std::int64_t>(cut.created_tets);
+  report.created_tets = cut.created_tets;
   report.new_vertices = cut.new_vertices;
   report.copied_vertices = cut.copied_vertices;
   report.incision_faces = cut.incision_faces;

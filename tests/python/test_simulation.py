@@ -102,6 +102,17 @@ def test_the_blade_cuts_and_is_taken_back():
     assert body.redo() and body.mesh.hash != before
 
 
+def test_what_a_frame_takes_back_counts_below_zero():
+    body = incise.Simulation.from_scene({**SCENE, "strokes": []})
+    grown = []
+    for i in range(25):
+        y = -0.2 + 0.06 * i
+        body.frame(blade=[[0.5, y, -0.2], [0.5, y, 0.5]], direction=(0, 1, 0))
+        grown.append((body.cut_report.created_tets, body.cut_report.new_vertices, body.cut_report.incision_faces))
+    assert np.abs(grown).max() < 10_000 and np.min(grown) < 0
+    assert np.sum(grown, axis=0).min() > 0
+
+
 def test_materials_by_region():
     cube = incise.box((2, 2, 2)).compact()
     regions = (cube.points[cube.tets].mean(axis=1)[:, 0] > 0.5).astype(int)
