@@ -329,7 +329,12 @@ incise_status incise_default_simulation_options(incise_simulation_options* optio
 
 incise_status incise_simulation_create(const incise_mesh_arrays* mesh, const incise_simulation_options* options,
                                        incise_simulation** simulation) {
-  return c::create(simulation, [&] { return c::make(c::mesh_of(mesh), options); });
+  return c::create(simulation, [&] {
+    std::vector<std::string> notes;
+    Result<c::Made> made = c::make(c::mesh_of(mesh, notes), options);
+    if (made.ok()) made->notes = std::move(notes);
+    return made;
+  });
 }
 
 incise_status incise_simulation_read(const char* path, const incise_simulation_options* options,
