@@ -214,7 +214,7 @@ class Runner {
     out_.step_us.push_back(us);
     out_.contact_us.push_back(1e3 * (*report)->times[Stage::kCollision]);
     out_.cut_tets += (*report)->cut.cut_tets;
-    out_.grown_tets += (*report)->cut.created_tets;
+    out_.grown_tets += static_cast<std::uint64_t>((*report)->cut.created_tets);
     for (std::size_t i = from; i < engine_.journal().position(); ++i) {
       out_.made_tets += engine_.journal().step(i).produced.size();
     }

@@ -96,7 +96,7 @@ Measurement measure(const TetMesh& mesh, const Plane& plane, unsigned runs, Betw
       return out;
     }
     out.cut_tets = (*report)->cut.cut_tets;
-    out.created_tets = (*report)->cut.created_tets;
+    out.created_tets = static_cast<std::uint64_t>((*report)->cut.created_tets);
     if (run == 0) {
       out.cold_ms = ms;
     } else {

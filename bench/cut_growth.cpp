@@ -101,7 +101,7 @@ struct Tally {
   void add(const Outcome& o, std::size_t expected_pieces) {
     ++runs;
     pieces_right += o.pieces == expected_pieces ? 1U : 0U;
-    new_tets += o.cut.created_tets;
+    new_tets += static_cast<std::uint64_t>(o.cut.created_tets);
     cut_tets += o.cut.cut_tets;
     inverted += o.inverted;
     snapped += o.cut.snapped_vertices;

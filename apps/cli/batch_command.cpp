@@ -152,7 +152,7 @@ Command add_batch(CLI::App& root) {
       "I/N: compute the I-th of N parts alone (I from 0 to N - 1, or from 1 to N); in a Slurm array job its "
       "task's part, else all");
   words->add_flag("--merge", a.merge, "Write results.jsonl in the plan's order; exit 4 where something is missing");
-  words->add_option("--verify", a.verify, "Compute this many items again; exit 4 where a hash differs")
+  words->add_option("--verify", a.verify, "Compute this many items again; exit 4 where a line differs")
       ->check(CLI::Range(std::uint64_t{1}, app::kMaxBatchItems));
   words->add_option("--seed", a.seed, "Which items --verify takes");
   words->add_flag(

@@ -4,23 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/text/shortened.h"
+
 namespace incise_apps {
 namespace {
 
-constexpr std::size_t kLongest = 480, kEnd = 160;
 constexpr std::size_t kBarWidth = 30;
 
 }  // namespace
 
 std::string one_line(std::string_view text) {
-  std::string line(text);
-  if (line.size() > kLongest) {
-    const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
-    std::size_t head = kLongest - kEnd - 5, tail = text.size() - kEnd;  // not within a character of several bytes
-    while (head > 0 && is_inside(head)) --head;
-    while (tail < text.size() && is_inside(tail)) ++tail;
-    line = std::string(text.substr(0, head)) + " ... " + std::string(text.substr(tail));
-  }
+  std::string line = incise::app::shortened(text);
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
   std::replace_if(line.begin(), line.end(), is_control, ' ');
   return line;

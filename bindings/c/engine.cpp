@@ -97,7 +97,11 @@ using namespace incise;
 
 incise_status incise_engine_create(const incise_mesh_arrays* mesh, const incise_engine_options* options,
                                    incise_engine** engine) {
-  return c::create(engine, [&] { return c::make(c::mesh_of(mesh), options, engine); });
+  return c::create(engine, [&]() -> incise_status {
+    auto handle = std::make_unique<incise_engine>();
+    Result<TetMesh> made = c::mesh_of(mesh, handle->notes);
+    return made.ok() ? c::make(std::move(made).value(), options, std::move(handle), engine) : c::fail(made.error());
+  });
 }
 
 incise_status incise_engine_create_box(const double* low, const double* high, const uint32_t* cells,

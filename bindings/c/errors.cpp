@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <string_view>
 
+#include "app/text/shortened.h"
 #include "handles.h"
 #include "incise/version.h"
 
@@ -27,8 +29,8 @@ const void* this_thread() {
 constexpr std::array<const char*, 8> kStatusNames = {"ok", "bad argument", "bad file", "unsupported", "out of memory",
                                                      "io", "internal",     "busy"};
 
-incise_status keep(incise_status code, std::string message, std::vector<std::uint64_t> ids) {
-  last_error() = {code, std::move(message), std::move(ids)};
+incise_status keep(incise_status code, std::string_view message, std::vector<std::uint64_t> ids) {
+  last_error() = {code, app::shortened(message), std::move(ids)};
   return code;
 }
 
@@ -39,8 +41,8 @@ incise_status fail(const Error& error) {
   return keep(static_cast<incise_status>(error.code) + 1, error.message, error.ids);
 }
 
-incise_status refuse(std::string message) {
-  return keep(INCISE_BAD_ARGUMENT, std::move(message), {});
+incise_status refuse(const std::string& message) {
+  return keep(INCISE_BAD_ARGUMENT, message, {});
 }
 
 incise_status busy() {

@@ -27,7 +27,7 @@ namespace incise::c {
 
 /// Keeps the error for `incise_last_error` and returns its code.
 incise_status fail(const Error& error);
-incise_status refuse(std::string message);
+incise_status refuse(const std::string& message);
 /// Of a call that another thread, or a callback's own caller, is in.
 incise_status busy();
 /// Fails where a status has failed.
@@ -153,7 +153,8 @@ BladePose pose_of(const double* edge, std::uint64_t n, const double* direction);
 LogSink log_to(incise_log log, void* user);
 Result<EngineOptions> engine_options(const incise_engine_options* given, EngineOptions otherwise = {});
 /// A mesh of arrays, checked as far as it takes to read them.
-Result<TetMesh> mesh_of(const incise_mesh_arrays* given);
+/// `notes`: in words, what is wrong with them and was left so.
+Result<TetMesh> mesh_of(const incise_mesh_arrays* given, std::vector<std::string>& notes);
 
 void fill(incise_report& report, const CutStatistics& cut);
 void fill(incise_report& report, const MaintainStatistics& maintain);

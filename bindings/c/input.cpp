@@ -69,6 +69,18 @@ Status check_for_mending(const TetSoup& soup) {
   return {};
 }
 
+/// What a cut through them leaves as it was, without a word.
+void note_duplicates(const std::vector<std::uint32_t>& ids, std::vector<std::string>& notes) {
+  constexpr std::size_t kFirst = 4;
+  if (ids.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < ids.size() && i < kFirst; ++i) list += (i > 0 ? ", " : "") + std::to_string(ids[i]);
+  if (ids.size() > kFirst) list += ", ...";
+  const bool is_one = ids.size() == 1;
+  notes.push_back(std::to_string(ids.size()) + (is_one ? " tet has" : " tets have") + " the corners of a tet before (" +
+                  list + "), and will not be parted by cuts; set mend, which drops " + (is_one ? "it" : "them"));
+}
+
 }  // namespace
 
 LogSink log_to(incise_log log, void* user) {
@@ -105,7 +117,7 @@ Result<EngineOptions> engine_options(const incise_engine_options* given, EngineO
   return options;
 }
 
-Result<TetMesh> mesh_of(const incise_mesh_arrays* given) {
+Result<TetMesh> mesh_of(const incise_mesh_arrays* given, std::vector<std::string>& notes) {
   if (given == nullptr) return bad("the arrays of the mesh are null");
   incise_mesh_arrays c{};
   if (take(given, c, "incise_mesh_arrays") != INCISE_OK) return bad(incise_last_error());
@@ -114,6 +126,8 @@ Result<TetMesh> mesh_of(const incise_mesh_arrays* given) {
   if (c.mend != 0) {
     if (const Status sound = check_for_mending(soup); !sound.ok()) return sound.error();
     normalise(soup);
+  } else {
+    note_duplicates(find_duplicate_tets(soup), notes);
   }
   return TetMesh::build(std::move(soup));
 }
@@ -121,7 +135,7 @@ Result<TetMesh> mesh_of(const incise_mesh_arrays* given) {
 void fill(incise_report& report, const CutStatistics& cut) {
   report.steps = cut.steps;
   report.cut_tets = cut.cut_tets;
-  report.created_tets = static_cast<std::int64_t>(cut.created_tets);
+  report.created_tets = cut.created_tets;
   report.new_vertices = cut.new_vertices;
   report.copied_vertices = cut.copied_vertices;
   report.incision_faces = cut.incision_faces;

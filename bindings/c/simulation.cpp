@@ -217,7 +217,10 @@ Result<FrameInput> input_of(const incise_frame_input* given) {
     return Error{ErrorCode::kBadArgument, "hooks or tools are null, and their number is not 0", {}};
   }
   FrameInput input;
-  if (c.blade != nullptr) input.blade = pose_of(c.blade, c.n_blade, c.direction);
+  if (c.blade != nullptr) {
+    input.blade = pose_of(c.blade, c.n_blade, c.direction);
+    input.blade->slicing = c.slicing;
+  }
   input.hooks.reserve(c.n_hooks);  // a number that was negative ends here
   input.tools.reserve(c.n_tools);
   for (std::uint64_t i = 0; i < c.n_hooks; ++i) {
@@ -329,7 +332,12 @@ incise_status incise_default_simulation_options(incise_simulation_options* optio
 
 incise_status incise_simulation_create(const incise_mesh_arrays* mesh, const incise_simulation_options* options,
                                        incise_simulation** simulation) {
-  return c::create(simulation, [&] { return c::make(c::mesh_of(mesh), options); });
+  return c::create(simulation, [&] {
+    std::vector<std::string> notes;
+    Result<c::Made> made = c::make(c::mesh_of(mesh, notes), options);
+    if (made.ok()) made->notes = std::move(notes);
+    return made;
+  });
 }
 
 incise_status incise_simulation_read(const char* path, const incise_simulation_options* options,

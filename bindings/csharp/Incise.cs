@@ -200,7 +200,7 @@ namespace Incise
             public double volume;
         }
 
-        /// <summary>What a call did. Counts are sums over its steps.</summary>
+        /// <summary>What a call did. Counts are sums over its steps. A step may take back what those before it made where the blade was: of a step or frame the growth can be below zero, and the sum over its stroke is what is there at the end.</summary>
         [StructLayout(LayoutKind.Sequential)]
         public struct incise_report
         {
@@ -209,9 +209,9 @@ namespace Incise
             public ulong steps;
             public ulong cut_tets;
             public long created_tets;
-            public ulong new_vertices;
+            public long new_vertices;
             public ulong copied_vertices;
-            public ulong incision_faces;
+            public long incision_faces;
             public ulong snapped_vertices;
             public ulong bent_vertices;
             public ulong crumbs_kept;
@@ -474,6 +474,7 @@ namespace Incise
             public ulong n_hooks;
             public incise_tool* tools;
             public ulong n_tools;
+            public double slicing;
         }
 
         /// <summary>What a frame did.</summary>
@@ -619,7 +620,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_free(IntPtr engine);
 
-        /// <summary>What reading changed or left out, one line each: copies at most `room` bytes with a closing 0, tells in `count` how many the whole takes.</summary>
+        /// <summary>What reading changed or left out, and of arrays that are not mended the duplicate tets, one line each: copies at most `room` bytes with a closing 0, tells in `count` how many the whole takes.</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_engine_notes(IntPtr engine, IntPtr text, ulong room, ulong* count);
 
@@ -979,7 +980,7 @@ namespace Incise
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_batch_merge(IntPtr plan, [MarshalAs(UnmanagedType.LPUTF8Str)] string folder, incise_told tell, IntPtr user);
 
-        /// <summary>Computes `verify_items` items again, and compares hashes: the report's "ok", "differences" and "stopped".</summary>
+        /// <summary>Computes `verify_items` items again, and compares their lines: the report's "ok", "differences" and "stopped".</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int incise_batch_verify(IntPtr plan, [MarshalAs(UnmanagedType.LPUTF8Str)] string folder, incise_batch_options* options, incise_told tell, IntPtr user);
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <new>
 
 #include "incise/core/profile.h"
@@ -19,6 +21,11 @@ struct CutContext {
   StageTimes& times;
   CutStatistics& statistics;
 };
+
+/// What `count` has become more since it was `before`; less than zero where it is fewer.
+inline std::int64_t growth(std::size_t before, std::size_t count) {
+  return static_cast<std::int64_t>(count) - static_cast<std::int64_t>(before);
+}
 
 /// Runs `work` on such a context. Where it fails, or memory runs out, the steps that it appended are taken back.
 template <class Work>

@@ -586,7 +586,7 @@ void Cutter::cut_bridges(const CutContext& context, const SweptTriangles& swept,
   const std::vector<Side> opened =
       incise::cut_bridges(transaction, stroke_cut_.surface(), swept, joints, stroke_.spacing, tag);
   context.journal.append_if_changed(transaction.commit());
-  context.statistics.incision_faces += opened.size() / 2;
+  context.statistics.incision_faces += growth(0, opened.size()) / 2;
   context.statistics.copied_vertices += context.mesh.vertex_count() - vertices;
   if (!opened.empty()) stroke_cut_.part_edges(context, opened);
 }

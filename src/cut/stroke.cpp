@@ -20,6 +20,11 @@ Error bad_stroke(const Stroke& stroke, const std::string& what, std::vector<std:
   return {ErrorCode::kBadArgument, place + what, std::move(ids)};
 }
 
+Error incomplete(const Stroke& stroke, const std::string& needs) {
+  const std::string name = stroke.name.empty() ? "" : " \"" + stroke.name + "\"";
+  return {ErrorCode::kBadArgument, "the stroke" + name + " needs " + needs, {}};
+}
+
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
 }
@@ -69,11 +74,11 @@ Vec3 tangent_of(const Vec3& n) {
 Status check(const Stroke& stroke) {
   const std::size_t times = stroke.times.size();
   if (stroke.edges.size() != times) {
-    return bad_stroke(stroke, "needs one polyline per time; it has " + std::to_string(stroke.edges.size()) + " for " +
+    return incomplete(stroke, "one polyline per time; it has " + std::to_string(stroke.edges.size()) + " for " +
                                   std::to_string(times) + " times");
   }
   if (times < 2) {
-    return bad_stroke(stroke, "needs at least two times: a blade sweeps, and cuts, what lies between two places");
+    return incomplete(stroke, "at least two times: a blade sweeps, and cuts, what lies between two places");
   }
   for (std::size_t i = 0; i < times; ++i) {
     if (!std::isfinite(stroke.times[i]) || (i > 0 && !(stroke.times[i] > stroke.times[i - 1]))) {

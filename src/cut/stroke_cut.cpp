@@ -343,12 +343,11 @@ void StrokeCut::rebuild(const CutContext& context, bool closes_pinched) {
   const RebuildStatistics done = rebuild_.run(
       transaction, complex_, sheet_, {tags_, snap() > 0, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
   Step step = transaction.commit();
-  context.statistics.created_tets += context.mesh.tet_count() - tets;
-  context.statistics.new_vertices += context.mesh.vertex_count() - vertices;
+  context.statistics.created_tets += growth(tets, context.mesh.tet_count());
+  context.statistics.new_vertices += growth(vertices, context.mesh.vertex_count());
   context.statistics.copied_vertices += done.copied_vertices;
   // A step may close more sides than it opens; the sum over a stroke counts what is open at its end.
-  const auto opened = static_cast<std::int64_t>(done.opened_sides) - static_cast<std::int64_t>(done.closed_sides);
-  context.statistics.incision_faces += static_cast<std::uint64_t>(opened / 2);
+  context.statistics.incision_faces += growth(done.closed_sides, done.opened_sides) / 2;
   context.statistics.crumbs_kept += done.crumbs_kept;
   context.statistics.latent_faces += done.latent_faces;
   for (const Side side : rebuild_.left_pinched()) {
@@ -673,8 +672,8 @@ void StrokeCut::part_edges(const CutContext& context, std::span<const Side> wall
   Transaction transaction(context.mesh);
   context.statistics.pinched_edges += part_pinched_edges(transaction, walls, walker_);
   Step step = transaction.commit();
-  context.statistics.created_tets += context.mesh.tet_count() - tets;
-  context.statistics.new_vertices += context.mesh.vertex_count() - vertices;
+  context.statistics.created_tets += growth(tets, context.mesh.tet_count());
+  context.statistics.new_vertices += growth(vertices, context.mesh.vertex_count());
   context.journal.append_if_changed(std::move(step));
 }
 

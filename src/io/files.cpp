@@ -115,6 +115,7 @@ Status write_all(const fs::path& path, std::string_view bytes, fs::path& tempora
 }  // namespace
 
 Result<std::string> load_file(const fs::path& path, const ReadLimits& limits) {
+  if (path.empty()) return Error{ErrorCode::kBadFile, "the name of the file is empty; give one"};
   std::error_code code;
   if (fs::is_directory(path, code)) {
     return io_error(ErrorCode::kBadFile, path, "is a folder; give the file in it");
@@ -153,6 +154,13 @@ Result<std::string> load_either(const fs::path& path, const ReadLimits& limits) 
   std::string why;
   if (!gunzip(*bytes, limits.max_inflated_bytes, out, why)) return io_error(ErrorCode::kBadFile, path, why);
   return out;
+}
+
+Status check_place(const fs::path& path) {
+  if (path.empty()) return Error{ErrorCode::kBadArgument, "the name of the file is empty; give one"};
+  std::error_code code;
+  if (!fs::is_directory(path, code)) return {};
+  return io_error(ErrorCode::kIo, path, "is a folder; give the name of a file in it");
 }
 
 Status store_files(const std::vector<std::pair<fs::path, std::string_view>>& files) {

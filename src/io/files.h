@@ -21,6 +21,9 @@ namespace io {
 /// The bytes of `path`, or of `path` with ".gz"; gunzipped.
 [[nodiscard]] Result<std::string> load_either(const std::filesystem::path& path, const ReadLimits& limits);
 
+/// Whether a file may have this name. Errors: kBadArgument where it is empty, kIo where a folder has it.
+[[nodiscard]] Status check_place(const std::filesystem::path& path);
+
 /// Write all files beside their places, then rename them all. On failure nothing is left behind.
 [[nodiscard]] Status store_files(const std::vector<std::pair<std::filesystem::path, std::string_view>>& files);
 

@@ -381,6 +381,7 @@ Result<SurfaceSoup> read_surface(const std::filesystem::path& path, const ReadLi
 
 Status write_surface(const std::filesystem::path& path, const SurfaceSoup& surface) {
   if (!is_sound(surface)) return Error{ErrorCode::kBadArgument, "a vertex number of the surface is out of range"};
+  if (Status status = check_place(path); !status.ok()) return status;
   const Extension extension = extension_of(path);
   std::string bytes;
   if (extension.name == ".obj") bytes = write_obj(surface);

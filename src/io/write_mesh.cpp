@@ -43,6 +43,10 @@ const char* find_fault(const MeshData& data) {
 }
 
 Error unknown_extension(std::string_view extension) {
+  if (extension.empty()) {
+    return {ErrorCode::kBadArgument,
+            "the name of the file has no extension, which says the format; use " + writable_extensions()};
+  }
   return {ErrorCode::kBadArgument,
           "no mesh can be written as " + in_quotes(extension) + "; use " + writable_extensions()};
 }
@@ -116,6 +120,7 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path,
 }
 
 Status write_mesh(const std::filesystem::path& path, const MeshData& data, const WriteOptions& options) {
+  if (Status status = check_place(path); !status.ok()) return status;
   const Extension extension = extension_of(path);
   const std::vector<std::filesystem::path> paths = mesh_files(path, options);
   std::vector<std::string> bytes;

@@ -29,7 +29,7 @@ Status divide(const CutContext& context, const Sheet& sheet, std::uint32_t tag, 
   const std::vector<IncisionFace> faces = refinement.apply(transaction);
   open_faces(transaction, faces, tag, context.statistics);
   commit(context, transaction, sides_of(faces));
-  context.statistics.created_tets += context.mesh.tet_count() - before;
+  context.statistics.created_tets += growth(before, context.mesh.tet_count());
   return {};
 }
 

@@ -73,12 +73,12 @@ void open_faces(Transaction& transaction, const std::vector<IncisionFace>& faces
 }
 
 void commit(const CutContext& context, Transaction& transaction, const std::vector<Side>& walls) {
-  context.statistics.new_vertices += transaction.new_vertices().size();
+  context.statistics.new_vertices += growth(0, transaction.new_vertices().size());
   context.journal.append_if_changed(transaction.commit());
   StarWalker walker;
   Transaction parting(context.mesh);
   context.statistics.pinched_edges += part_pinched_edges(parting, walls, walker);
-  context.statistics.new_vertices += parting.new_vertices().size();
+  context.statistics.new_vertices += growth(0, parting.new_vertices().size());
   context.journal.append_if_changed(parting.commit());
 }
 

@@ -74,7 +74,7 @@ Status remove_elements(const CutContext& context, const Sheet& sheet, std::uint3
   Transaction transaction(context.mesh);
   const std::vector<Star> stars = find_stars(context.mesh, removed, walker);
   const std::vector<Side> walls = remove(transaction, removed, tag);
-  context.statistics.incision_faces += walls.size();
+  context.statistics.incision_faces += growth(0, walls.size());
   for (const auto& [vertex, star] : stars) {
     if (star.empty()) {
       transaction.remove_vertex(vertex);

@@ -305,6 +305,10 @@ Defects find_defects(const TetSoup& soup) {
   return Finder(soup).run();
 }
 
+std::vector<std::uint32_t> find_duplicate_tets(const TetSoup& soup) {
+  return find_repeated_tets(soup.tets);
+}
+
 std::vector<NamedDefect> list_defects(const Defects& defects) {
   const auto counts = counts_of(defects);
   std::vector<NamedDefect> list(kDefectKinds);

@@ -27,12 +27,12 @@ Status SheetCut::cut(const CutContext& context, const Sheet& sheet, std::uint32_
   const Subdivision subdivision = divide(transaction, front, statistics, context.times);
   front.take(context.mesh, sheet, near_, walker_);
   separate(transaction, subdivision, tag, statistics, context.times);
-  statistics.new_vertices += transaction.new_vertices().size();
+  statistics.new_vertices += growth(0, transaction.new_vertices().size());
   if (context.journal.append_if_changed(transaction.commit())) {
     front.follow(context.mesh, context.journal.step(context.journal.position() - 1));
   }
   part_edges(context, subdivision);
-  statistics.created_tets += context.mesh.tet_count() - tets_before;
+  statistics.created_tets += growth(tets_before, context.mesh.tet_count());
   return {};
 }
 
@@ -64,7 +64,7 @@ void SheetCut::separate(Transaction& transaction, const Subdivision& subdivision
                         CutStatistics& statistics, StageTimes& times) {
   const StageZone zone(times, Stage::kSeparate);
   const Separation separation = separate_as_paper(transaction, subdivision.incision, tag, walker_);
-  statistics.incision_faces += separation.opened_faces;
+  statistics.incision_faces += growth(0, separation.opened_faces);
   latent_faces_ = separation.latent_faces;
   statistics.copied_vertices += separation.copied_vertices;
   statistics.pinched_edges += separation.pinched_edges;
@@ -74,7 +74,7 @@ void SheetCut::part_edges(const CutContext& context, const Subdivision& subdivis
   const StageZone zone(context.times, Stage::kSeparate);
   Transaction transaction(context.mesh);
   context.statistics.pinched_edges += part_pinched_edges(transaction, sides_of(subdivision.incision), walker_);
-  context.statistics.new_vertices += transaction.new_vertices().size();
+  context.statistics.new_vertices += growth(0, transaction.new_vertices().size());
   context.journal.append_if_changed(transaction.commit());
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <thread>
@@ -51,6 +52,55 @@ TEST(CInterface, errors_have_code_message_and_ids) {
   std::uint64_t ids[4] = {};
   ASSERT_EQ(incise_last_error_ids(ids, 4), 1U);
   EXPECT_EQ(ids[0], 1U);
+}
+
+TEST(CInterface, errors_are_short_and_keep_their_remedy) {
+  incise_engine* engine = nullptr;
+  const std::string path = "/no/" + std::string(200, 'x') + "/" + std::string(3000, 'y') + ".mesh";
+  ASSERT_EQ(incise_engine_read(path.c_str(), nullptr, &engine), INCISE_BAD_FILE);
+  const std::string message = incise_last_error();
+  EXPECT_LE(message.size(), 500U);
+  EXPECT_EQ(message.rfind("/no/xxx", 0), 0U) << message;
+  EXPECT_NE(message.find(" ... "), std::string::npos) << message;
+  EXPECT_NE(message.find("; check the name"), std::string::npos) << message;
+}
+
+TEST(CInterface, names_of_files_must_be_names_of_files) {
+  incise_engine* read = nullptr;
+  ASSERT_EQ(incise_engine_read("", nullptr, &read), INCISE_BAD_FILE);
+  EXPECT_STREQ(incise_last_error(), "the name of the file is empty; give one");
+  const EngineHandle engine = cube(2);
+  const Folder folder;
+  const std::string path = std::filesystem::path(folder / "x").parent_path().string();
+  const auto ends_with = [](const std::string& part) {
+    const std::string message = incise_last_error();
+    EXPECT_TRUE(message.size() >= part.size() && message.substr(message.size() - part.size()) == part) << message;
+  };
+  EXPECT_EQ(incise_engine_write(engine.get(), path.c_str(), INCISE_AT_REST), INCISE_IO);
+  ends_with(path + ": is a folder; give the name of a file in it");
+  EXPECT_EQ(incise_engine_write_surface(engine.get(), path.c_str()), INCISE_IO);
+  ends_with(path + ": is a folder; give the name of a file in it");
+  EXPECT_EQ(incise_engine_write(engine.get(), "", INCISE_AT_REST), INCISE_BAD_ARGUMENT);
+  ends_with("the name of the file is empty; give one");
+  EXPECT_EQ(incise_engine_write(engine.get(), (path + "/mesh").c_str(), INCISE_AT_REST), INCISE_BAD_ARGUMENT);
+  EXPECT_NE(std::string(incise_last_error()).find("has no extension"), std::string::npos) << incise_last_error();
+}
+
+TEST(CInterface, notes_name_duplicate_tets_that_were_kept) {
+  const std::uint32_t tets[] = {0, 1, 2, 3, 1, 0, 3, 2};
+  auto mesh = two_tets(tets);
+  const auto notes_of = [&mesh] {
+    incise_engine* made = nullptr;
+    EXPECT_EQ(incise_engine_create(&mesh, nullptr, &made), INCISE_OK) << incise_last_error();
+    const EngineHandle engine(made);
+    char text[500] = "";
+    EXPECT_EQ(incise_engine_notes(made, text, sizeof text, nullptr), INCISE_OK);
+    return std::string(text);
+  };
+  EXPECT_EQ(notes_of(),
+            "1 tet has the corners of a tet before (1), and will not be parted by cuts; set mend, which drops it\n");
+  mesh.mend = 1;
+  EXPECT_EQ(notes_of(), "");
 }
 
 TEST(CInterface, errors_are_of_the_thread) {

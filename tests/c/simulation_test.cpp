@@ -107,6 +107,27 @@ TEST(CSimulation, hooks_pull_and_tools_press) {
   EXPECT_EQ(incise_simulation_frame(simulation.get(), &input, &report), INCISE_BAD_ARGUMENT);
 }
 
+TEST(CSimulation, an_edge_that_slices_is_pushed_with_less) {
+  std::array<double, 2> strongest{};
+  for (const std::size_t k : {0U, 1U}) {
+    const SimulationHandle simulation = hanging_cube();
+    double edge[6] = {0.5, -0.2, -0.2, 0.5, -0.2, 0.5};
+    auto input = sized<incise_frame_input>();
+    input.blade = edge;
+    input.n_blade = 2;
+    input.slicing = 3.0 * static_cast<double>(k);
+    auto report = sized<incise_frame_report>();
+    for (int i = 0; i < 20; ++i) {
+      edge[1] = edge[4] = -0.2 + 0.05 * i;
+      ASSERT_EQ(incise_simulation_frame(simulation.get(), &input, &report), INCISE_OK) << incise_last_error();
+      strongest[k] = std::max(strongest[k], std::abs(report.blade_force[1]));
+    }
+    input.slicing = -1;
+    EXPECT_EQ(incise_simulation_frame(simulation.get(), &input, &report), INCISE_BAD_ARGUMENT);
+  }
+  EXPECT_LT(strongest[1], 0.3 * strongest[0]);
+}
+
 TEST(CSimulation, the_blade_cuts_and_feels) {
   const SimulationHandle simulation = hanging_cube();
   double edge[6] = {0.5, -0.2, -0.2, 0.5, -0.2, 0.5};

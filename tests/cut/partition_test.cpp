@@ -86,7 +86,7 @@ TEST(Partition, of_random_planes_is_the_oracles) {
     const Vec3 normal = random.point(-1, 1);
     Engine engine = make_engine(jittered_cube(4, seed), seed % 2 == 0 ? 0.0 : 0.2);
     const CutStatistics done = cut(engine, plane(engine, normal, normal.dot(random.point(0.2, 0.8))));
-    EXPECT_EQ(done.incision_faces, Joined(engine.mesh()).walls.size());
+    EXPECT_EQ(static_cast<std::size_t>(done.incision_faces), Joined(engine.mesh()).walls.size());
     EXPECT_TRUE(expect_partition_of_oracle(engine.mesh()));
   }
 }

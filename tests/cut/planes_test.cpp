@@ -34,7 +34,7 @@ void expect_mid_layer_cut(std::uint32_t n, int axis, double snap, Profile profil
   EXPECT_EQ(statistics.cut_tets, 6U * n * n);
   EXPECT_EQ(statistics.incision_faces, 8U * n * n);
   EXPECT_EQ(statistics.copied_vertices, (2U * n + 1) * (2U * n + 1));
-  EXPECT_EQ(statistics.new_vertices, 2 * statistics.copied_vertices);
+  EXPECT_EQ(static_cast<std::uint64_t>(statistics.new_vertices), 2 * statistics.copied_vertices);
   EXPECT_EQ(statistics.snapped_vertices, 0U);
   expect_pieces(engine.mesh(), {place, 1 - place}, 1e-12);
   EXPECT_EQ(euler_characteristics(engine.mesh()), (std::vector<int>{2, 2}));

@@ -127,8 +127,8 @@ TEST(Engine, reports_counts_that_the_mesh_confirms) {
   const std::size_t tets = engine.mesh().tet_count(), vertices = engine.mesh().vertex_count();
   const Result<StrokeReport> report = engine.cut(plane(engine, Vec3(0.3, 0.5, 0.9), 0.8));
   ASSERT_TRUE(report.ok());
-  EXPECT_EQ(engine.mesh().tet_count(), tets + report->cut.created_tets);
-  EXPECT_EQ(engine.mesh().vertex_count(), vertices + report->cut.new_vertices);
+  EXPECT_EQ(engine.mesh().tet_count(), tets + static_cast<std::size_t>(report->cut.created_tets));
+  EXPECT_EQ(engine.mesh().vertex_count(), vertices + static_cast<std::size_t>(report->cut.new_vertices));
   EXPECT_EQ(report->cut.steps, 1U);
   EXPECT_EQ(report->stroke, 1U);
   EXPECT_GT(report->cut.snapped_vertices, 0U);
@@ -241,7 +241,7 @@ TEST(EngineMaintenance, accounts_for_the_tets_that_it_takes_away) {
   const std::int64_t before = tets();
   const Result<StrokeReport> report = engine.cut(plane(engine, Vec3(1, 0.1, 0.2), 0.57));
   ASSERT_TRUE(report.ok());
-  EXPECT_EQ(tets(), before + static_cast<std::int64_t>(report->cut.created_tets) + report->maintain.created_tets);
+  EXPECT_EQ(tets(), before + report->cut.created_tets + report->maintain.created_tets);
 }
 
 // --- refusals
@@ -391,7 +391,7 @@ TEST(Engine, of_an_empty_mesh_cuts_nothing) {
   const Result<StrokeReport> report =
       engine.cut(quad_stroke(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(1, 1, 0)));
   ASSERT_TRUE(report.ok());
-  EXPECT_EQ(report->cut.created_tets, 0U);
+  EXPECT_EQ(report->cut.created_tets, 0);
 }
 
 TEST(Engine, of_a_body_whose_points_all_coincide_cuts_nothing) {

@@ -90,7 +90,8 @@ TEST(Simulation, TissueWithoutToughnessIsCutToWhereTheBladeIs) {
 
 TEST(Simulation, FramesTellEachStepOnce) {
   Block block;
-  std::uint64_t steps = 0, faces = 0;
+  std::uint64_t steps = 0;
+  std::int64_t faces = 0;
   for (unsigned i = 0; i <= 15; ++i) {
     const FrameReport report = block.frame(Block::blade_at(0.021 - 0.001 * i));
     steps += report.cut.steps;
@@ -104,7 +105,22 @@ TEST(Simulation, FramesTellEachStepOnce) {
   });
   EXPECT_EQ(steps + last.cut.steps, 16U);
   EXPECT_GT(opened, 0U);
-  EXPECT_GT(faces + last.cut.incision_faces, 0U);
+  EXPECT_GT(faces + last.cut.incision_faces, 0);
+}
+
+TEST(Simulation, WhatAFrameTakesBackCountsBelowZero) {
+  Block block;
+  double least = 0, most = 0, sum = 0;
+  for (unsigned i = 0; i <= 25; ++i) {
+    const CutStatistics cut = block.frame(Block::blade_at(0.021 - 0.00088 * i)).cut;
+    const auto vertices = static_cast<double>(cut.new_vertices), faces = static_cast<double>(cut.incision_faces);
+    least = std::min({least, vertices, faces});
+    most = std::max({most, vertices, faces});
+    sum += faces;
+  }
+  EXPECT_LT(least, 0);
+  EXPECT_LT(most, 1e4);
+  EXPECT_GT(sum, 0);
 }
 
 TEST(Simulation, AThroughCutLeavesTwoPieces) {

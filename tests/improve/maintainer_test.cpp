@@ -246,7 +246,7 @@ TEST(Maintenance, counts_what_it_made) {
   Engine engine = maintaining_engine(scene.soup, 0.0);
   const StrokeReport report = cut_and_maintain(engine, scene.strokes[0]);
   EXPECT_EQ(static_cast<std::int64_t>(engine.mesh().tet_count()),
-            static_cast<std::int64_t>(scene.soup.tets.size() + report.cut.created_tets) + report.maintain.created_tets);
+            static_cast<std::int64_t>(scene.soup.tets.size()) + report.cut.created_tets + report.maintain.created_tets);
   std::size_t moves = 0, born = 0, peeled_or_merged = 0;
   for (std::size_t i = 1; i < engine.journal().size(); ++i) {
     moves += engine.journal().step(i).moved.size();

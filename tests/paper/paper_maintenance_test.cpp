@@ -91,7 +91,7 @@ TEST(PaperMaintenance, switches_stages_and_counts_and_times_them) {
     const std::size_t tets = engine.mesh().tet_count();
     StrokeReport report = cut_and_maintain(engine, plane(engine, Vec3(0.3, 0.5, 0.9), 0.8));
     EXPECT_EQ(static_cast<std::int64_t>(engine.mesh().tet_count()),
-              static_cast<std::int64_t>(tets + report.cut.created_tets) + report.maintain.created_tets);
+              static_cast<std::int64_t>(tets) + report.cut.created_tets + report.maintain.created_tets);
     return report;
   };
   const StrokeReport none = run(kNothing), merged = run(kMergeOnly), improved = run(kImproveOnly), all = run(kAll);

@@ -302,6 +302,57 @@ def test_followers_of_one_engine_refuse_another():
             call()
 
 
+def test_rows_of_different_lengths_are_refused():
+    with pytest.raises(incise.BadArgument, match="same length"):
+        incise.Engine([[0, 0, 0], [1, 0]], [[0, 1, 2, 3]])
+    with pytest.raises(incise.BadArgument, match="same length"):
+        incise.box((2, 2, 2)).cut([[[0, 0, 0], [1, 1, 1]], [[0, 0, 0]]])
+
+
+def test_what_is_no_number_hook_material_or_mesh_is_told():
+    engine = incise.box((2, 2, 2))
+    with pytest.raises(TypeError, match="offset is 'x'; a number is wanted"):
+        engine.cut_plane((1, 0, 0), "x")
+    cube = engine.compact()
+    with pytest.raises(incise.BadArgument, match="'x' is no material"):
+        incise.Simulation(cube.points, cube.tets, materials="x")
+    body = incise.Simulation(cube.points, cube.tets)
+    with pytest.raises(incise.BadArgument, match="3 is no hook"):
+        body.frame(hooks=[3])
+    with pytest.raises(TypeError, match="None is no mesh of meshio"):
+        incise.Engine.from_meshio(None)
+
+
+def test_find_wants_true_or_false_for_each_place():
+    cube = incise.box((2, 2, 2)).compact()
+    body = incise.Simulation(cube.points, cube.tets)
+    for where in (lambda rest: True, lambda rest: rest[:, 2], lambda rest: rest[:3, 2] > 0, lambda rest: np.array([0, 1])):
+        with pytest.raises(incise.BadArgument, match="True or False for each of 27 places"):
+            body.find(where)
+    with pytest.raises(TypeError, match="a function is wanted"):
+        body.find(3)
+    assert len(body.find(lambda rest: (rest[:, 2] > 0.9).tolist())) == 9
+
+
+def test_messages_are_short():
+    engine = incise.box((2, 2, 2))
+    scene = {"format": "incise-scene", "version": 1, "x" * 3000: 1}
+    for call in (lambda: incise.read("/tmp/" + "y" * 3000), lambda: incise.box((2, 2, 2), profile="p" * 5000),
+                 lambda: engine.to_bytes("." + "y" * 3000), lambda: incise.Simulation.from_scene(scene),
+                 lambda: engine.cut(incise.Stroke(np.full((2, 2, 3), np.nan), None, "n" * 5000))):
+        with pytest.raises(incise.InciseError) as error:
+            call()
+        assert len(str(error.value)) <= 500
+    with pytest.raises(TypeError) as unfit:
+        engine.cut_plane((1, 0, 0), "z" * 5000)
+    assert len(str(unfit.value)) <= 500
+
+
+def test_a_stroke_of_one_pose_is_named():
+    with pytest.raises(incise.BadArgument, match="^the stroke needs at least two times"):
+        incise.box((2, 2, 2)).cut(np.zeros((1, 2, 3)))
+
+
 def test_what_recompute_raises_comes_out_and_what_follows_is_sound():
     engine = incise.box((3, 3, 3))
     values, spoiled = incise.Attributes(engine), [False]

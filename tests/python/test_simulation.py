@@ -86,6 +86,18 @@ def test_hooks_pull_and_tools_press():
         body.frame(hooks=[incise.Hook(1, (0, 0), 0.1)])
 
 
+def test_an_edge_that_slices_is_pushed_with_less():
+    strongest = []
+    for slicing in (0, 3):
+        body = incise.Simulation.from_scene({**SCENE, "strokes": []})
+        forces = [np.linalg.norm(body.frame(blade=[[0.5, y, -0.2], [0.5, y, 0.5]], direction=(0, 1, 0),
+                                            slicing=slicing).blade_force) for y in np.linspace(-0.2, 1.2, 25)]
+        strongest.append(max(forces))
+    assert strongest[1] < 0.3 * strongest[0]
+    with pytest.raises(incise.BadArgument, match="slicing"):
+        body.frame(blade=[[0.5, 0, -0.2], [0.5, 0, 0.5]], slicing=-1)
+
+
 def test_the_blade_cuts_and_is_taken_back():
     body = incise.Simulation.from_scene({**SCENE, "strokes": []})
     before = body.mesh.hash
@@ -100,6 +112,17 @@ def test_the_blade_cuts_and_is_taken_back():
     assert body.cut_report.stroke == 0 and body.mesh.stroke_count == 1
     assert body.undo() and body.mesh.hash == before and not body.undo()
     assert body.redo() and body.mesh.hash != before
+
+
+def test_what_a_frame_takes_back_counts_below_zero():
+    body = incise.Simulation.from_scene({**SCENE, "strokes": []})
+    grown = []
+    for i in range(25):
+        y = -0.2 + 0.06 * i
+        body.frame(blade=[[0.5, y, -0.2], [0.5, y, 0.5]], direction=(0, 1, 0))
+        grown.append((body.cut_report.created_tets, body.cut_report.new_vertices, body.cut_report.incision_faces))
+    assert np.abs(grown).max() < 10_000 and np.min(grown) < 0
+    assert np.sum(grown, axis=0).min() > 0
 
 
 def test_materials_by_region():

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from .errors import BadArgument
+from .errors import BadArgument, shown
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
@@ -41,10 +41,14 @@ def _hides(value: Any) -> bool:
 
 
 def plain(value: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
-    """As an array of numpy; what hides elements behind a mask is refused: C would take what is hidden."""
+    """As an array of numpy; what hides elements behind a mask is refused: C would take what is hidden. So are lists of
+    different lengths, of which no array can be made."""
     if _hides(value):
         raise BadArgument(f"{name} has masked elements; fill them, or leave them out")
-    return np.asarray(value)
+    try:
+        return np.asarray(value)
+    except ValueError as error:
+        raise BadArgument(f"{name} cannot be made an array of: {error}; rows of the same length are wanted") from None
 
 
 def real(value: npt.ArrayLike, name: str) -> Floats:
@@ -55,7 +59,20 @@ def real(value: npt.ArrayLike, name: str) -> Floats:
         return array
     if kind.kind not in "biufO":  # of complex ones numpy would drop half, and warn; dates and texts it would turn
         raise BadArgument(f"{name} is of {kind}; real numbers are wanted")
-    return _for_c(array, np.float64)
+    try:
+        return _for_c(array, np.float64)
+    except ValueError as error:  # of objects
+        raise BadArgument(f"{name} are no real numbers: {error}") from None
+
+
+def number(value: Any, name: str) -> float:
+    """One real number: of a text `float` would read it, or raise what names no argument."""
+    if isinstance(value, (str, bytes, bytearray)):
+        raise TypeError(f"{name} is {shown(value)}; a number is wanted")
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {shown(value)}; a number is wanted") from None
 
 
 def spread(value: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Floats:
@@ -78,7 +95,7 @@ def whole(value: Any, name: str, least: int, most: int) -> int:
 def flag(value: Any, name: str) -> int:
     """Yes or no for C: a text would be yes, and 0.5 no."""
     if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, (int, np.integer)) and value in (0, 1)):
-        raise TypeError(f"{name} is {value!r}; True or False is wanted")
+        raise TypeError(f"{name} is {shown(value)}; True or False is wanted")
     return int(value)
 
 
@@ -262,22 +279,22 @@ def path_bytes(path: Path) -> bytes:
 def text_bytes(text: str, name: str) -> bytes:
     """A text for C."""
     if not isinstance(text, str):
-        raise TypeError(f"{name} is {text!r}; a text is wanted")
+        raise TypeError(f"{name} is {shown(text)}; a text is wanted")
     try:
         return _without_nul(text.encode(), name)
     except UnicodeEncodeError:
-        raise BadArgument(f"{name} is {text!r}; it has half of a character in it") from None
+        raise BadArgument(f"{name} is {shown(text)}; it has half of a character in it") from None
 
 
 def listener(function: Optional[Callable[..., Any]], name: str) -> None:
     """Refuses what cannot be called; none is fine."""
     if function is not None and not callable(function):
-        raise TypeError(f"{name} is {function!r}; a function is wanted")
+        raise TypeError(f"{name} is {shown(function)}; a function is wanted")
 
 
 def _without_nul(content: bytes, name: str) -> bytes:
     if b"\0" in content:  # C would take what stands before it: another file
-        raise BadArgument(f"{name} is {content!r}; there must be no null character in it")
+        raise BadArgument(f"{name} is {shown(content)}; there must be no null character in it")
     return content
 
 

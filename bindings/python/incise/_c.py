@@ -190,9 +190,9 @@ class incise_report(Structure):
         ("steps", c_uint64),
         ("cut_tets", c_uint64),
         ("created_tets", c_int64),
-        ("new_vertices", c_uint64),
+        ("new_vertices", c_int64),
         ("copied_vertices", c_uint64),
-        ("incision_faces", c_uint64),
+        ("incision_faces", c_int64),
         ("snapped_vertices", c_uint64),
         ("bent_vertices", c_uint64),
         ("crumbs_kept", c_uint64),
@@ -437,6 +437,7 @@ class incise_frame_input(Structure):
         ("n_hooks", c_uint64),
         ("tools", POINTER(incise_tool)),
         ("n_tools", c_uint64),
+        ("slicing", c_double),
     ]
 
 

@@ -206,7 +206,7 @@ def merge(plan: Plan, out: Path, folder: Optional[Path] = None) -> Merge:
 def verify(plan: Plan, out: Path, items: int = 1, seed: int = 0, *, threads: int = 1,
            progress: Optional[Progress] = None, should_stop: Optional[Callable[[], bool]] = None,
            folder: Optional[Path] = None) -> Verification:
-    """Computes `items` items again, which `seed` chooses, and compares the hashes."""
+    """Computes `items` items again, which `seed` chooses, and compares their lines."""
     options = _options(threads)
     options.verify_items = whole(items, "items", 1, 2**64 - 1)
     options.verify_seed = whole(seed, "seed", 0, 2**64 - 1)

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c, exchange
-from ._arrays import Asking, Path, address, flag, indices, labels, listener, numbers, path_bytes, plain, points, poses, text_bytes, vector, waiting, whole
+from ._arrays import Asking, Path, address, flag, indices, labels, listener, number, numbers, path_bytes, plain, points, poses, text_bytes, vector, waiting, whole
 from ._library import Handle, check, default, hear, lib, sized
 from .errors import BadArgument
 from .mesh import Mesh, choice
@@ -232,8 +232,8 @@ class Engine(Mesh):
 
     def cut_plane(self, normal: npt.ArrayLike, offset: float) -> Report:
         """Cuts all that is there along normal . x = offset; the normal of any length but 0."""
-        n = vector(normal, "normal")
-        return self._told(lambda report: lib.incise_engine_cut_plane(self._engine(), address(n), float(offset), report))
+        n, d = vector(normal, "normal"), number(offset, "offset")
+        return self._told(lambda report: lib.incise_engine_cut_plane(self._engine(), address(n), d, report))
 
     def cut_blade(self, path: Path) -> Report:
         """Cuts the strokes of a blade file, one after the other; the report has their sums."""
@@ -242,9 +242,9 @@ class Engine(Mesh):
     def begin_stroke(self, edge: npt.ArrayLike, direction: Optional[npt.ArrayLike] = None) -> int:
         """Puts the blade in place: its edge as the body stands, n x 3, n >= 2. direction: where it cuts; where it
         moves unless given. Returns the stroke's number."""
-        at, way, number = points(edge, "edge"), self._direction(direction), ctypes.c_uint32()
-        check(lib.incise_engine_begin_stroke(self._engine(), address(at), len(at), address(way), byref(number)))
-        return number.value
+        at, way, stroke = points(edge, "edge"), self._direction(direction), ctypes.c_uint32()
+        check(lib.incise_engine_begin_stroke(self._engine(), address(at), len(at), address(way), byref(stroke)))
+        return stroke.value
 
     def step(self, edge: npt.ArrayLike, direction: Optional[npt.ArrayLike] = None) -> Report:
         """Moves the blade on and cuts what it passes through, up to where it stands now."""

@@ -2,14 +2,32 @@
 """What goes wrong, as exceptions: each is the built-in one that a Python programmer would look for, too."""
 from __future__ import annotations
 
+from typing import Any
+
 from . import _c
+
+_LONGEST, _END = 480, 160
+_LONGEST_VALUE = 100
+
+
+def shortened(text: str) -> str:
+    """At most 480 characters, as the library's own messages have: the beginning, and with the remedy the end."""
+    if len(text) <= _LONGEST:
+        return text
+    return text[:_LONGEST - _END - 5] + " ... " + text[-_END:]
+
+
+def shown(value: Any) -> str:
+    """A value as messages have it; of a long one the beginning."""
+    text = repr(value)
+    return text if len(text) <= _LONGEST_VALUE else text[:_LONGEST_VALUE - 4] + " ..."
 
 
 class InciseError(Exception):
     """Something could not be done. `ids` are the elements concerned, a few at most; the message says what they are."""
 
     def __init__(self, message: str, ids: tuple[int, ...] = ()) -> None:
-        super().__init__(message)
+        super().__init__(shortened(message))
         self.ids = ids
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
-from .errors import BadArgument
+from .errors import BadArgument, shown
 
 if TYPE_CHECKING:
     from .mesh import Mesh
@@ -17,6 +17,8 @@ _VTK_TETRA = 10
 
 def arrays_of_meshio(mesh: Any, regions: Optional[str]) -> tuple[Any, Any, Any]:
     """Points, tets and regions of a `meshio.Mesh`; points that no tet uses are left out."""
+    if not all(hasattr(mesh, name) for name in ("points", "cells", "cell_data")):
+        raise TypeError(f"{shown(mesh)} is no mesh of meshio; read one with meshio.read(path)")
     blocks = [index for index, block in enumerate(mesh.cells) if block.type in ("tetra", "tetra10")]
     if not blocks:
         raise BadArgument("the mesh has no tets; its cells are " + ", ".join(block.type for block in mesh.cells))

@@ -14,7 +14,7 @@ from . import _c
 from . import journal as journals
 from ._arrays import Bytes, Floats, Ints, Path, Rows, Slots, address, flag, lines, path_bytes, text_bytes, whole
 from ._library import Handle, check, lib, sized
-from .errors import BadArgument, Busy
+from .errors import BadArgument, shown, Busy
 
 NONE: int = _c.NONE
 """The first vertex of a tet slot that is free, and "no element" elsewhere."""
@@ -27,7 +27,7 @@ _LEVELS = {"counts": _c.VALIDATE_COUNTS, "topology": _c.VALIDATE_TOPOLOGY, "geom
 def choice(given: str, known: dict[str, int], name: str) -> int:
     """The number of a word."""
     if given not in known:
-        raise BadArgument(f"{name} is {given!r}; one of {', '.join(map(repr, known))} is wanted")
+        raise BadArgument(f"{name} is {shown(given)}; one of {', '.join(map(repr, known))} is wanted")
     return known[given]
 
 
@@ -252,7 +252,7 @@ class Mesh:
 
     @property
     def notes(self) -> list[str]:
-        """What reading the file changed or left out."""
+        """What reading the file changed or left out; of arrays, duplicate tets that were kept."""
         count = ctypes.c_uint64()
         check(lib.incise_engine_notes(self._engine(), None, 0, byref(count)))
         text = ctypes.create_string_buffer(count.value)

@@ -14,10 +14,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _c
-from ._arrays import Asking, Floats, Path, Slots, address, flag, listener, path_bytes, plain, points, vector, waiting, whole
+from ._arrays import Asking, Floats, Path, Slots, address, flag, listener, number, path_bytes, plain, points, vector, waiting, whole
 from ._library import Handle, check, default, lib, sized
 from .engine import Report, engine_options, mesh_struct
-from .errors import BadArgument
+from .errors import BadArgument, shown
 from .mesh import Mesh, choice
 
 _RELAXATIONS = {"block_descent": _c.BLOCK_DESCENT, "position_based": _c.POSITION_BASED}
@@ -231,22 +231,29 @@ class Simulation:
         return self._mesh
 
     def find(self, where: Callable[[Floats], npt.NDArray[np.bool_]]) -> Slots:
-        """The vertices whose rest places `where` holds for: it takes n x 3 and returns n."""
+        """The vertices whose rest places `where` holds for: it takes n x 3 and returns n, each True or False."""
+        listener(where, "where")
         live = self._mesh.live_vertices
-        found: Slots = live[np.asarray(where(self._mesh.rest[live]), bool)]
+        holds = plain(where(self._mesh.rest[live]), "what `where` returns")
+        if holds.dtype != bool or holds.shape != live.shape:
+            raise BadArgument(f"what `where` returns is of {holds.dtype} and has the shape {holds.shape}; "
+                              f"True or False for each of {len(live)} places is wanted")
+        found: Slots = live[holds]
         return found
 
     # --- time goes on
 
     def frame(self, blade: Optional[npt.ArrayLike] = None, direction: Optional[npt.ArrayLike] = None,
-              hooks: Sequence[Hook] = (), tools: Sequence[Tool] = ()) -> Frame:
+              hooks: Sequence[Hook] = (), tools: Sequence[Tool] = (), slicing: float = 0) -> Frame:
         """One frame, with everything that the hands hold where it is at its end.
 
         blade: its edge, n x 3; the first frame puts it in place, frame by frame it cuts on, where it is gone the stroke
-        has ended. direction: where it cuts; where it moves unless given.
+        has ended. direction: where it cuts; where it moves unless given. slicing: how fast the edge moves along itself, by
+        how fast it is pushed, 0 to 100: the push bears 1 / (1 + slicing^2) of the toughness.
         """
         keep: list[Any] = []
         struct = _input(blade, direction, hooks, tools, keep)
+        struct.slicing = number(slicing, "slicing")
         report = sized(_c.incise_frame_report)
         with waiting(self._listens):
             check(lib.incise_simulation_frame(self._handle.pointer, byref(struct), byref(report)))
@@ -283,7 +290,7 @@ class Simulation:
         """
         frames, most = ctypes.c_uint32(), whole(max_frames, "max_frames", 0, 2**32 - 1)
         with Asking(should_stop) as callback:
-            check(lib.incise_simulation_settle_until(self._handle.pointer, most, float(speed), callback, None,
+            check(lib.incise_simulation_settle_until(self._handle.pointer, most, number(speed, "speed"), callback, None,
                                                      byref(frames)))
         return frames.value
 
@@ -309,12 +316,13 @@ class Simulation:
         vertices: slots, as `find` gives them; a mask is refused. Where one of them is not live nothing is held.
         """
         for vertex in self._live_slots(vertices):
-            check(lib.incise_simulation_hold(self._handle.pointer, vertex, float(stiffness)))
+            check(lib.incise_simulation_hold(self._handle.pointer, vertex, number(stiffness, "stiffness")))
 
     def pin(self, vertices: "npt.ArrayLike", stiffness: float, strength: float, tears: bool = False) -> None:
         """Holds vertices by springs that bear no more than `strength` N each: beyond it they slip, or tear loose."""
         for vertex in self._live_slots(vertices):
-            check(lib.incise_simulation_pin(self._handle.pointer, vertex, float(stiffness), float(strength), flag(tears, "tears")))
+            check(lib.incise_simulation_pin(self._handle.pointer, vertex, number(stiffness, "stiffness"),
+                                            number(strength, "strength"), flag(tears, "tears")))
 
     def move_hold(self, vertices: npt.ArrayLike, targets: npt.ArrayLike) -> None:
         """Where held vertices are to be: n x 3, or one place for one vertex; length unit."""
@@ -394,12 +402,14 @@ def _materials(materials: Union[Material, Iterable[Material], None], keep: list[
     given = [materials] if isinstance(materials, Material) else list(materials or [])
     structs = (_c.incise_material * len(given))()
     for struct, material in zip(structs, given):
+        if not isinstance(material, Material):
+            raise BadArgument(f"{shown(material)} is no material; Material is")
         struct.is_fallback = int(material.region is None)
         struct.region = whole(material.region or 0, "region", -2**31, 2**31 - 1)
         for name in ("density", "young", "poisson", "toughness", "cut_friction", "stiffening", "rupture", "fibre_young"):
             setattr(struct, name, getattr(material, name))
         struct.fibre[:] = vector(material.fibre, "fibre").tolist()
-        terms = [number for term in material.prony for number in term]
+        terms = [part for term in material.prony for part in term]
         if len(terms) > 6 or len(terms) != 2 * len(material.prony):
             raise BadArgument("prony takes up to three pairs of a share and seconds")
         struct.prony[:] = terms + [0] * (6 - len(terms))
@@ -449,7 +459,7 @@ def _tool(tool: Tool, struct: Any, keep: list[Any]) -> None:
         struct.kind, struct.radius, struct.a[:] = _c.TOOL_FLAT, tool.thickness, vector(tool.back, "back").tolist()
         struct.edge, struct.n_edge = address(edge), len(edge)
     else:
-        raise BadArgument(f"{tool!r} is no tool; Ball, Rod, Plane and Flat are")
+        raise BadArgument(f"{shown(tool)} is no tool; Ball, Rod, Plane and Flat are")
 
 
 def _input(blade: Optional[npt.ArrayLike], direction: Optional[npt.ArrayLike], hooks: Sequence[Hook],
@@ -465,6 +475,8 @@ def _input(blade: Optional[npt.ArrayLike], direction: Optional[npt.ArrayLike], h
         struct.direction = address(way)
     hook_structs, tool_structs = (_c.incise_hook * len(hooks))(), (_c.incise_tool * len(tools))()
     for hook, hook_struct in zip(hooks, hook_structs):
+        if not isinstance(hook, Hook):
+            raise BadArgument(f"{shown(hook)} is no hook; Hook is")
         hook_struct.id = whole(hook.id, "the hook's id", 0, 2**32 - 1)
         hook_struct.radius, hook_struct.stiffness = hook.radius, hook.stiffness
         hook_struct.strength, hook_struct.tears = hook.strength, flag(hook.tears, "tears")

@@ -197,9 +197,9 @@ pub struct incise_report {
     pub steps: u64,
     pub cut_tets: u64,
     pub created_tets: i64,
-    pub new_vertices: u64,
+    pub new_vertices: i64,
     pub copied_vertices: u64,
-    pub incision_faces: u64,
+    pub incision_faces: i64,
     pub snapped_vertices: u64,
     pub bent_vertices: u64,
     pub crumbs_kept: u64,
@@ -426,6 +426,7 @@ pub struct incise_frame_input {
     pub n_hooks: u64,
     pub tools: *const incise_tool,
     pub n_tools: u64,
+    pub slicing: f64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]

@@ -142,8 +142,8 @@ INCISE_API incise_status incise_engine_read_bytes(const void* bytes, uint64_t n_
 /* Null is fine. INCISE_BUSY, and nothing is freed, while another thread is in a call. */
 INCISE_API incise_status incise_engine_free(incise_engine* engine);
 
-/* What reading changed or left out, one line each: copies at most `room` bytes with a closing 0, tells in `count` how
- * many the whole takes. */
+/* What reading changed or left out, and of arrays that are not mended the duplicate tets, one line each: copies at most
+ * `room` bytes with a closing 0, tells in `count` how many the whole takes. */
 INCISE_API incise_status incise_engine_notes(const incise_engine* engine, char* text, uint64_t room, uint64_t* count);
 
 /* ---- the mesh, out ------------------------------------------------------------------------------------------- */
@@ -290,16 +290,17 @@ INCISE_API const char* incise_violation_name(int32_t kind);
 
 /* ---- cutting ------------------------------------------------------------------------------------------------- */
 
-/* What a call did. Counts are sums over its steps. */
+/* What a call did. Counts are sums over its steps. A step may take back what those before it made where the blade was:
+   of a step or frame the growth can be below zero, and the sum over its stroke is what is there at the end. */
 typedef struct incise_report {
   uint32_t size;
   uint32_t stroke;            /* its number: the tag of its walls; 0: none */
   uint64_t steps;             /* steps of the blade */
   uint64_t cut_tets;          /* tets with material on both sides of the sweep */
   int64_t created_tets;       /* by the cut: tets after minus tets before */
-  uint64_t new_vertices;      /* split points and copies */
+  int64_t new_vertices;       /* growth: split points and copies */
   uint64_t copied_vertices;   /* the copies among them */
-  uint64_t incision_faces;    /* faces opened */
+  int64_t incision_faces;     /* growth: faces opened */
   uint64_t snapped_vertices;  /* vertices that took part in the cut */
   uint64_t bent_vertices;     /* of these, not movable onto the sweep */
   uint64_t crumbs_kept;       /* pieces too small to separate */
@@ -691,6 +692,7 @@ typedef struct incise_frame_input {
   uint64_t n_hooks;         /* their number */
   const incise_tool* tools; /* what presses in this frame */
   uint64_t n_tools;         /* their number */
+  double slicing;           /* of the blade: how fast its edge moves along itself, by how fast it is pushed; 0 to 100 */
 } incise_frame_input;
 
 /* What a frame did. */
@@ -890,7 +892,7 @@ INCISE_API incise_status incise_batch_run(const incise_plan* plan, const char* f
 /* Puts the lines of all shards into results.jsonl, in the order of the plan, where all is whole; the report's "ok" says
  * whether it was, and "missing", "contradictory" and "broken_files" what was not. Errors: as above. */
 INCISE_API incise_status incise_batch_merge(const incise_plan* plan, const char* folder, incise_told tell, void* user);
-/* Computes `verify_items` items again, and compares hashes: the report's "ok", "differences" and "stopped". */
+/* Computes `verify_items` items again, and compares their lines: the report's "ok", "differences" and "stopped". */
 INCISE_API incise_status incise_batch_verify(const incise_plan* plan, const char* folder,
                                              const incise_batch_options* options, incise_told tell, void* user);
 

@@ -20,14 +20,16 @@ struct CutOptions {
   double snap = 0.2;
 };
 
-/// What cutting did, summed over the steps of a stroke.
+/// What cutting did, summed over the steps of a stroke. A step takes back what the ones before it did only as far as
+/// the blade had come: counts of growth can be below zero for a step, and so for a frame; their sums over a stroke are
+/// what is there at its end.
 struct CutStatistics {
   std::uint64_t steps = 0;             ///< blade steps swept
   std::uint64_t cut_tets = 0;          ///< tets with material on both sides of the sweep, replaced or separated
-  std::uint64_t created_tets = 0;      ///< growth: tets after minus tets before
-  std::uint64_t new_vertices = 0;      ///< split points and copies
+  std::int64_t created_tets = 0;       ///< growth: tets after minus tets before
+  std::int64_t new_vertices = 0;       ///< growth: split points and copies
   std::uint64_t copied_vertices = 0;   ///< the copies among them
-  std::uint64_t incision_faces = 0;    ///< faces opened, one per pair of sides
+  std::int64_t incision_faces = 0;     ///< growth: faces opened, one per pair of sides
   std::uint64_t snapped_vertices = 0;  ///< vertices that took part in the cut instead of being split beside
   std::uint64_t bent_vertices = 0;     ///< snapped, but not movable onto the sweep: the wall bends to them
   std::uint64_t crumbs_kept = 0;       ///< pieces too small to separate, left attached

@@ -76,6 +76,10 @@ struct NamedDefect {
 /// @return `kDefectKinds` entries. Cost: O(1).
 [[nodiscard]] std::vector<NamedDefect> list_defects(const Defects& defects);
 
+/// Tets whose set of vertices a tet before them has, rising: a mesh of them cannot be cut there, since they have their
+/// faces in common and lie in one place. Cost: O(n log n).
+[[nodiscard]] std::vector<std::uint32_t> find_duplicate_tets(const TetSoup& soup);
+
 /// What `normalise` changed.
 struct Normalised {
   std::uint64_t flipped = 0;                ///< tets turned to positive volume

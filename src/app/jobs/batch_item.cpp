@@ -13,6 +13,7 @@
 #include "app/text/json_write.h"
 #include "app/text/line_reader.h"
 #include "app/text/text_file.h"
+#include "app/text/write_all.h"
 #include "incise/core/hash.h"
 #include "incise/io/mesh_export.h"
 #include "incise/mesh/bounds.h"
@@ -147,8 +148,7 @@ class ItemRunner {
     job.engine.threads = job_.threads;
     job.engine.log = job_.log;
     if (Status status = add_input(*loaded); !status.ok() || result_.was_refused) return status;
-    const bool wants_mesh = writes() && !plan_.output.format.empty();
-    const Result<JobResult> result = run_cut(std::move(loaded).value(), job, wants_mesh);
+    const Result<JobResult> result = run_cut(std::move(loaded).value(), job, !plan_.output.format.empty());
     if (!result.ok()) return result.error();
     add_figures(result->report, line_);
     result_.hash = result->report.broken ? result->report.broken->kept_hash : result->report.hash;
@@ -167,7 +167,7 @@ class ItemRunner {
     job.should_stop = job_.should_stop;
     io::MeshData mesh;
     const std::vector<std::uint32_t> file_vertex = loaded->file_vertex;
-    if (writes() && !plan_.output.format.empty()) {
+    if (!plan_.output.format.empty()) {
       job.look = [&](const Simulation& end) {
         mesh = io::to_mesh_data(end.mesh(), find_components(end.mesh()), file_vertex,
                                 plan_.output.as_it_stands ? io::MeshPose::kAsItStands : io::MeshPose::kAtRest);
@@ -230,37 +230,36 @@ class ItemRunner {
                       {"key", hash_text(result_.input_key)},
                       {"vertices", loaded.mesh.vertex_count()},
                       {"tets", loaded.mesh.tet_count()}};
-    if (!writes() || plan_.output.format.empty() || !plan_.output.before) return {};
-    const std::string name = "before/" + hash + extension();
+    if (plan_.output.format.empty() || !plan_.output.before) return {};
+    const std::string name = before_file(plan_, loaded.mesh.hash());
     line_["input"]["file"] = name;
     std::error_code code;
-    if (fs::exists(job_.folder / name, code)) return {};
+    if (!writes() || fs::exists(job_.folder / name, code)) return {};
     const auto bytes = bytes_of(io::to_mesh_data(loaded.mesh, find_components(loaded.mesh), loaded.file_vertex));
     return bytes.ok() ? write_file(name, *bytes) : Status(bytes.error());
   }
   Status write(const io::MeshData& mesh, const std::vector<Stroke>& strokes) {
     line_["stroke_names"] = Json::array();
     for (std::size_t i = 0; i < strokes.size() && i < kMaxListed; ++i) line_["stroke_names"].push_back(strokes[i].name);
-    if (!writes()) return {};
     if (plan_.output.strokes) {
-      const std::string name = "strokes/" + item_.name + ".json";
+      const std::string name = strokes_file(item_);
       line_["strokes_file"] = name;
       if (Status status = write_file(name, blade_text(strokes)); !status.ok()) return status;
     }
     if (plan_.output.format.empty()) return {};
     const Result<std::string> bytes = bytes_of(mesh);
     if (!bytes.ok()) return bytes.error();
-    const std::string name = "after/" + item_.name + extension();
+    const std::string name = after_file(plan_, item_);
     line_["file"] = name;
     line_["file_bytes"] = bytes->size();
     line_["file_hash"] = hash_text(hash_of_text(*bytes));
     return write_file(name, *bytes);
   }
-  [[nodiscard]] std::string extension() const { return plan_.output.mesh.extension; }
   [[nodiscard]] Result<std::string> bytes_of(const io::MeshData& mesh) const {
-    return io::write_mesh_bytes(extension(), mesh, plan_.output.mesh.msh);
+    return io::write_mesh_bytes(plan_.output.mesh.extension, mesh, plan_.output.mesh.msh);
   }
   Status write_file(const std::string& name, const std::string& bytes) const {
+    if (!writes()) return {};
     const fs::path path = job_.folder / name;
     fs::path beside = path;  // workers may write the same mesh before its cuts at the same time
     beside += "." + job_.worker;
@@ -268,8 +267,7 @@ class ItemRunner {
     fs::create_directories(path.parent_path(), code);
     if (Status status = write_text_file(beside, bytes); !status.ok()) return status;
     fs::rename(beside, path, code);
-    if (code) return Error{ErrorCode::kIo, path.string() + ": cannot be written: " + code.message(), {}};
-    return {};
+    return code ? Status(write_error(path, code)) : Status();
   }
 
   const BatchPlan& plan_;
@@ -280,6 +278,18 @@ class ItemRunner {
 };
 
 }  // namespace
+
+std::string before_file(const BatchPlan& plan, std::uint64_t hash) {
+  return "before/" + hash_text(hash) + plan.output.mesh.extension;
+}
+
+std::string strokes_file(const BatchItem& item) {
+  return "strokes/" + item.name + ".json";
+}
+
+std::string after_file(const BatchPlan& plan, const BatchItem& item) {
+  return "after/" + item.name + plan.output.mesh.extension;
+}
 
 Result<BatchItemResult> run_item(const BatchPlan& plan, std::size_t index, const BatchItemJob& job) {
   try {

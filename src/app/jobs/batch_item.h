@@ -18,9 +18,15 @@ namespace app {
 /// Who computes, as lines name it: results of two versions may differ.
 inline constexpr const char* kBatchProgram = "incise " INCISE_VERSION;
 
+/// The files of an item as its line names them, seen from the folder: the mesh before its cuts, whose hash that is, the
+/// strokes, and the mesh after.
+[[nodiscard]] std::string before_file(const BatchPlan& plan, std::uint64_t hash);
+[[nodiscard]] std::string strokes_file(const BatchItem& item);
+[[nodiscard]] std::string after_file(const BatchPlan& plan, const BatchItem& item);
+
 /// How an item is computed, whatever it is.
 struct BatchItemJob {
-  std::filesystem::path folder;   ///< where its files go; empty: nothing is written
+  std::filesystem::path folder;   ///< where its files go; empty: none is written, and the line is the same
   std::string worker = "worker";  ///< names files until they are whole: different for workers that share a folder
   unsigned threads = 1;           ///< the result does not depend on them
   LogSink log = {};

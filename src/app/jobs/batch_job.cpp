@@ -40,8 +40,9 @@ class Worker {
     std::error_code code;
     if (!fs::create_directory(job_.folder, code) && code) {
       std::error_code ignored;
-      if (!fs::exists(job_.folder, ignored)) return write_error(job_.folder, code.message());
+      if (!fs::exists(job_.folder, ignored)) return write_error(job_.folder, code);
     }
+    if (const Status status = check_results_folder(job_.folder); !status.ok()) return status.error();
     Result<ShardFile> file = ShardFile::open(job_.folder, job_.shard);
     if (!file.ok()) return file.error();
     if (job_.retry) {
@@ -222,15 +223,62 @@ std::vector<const BatchLine*> sample(const std::vector<BatchLine>& lines, std::u
   return chosen;
 }
 
+/// A value as messages have it.
+std::string shown(const Json* value) {
+  constexpr std::size_t kLongest = 60;
+  if (value == nullptr) return "nothing";
+  std::string text =
+      value->is_string() ? value->get<std::string>() : value->dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + " ...";
+  return text;
+}
+
+const Json* member(const Json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found == object.end() ? nullptr : &*found;
+}
+
+std::string first_difference(const Json& now, const Json& then, const std::string& path);
+
+/// Of one field, which may be missing on one side.
+std::string difference_of(const Json* now, const Json* then, const std::string& path) {
+  const bool are_objects = now != nullptr && then != nullptr && now->is_object() && then->is_object();
+  if (are_objects) return first_difference(*now, *then, path + ".");
+  if (now != nullptr && then != nullptr && *now == *then) return {};
+  return path + " " + shown(now) + " now, " + shown(then) + " in the results";
+}
+
+/// The first field in which two lines differ, in the order of the new one; empty where none does.
+std::string first_difference(const Json& now, const Json& then, const std::string& path) {
+  for (const auto& [key, value] : now.items()) {
+    std::string text = difference_of(&value, member(then, key), path + key);
+    if (!text.empty()) return text;
+  }
+  for (const auto& [key, value] : then.items()) {
+    if (!now.contains(key)) return difference_of(nullptr, &value, path + key);
+  }
+  return {};
+}
+
+/// What of a line has to come out again: all but the version that computed it, and the bytes of a mesh that zlib
+/// packed, which may be another one here; a merge compares them with the file.
+Json comparable(const std::string& line, const BatchPlan& plan) {
+  Json root = Json::parse(line);
+  root.erase("program");
+  if (plan.output.mesh.extension != ".vtu") return root;
+  root.erase("file_bytes");
+  root.erase("file_hash");
+  return root;
+}
+
 /// How an item differs from its line; empty where it does not.
-std::string difference(const BatchItemResult& now, const BatchLine& line) {
+std::string difference(const BatchPlan& plan, const BatchItemResult& now, const BatchLine& line) {
   if (now.was_refused) {
     return "another mesh: key " + hash_text(now.input_key) + " now, " + hash_text(line.input_key) + " in the results";
   }
   if (now.has_failed) return "it fails now: " + now.line;
-  if (now.hash != line.hash) return "hash " + hash_text(now.hash) + " now, " + hash_text(line.hash) + " in the results";
-  if (now.state_hash == line.state_hash) return {};
-  return "state_hash " + hash_text(now.state_hash) + " now, " + hash_text(line.state_hash) + " in the results";
+  if (now.line == line.text) return {};
+  return first_difference(comparable(now.line, plan), comparable(line.text, plan), "");
 }
 
 Json head(const char* what, const std::string& plan, std::uint64_t items) {
@@ -284,7 +332,7 @@ Result<VerifyReport> verify_batch(const BatchPlan& plan, const VerifyJob& job) {
     report.was_stopped = now->was_stopped;
     if (report.was_stopped) return report;
     ++report.items;
-    const std::string text = difference(*now, *line);
+    const std::string text = difference(plan, *now, *line);
     if (!text.empty()) report.differences.push_back(plan.items[index].name + ": " + text);
   }
   if (job.progress) job.progress(chosen.size(), chosen.size());

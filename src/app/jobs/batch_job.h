@@ -90,12 +90,13 @@ struct VerifyJob {
 struct VerifyReport {
   std::string plan;                      ///< its name
   std::uint64_t items = 0;               ///< computed again
-  std::vector<std::string> differences;  ///< "NAME: hash H now, H in the results"
+  std::vector<std::string> differences;  ///< "NAME: FIELD X now, Y in the results", of the first that differs
   bool was_stopped = false;
 };
 
-/// Computes items again that workers have done, chosen at random, and compares the hashes of meshes and bodies.
-/// Writes nothing. Errors: as `run_batch`. Cost: that of the items.
+/// Computes items again that workers have done, chosen at random, and compares all of their lines but `program`, and
+/// but `file_bytes` and `file_hash` of meshes that zlib packs (.vtu). Writes nothing. Errors: as `run_batch`. Cost:
+/// that of the items.
 [[nodiscard]] Result<VerifyReport> verify_batch(const BatchPlan& plan, const VerifyJob& job);
 
 /// As JSON, format "incise-batch" version 1, with a newline at the end; lists have at most 100 entries.

@@ -15,11 +15,10 @@
 #include <system_error>
 #include <utility>
 
+#include "app/jobs/batch_line_reader.h"
 #include "app/text/formatted.h"
 #include "app/text/json_tree.h"
-#include "app/text/json_write.h"
 #include "app/text/line_source.h"
-#include "app/text/range_reader.h"
 #include "app/text/text_file.h"
 #include "app/text/write_all.h"
 
@@ -32,94 +31,6 @@ namespace fs = std::filesystem;
 
 constexpr mode_t kShardMode = 0666;
 constexpr off_t kChunk = 4096;
-
-/// Reads the fields that the program needs again.
-class BatchLineReader {
- public:
-  BatchLineReader(const BatchPlan& plan, std::string_view file_name) : plan_(plan), read_(file_name) {}
-
-  bool run(const JsonValue& root, BatchLine& line) {
-    if (root.kind != JsonValue::Kind::kObject) return read_.fail(root, "", "must be an object");
-    return read_item(root, line) && read_figures(root, line);
-  }
-  [[nodiscard]] const Error& error() const { return read_.error(); }
-  [[nodiscard]] bool is_of_another_plan() const { return is_of_another_plan_; }
-
- private:
-  bool read_item(const JsonValue& root, BatchLine& line) {
-    const JsonValue* item = read_.member(root, "", "item");
-    const JsonValue* key = item ? read_.member(root, "", "key") : nullptr;
-    std::uint64_t found = 0;
-    if (key == nullptr || !read_.whole(*item, "item", line.item) || !read_hash(*key, "key", found)) return false;
-    const bool is_there = line.item < plan_.items.size();
-    const std::uint64_t wanted = is_there ? plan_.items[static_cast<std::size_t>(line.item)].key : 0;
-    if (is_there && wanted == found) return read_program(root, line);
-    is_of_another_plan_ = true;
-    const std::string here =
-        is_there ? "key " + hash_text(wanted) : "no such item among its " + std::to_string(plan_.items.size());
-    return read_.fail(root, "item " + std::to_string(line.item),
-                      "is of another plan, or of this plan before it was changed: it has the key " + hash_text(found) +
-                          ", this plan has " + here + "; use another folder, or that plan");
-  }
-  bool read_program(const JsonValue& root, BatchLine& line) {
-    const JsonValue* program = read_.member(root, "", "program");
-    return program != nullptr && read_.text(*program, "program", line.program);
-  }
-  bool read_figures(const JsonValue& root, BatchLine& line) {
-    line.has_failed = root.find("error") != nullptr;
-    if (line.has_failed) return true;
-    const JsonValue* hash = read_.member(root, "", "hash");
-    const JsonValue* state = root.find("state_hash");
-    return hash != nullptr && read_hash(*hash, "hash", line.hash) &&
-           (state == nullptr || read_hash(*state, "state_hash", line.state_hash)) && read_input(root, line) &&
-           read_file(root, line);
-  }
-  bool read_input(const JsonValue& root, BatchLine& line) {
-    const JsonValue* input = read_.member(root, "", "input");
-    if (input == nullptr || !read_file_name(*input, "input", "file", "before/", line.input_file)) return false;
-    const JsonValue* vertices = read_.member(*input, "input", "vertices");
-    const JsonValue* tets = vertices ? read_.member(*input, "input", "tets") : nullptr;
-    const JsonValue* key = tets ? read_.member(*input, "input", "key") : nullptr;
-    return key != nullptr && read_hash(*key, "input.key", line.input_key) &&
-           read_.whole(*vertices, "input.vertices", line.input_vertices) &&
-           read_.whole(*tets, "input.tets", line.input_tets);
-  }
-  bool read_file(const JsonValue& root, BatchLine& line) {
-    if (!read_file_name(root, "", "strokes_file", "strokes/", line.strokes_file) ||
-        !read_file_name(root, "", "file", "after/", line.file)) {
-      return false;
-    }
-    if (line.file.empty()) return true;
-    const JsonValue* bytes = read_.member(root, "", "file_bytes");
-    const JsonValue* hash = bytes ? read_.member(root, "", "file_hash") : nullptr;
-    return hash != nullptr && read_.whole(*bytes, "file_bytes", line.file_bytes) &&
-           read_hash(*hash, "file_hash", line.file_hash);
-  }
-  /// One of the folder's own, since broken ones are removed; none is fine.
-  bool read_file_name(const JsonValue& object, const std::string& path, const char* key, std::string_view folder,
-                      std::string& out) {
-    const JsonValue* value = object.find(key);
-    if (value == nullptr) return true;
-    if (!read_.text(*value, under(path, key), out)) return false;
-    const bool is_own = out.rfind(folder, 0) == 0 && out.size() > folder.size() && out[folder.size()] != '.' &&
-                        out.find_first_of("/\\", folder.size()) == std::string::npos;
-    return is_own || read_.fail(*value, under(path, key),
-                                "must name a file in " + std::string(folder) + " of the batch's folder");
-  }
-  bool read_hash(const JsonValue& value, const std::string& path, std::uint64_t& out) {
-    std::string text;
-    if (!read_.text(value, path, text)) return false;
-    if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos) {
-      return read_.fail(value, path, "must be 16 hexadecimal digits in lower case");
-    }
-    out = std::stoull(text, nullptr, 16);
-    return true;
-  }
-
-  const BatchPlan& plan_;
-  RangeReader read_;
-  bool is_of_another_plan_ = false;
-};
 
 bool is_shard_file(const fs::path& path) {
   return path.filename().string().rfind("shard-", 0) == 0 && path.extension() == ".jsonl";
@@ -209,7 +120,15 @@ bool is_free(const fs::path& folder, const std::string& name) {
   return is_free;
 }
 
+Status check_results_folder(const fs::path& folder) {
+  std::error_code code;
+  const fs::file_status status = fs::status(folder, code);
+  if (!fs::exists(status) || fs::is_directory(status)) return {};
+  return Error{ErrorCode::kIo, folder.string() + ": is a file; results go into a folder: name one with -o", {}};
+}
+
 Result<BatchLines> read_batch_lines(const BatchPlan& plan, const fs::path& folder, BadLines bad) {
+  if (const Status status = check_results_folder(folder); !status.ok()) return status.error();
   std::vector<fs::path> files;
   std::error_code code;
   for (fs::directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {

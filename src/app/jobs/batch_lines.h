@@ -53,9 +53,12 @@ enum class BadLines : std::uint8_t { kAreErrors, kAreLeftOut };
 /// locks.
 [[nodiscard]] bool is_free(const std::filesystem::path& folder, const std::string& name);
 
+/// Errors: kIo where something else than a folder has the name of the folder for results; it need not be there.
+[[nodiscard]] Status check_results_folder(const std::filesystem::path& folder);
+
 /// Reads the lines of all shards in a folder; none where the folder is not there.
 /// Errors: kBadFile "FILE:LINE: what; remedy" for a line that is no result (unless such are left out), or a result of
-/// another plan. Cost: O(lines).
+/// another plan; as `check_results_folder`. Cost: O(lines).
 [[nodiscard]] Result<BatchLines> read_batch_lines(const BatchPlan& plan, const std::filesystem::path& folder,
                                                   BadLines bad = BadLines::kAreErrors);
 

@@ -328,6 +328,7 @@ class PlanReader {
       return read_.fail(value, path, "has \"repeat\", which goes with \"random\": each time has the next seed");
     }
     if (!item.scene) {
+      if (is_random && !has_no_times(*value.find("random"), path + ".random")) return false;
       if (item.mesh.empty()) return read_.fail(value, path, "needs the key \"mesh\" or \"scene\"");
       return !std::holds_alternative<std::monostate>(item.blade) ||
              read_.fail(value, path, "needs one of the keys plane, blade, random");
@@ -340,6 +341,17 @@ class PlanReader {
     }
     return is_random || !item.scene->strokes.empty() ||
            read_.fail(value, path, "has a scene without strokes; put some into it, or give \"random\"");
+  }
+  /// At rest nothing takes time: random strokes have their steps.
+  bool has_no_times(const JsonValue& random, const std::string& path) {
+    for (const char* key : {"start", "seconds", "pause"}) {
+      const JsonValue* value = random.find(key);
+      if (value != nullptr) {
+        return read_.fail(*value, under(path, key),
+                          "is of scenes, and the item has none; leave it out, or give a scene");
+      }
+    }
+    return true;
   }
   /// Whether the item's mesh files are there. Each is looked at once.
   bool can_be_opened(const JsonValue& value, const std::string& path, const BatchItem& item) {

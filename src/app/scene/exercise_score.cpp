@@ -127,7 +127,7 @@ struct StrokeNotes {
 };
 
 bool touches(const FrameReport& report) {
-  return report.blade.touches || report.cut.cut_tets > 0 || report.cut.incision_faces > 0;
+  return report.blade.touches || report.cut.cut_tets > 0 || report.cut.incision_faces != 0;
 }
 
 /// Where an edge is nearest to the line.

@@ -66,7 +66,7 @@ Status AppendFile::create(std::string_view text) {
   std::error_code code;
   Status status = write_all(file_, text, path_);
   if (status.ok()) fs::rename(beside, path_, code);
-  if (status.ok() && code) status = write_error(path_, code.message());
+  if (status.ok() && code) status = write_error(path_, code);
   if (!status.ok()) fs::remove(beside, code);
   return status;
 }

@@ -9,6 +9,8 @@
 #include <memory>
 #include <system_error>
 
+#include "app/text/write_all.h"
+
 namespace incise {
 inline namespace v0 {
 namespace app {
@@ -29,15 +31,15 @@ Error io_error(const fs::path& path, const std::string& what) {
   return {ErrorCode::kIo, path.string() + ": " + what, {}};
 }
 
-bool write_all(const fs::path& path, std::string_view text) {
+bool write_file(const fs::path& path, std::string_view text) {
   File file(std::fopen(path.string().c_str(), "wb"));
   if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) return false;
   return std::fclose(file.release()) == 0;
 }
 
 Status write_in_place(const fs::path& path, std::string_view text) {
-  if (write_all(path, text)) return {};
-  return io_error(path, std::string("cannot be written: ") + std::strerror(errno));
+  if (write_file(path, text)) return {};
+  return write_error(path);
 }
 
 }  // namespace
@@ -45,6 +47,7 @@ Status write_in_place(const fs::path& path, std::string_view text) {
 Status check_readable(const fs::path& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
+  if (path.empty()) return Error{ErrorCode::kBadFile, "the name of the file is empty; give one", {}};
   if (!fs::exists(status)) return bad_file(path, "no such file; check the path");
   if (fs::is_directory(status)) return bad_file(path, "is a directory; name a file");
   if (::access(path.c_str(), R_OK) == 0) return {};
@@ -73,16 +76,16 @@ Status write_text_file(const fs::path& path, std::string_view text) {
   const fs::file_status status = fs::status(path, code);
   if (fs::is_directory(status)) return io_error(path, "is a directory; name a file");
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(path, text);  // a pipe or a device
-  if (!write_all(beside, text)) {
-    const std::string why = std::strerror(errno);
+  if (!write_file(beside, text)) {
+    Error error = write_error(path);
     fs::remove(beside, code);
-    return io_error(path, "cannot be written: " + why);
+    return error;
   }
   fs::rename(beside, path, code);
   if (!code) return {};
-  const std::string why = code.message();
+  Error error = write_error(path, code);
   fs::remove(beside, code);
-  return io_error(path, "cannot be written: " + why);
+  return error;
 }
 
 }  // namespace app

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "incise/core/result.h"
 
@@ -11,7 +12,9 @@ namespace incise {
 inline namespace v0 {
 namespace app {
 
-/// That a file cannot be written, and why. Error: kIo.
+/// That a file or folder cannot be written, why, and what to do about it. Error: kIo.
+[[nodiscard]] Error write_error(const std::filesystem::path& path, const std::error_code& why);
+/// The same where the remedy is in the reason.
 [[nodiscard]] Error write_error(const std::filesystem::path& path, const std::string& why);
 /// The same, as the system says it: `errno`.
 [[nodiscard]] Error write_error(const std::filesystem::path& path);

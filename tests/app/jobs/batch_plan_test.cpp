@@ -56,19 +56,14 @@ class Plan : public testing::Test {
     text["items"].push_back(
         {{"name", "b"},
          {"repeat", 3},
-         {"random",
-          {{"seed", 18446744073709551613U},
-           {"strokes", 2},
-           {"kinds", {"arc", "core"}},
-           {"start", 0},
-           {"seconds", 2},
-           {"pause", 0.5}}},
+         {"random", {{"seed", 18446744073709551613U}, {"strokes", 2}, {"kinds", {"arc", "core"}}}},
          {"options", {{"profile", "incise"}, {"merge", false}, {"improve", false}, {"work_units", 100}}}});
     text["items"].push_back(
         {{"blade",
           {{{"edges",
              {{{"t", 0}, {"points", {{0, 0, 0}, {0, 0, 1}}}}, {{"t", 1}, {"points", {{1, 0, 0}, {1, 0, 1}}}}}}}}}});
-    text["items"].push_back({{"mesh", ""}, {"scene", scene()}, {"random", {{"seed", 1}}}});
+    text["items"].push_back(
+        {{"mesh", ""}, {"scene", scene()}, {"random", {{"seed", 1}, {"start", 0}, {"seconds", 2}, {"pause", 0.5}}}});
     return text;
   }
 
@@ -97,10 +92,10 @@ TEST_F(Plan, is_read) {
   const auto& random = std::get<app::RandomStrokes>(plan->items[3].blade);
   EXPECT_EQ(random.seed, 18446744073709551615U);
   EXPECT_EQ(random.kinds, (std::vector<app::RandomKind>{app::RandomKind::kArc, app::RandomKind::kCore}));
-  EXPECT_EQ(random.seconds, 2);
   EXPECT_EQ(plan->items[4].name, "item-000004");
   EXPECT_EQ(std::get<std::vector<app::BladeStroke>>(plan->items[4].blade).size(), 1U);
   EXPECT_EQ(plan->items[5].scene->frames, 1U);
+  EXPECT_EQ(std::get<app::RandomStrokes>(plan->items[5].blade).seconds, 2);
 }
 
 TEST_F(Plan, reads_scenes_and_blades_from_its_folder) {
@@ -155,6 +150,17 @@ TEST_F(Plan, tells_what_is_wrong_and_where) {
       "items[0].random.seed is 18446744073709551615, and the last of 2 items would need one above 2^64 - 1");
   has(error_of_item({{"mesh", "cube.mesh"}, {"repeat", 1000000}, {"name", "half"}, {"random", {{"strokes", 0}}}}),
       "items[0].random.strokes is 0");
+}
+
+TEST_F(Plan, has_times_of_strokes_in_scenes_alone) {
+  for (const char* time : {"start", "seconds", "pause"}) {
+    const Json random = {{time, 0.5}};
+    const std::string message = error_of_item({{"mesh", "cube.mesh"}, {"random", random}});
+    EXPECT_NE(message.find("items[0].random." + std::string(time) + " is of scenes"), std::string::npos) << message;
+    Json text = least();
+    text["items"].push_back({{"scene", scene()}, {"random", random}});
+    EXPECT_TRUE(parse(text).ok()) << parse(text).error().message;
+  }
 }
 
 /// A plan may have a thousand scenes: which one is wrong has to be said.
@@ -215,8 +221,8 @@ TEST_F(Plan, a_key_tells_items_apart_by_all_that_the_plan_says) {
   EXPECT_TRUE(keys.insert(key(0)).second);
   text["items"][0]["label"] = "train";
   EXPECT_TRUE(keys.insert(key(0)).second);
-  text["items"][1]["random"]["pause"] = 0.25;
-  EXPECT_TRUE(keys.insert(key(1)).second);
+  text["items"][3]["random"]["pause"] = 0.25;
+  EXPECT_TRUE(keys.insert(key(5)).second);
   text["items"][1]["options"]["improve"] = true;
   EXPECT_TRUE(keys.insert(key(1)).second);
   text["items"][3]["scene"]["frames"] = 2;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 
 #include "app/jobs/batch_job.h"
 #include "app/jobs/batch_lines.h"
+#include "app/text/text_file.h"
 #include "incise/io/mesh_loader.h"
 #include "incise/mesh/bounds.h"
 #include "support/folder.h"
@@ -296,6 +298,80 @@ TEST_F(Batch, a_line_that_is_no_result_is_told_with_its_remedy_and_taken_off_by_
   }
 }
 
+/// All places of a line, but for those in lists.
+std::vector<json::json_pointer> places_of(const json& value, const json::json_pointer& at = json::json_pointer("")) {
+  std::vector<json::json_pointer> places;
+  for (const auto& field : value.items()) {
+    places.push_back(at / field.key());
+    if (!field.value().is_object()) continue;
+    for (const auto& place : places_of(field.value(), at / field.key())) places.push_back(place);
+  }
+  return places;
+}
+
+/// The line without what is at a place, and with other values there, that no such line has.
+std::vector<json> spoiled(const json& line, const json::json_pointer& place) {
+  std::vector<json> lines(3, line);
+  lines[0][place.parent_pointer()].erase(place.back());
+  lines[1][place] = json::object();
+  lines[2][place] = {1, 2, 3};
+  if (place.back() != "message") {
+    lines.push_back(line);
+    lines.back()[place] = "zzz";
+  }
+  const bool is_force = place.to_string().rfind("/forces/", 0) == 0;  // work may be below zero, and not finite
+  if (!line[place].is_null() && !(is_force && line[place].is_number_float())) {
+    lines.push_back(line);
+    lines.back()[place] = nullptr;
+    lines.push_back(line);
+    lines.back()[place] = -7;
+  }
+  return lines;
+}
+
+/// Whatever a line lacks, or has of another type, it is no result.
+TEST_F(Batch, a_line_is_checked_as_a_whole) {
+  json text = small_plan();
+  text["items"].push_back({{"name", "bad"}, {"mesh", folder_.write("bad.mesh", "x")}, {"plane", {1, 0, 0, 0.5}}});
+  plan_ = plan(text);
+  run("out");
+  const std::string shard = "out/shard-00000-of-00001.jsonl", whole = read(folder_ / shard);
+  std::vector<json> lines = lines_of(whole);
+  for (const std::size_t index : {std::size_t{0}, kItems - 1, kItems}) {
+    for (const auto& place : places_of(lines[index])) {
+      for (const json& other : spoiled(lines[index], place)) {
+        std::string file;
+        for (std::size_t i = 0; i < lines.size(); ++i) file += (i == index ? other : lines[i]).dump() + "\n";
+        folder_.write(shard, file);
+        EXPECT_FALSE(app::merge_batch(plan_, folder_ / "out").ok()) << place << ": " << other.dump();
+      }
+    }
+  }
+}
+
+TEST_F(Batch, a_line_has_the_name_and_files_of_its_item_and_no_other_fields) {
+  run("out");
+  const std::string shard = "out/shard-00000-of-00001.jsonl", whole = read(folder_ / shard);
+  const json first = lines_of(whole)[0];
+  const auto told = [&](const json& changes, const std::string& part) {
+    json line = first;
+    line.merge_patch(changes);
+    folder_.write(shard, line.dump() + whole.substr(whole.find('\n')));
+    const auto report = app::merge_batch(plan_, folder_ / "out");
+    ASSERT_FALSE(report.ok()) << changes;
+    EXPECT_NE(report.error().message.find(part), std::string::npos) << report.error().message;
+    EXPECT_NE(report.error().message.find("with --shard 0/1 --retry"), std::string::npos) << report.error().message;
+    EXPECT_EQ(run("out", {}, true).done, 1U) << changes;
+  };
+  told({{"name", "wrong"}}, "name is \"wrong\"; the plan has \"half\"");
+  told({{"label", "test"}}, "label is \"test\"; the plan has \"train\"");
+  told({{"file", nullptr}}, "lacks the key \"file\"");
+  told({{"strokes_file", nullptr}}, "lacks the key \"strokes_file\"");
+  told({{"file", "after/random-0000.vtu"}}, "must name a file in the batch's folder as the plan has it");
+  told({{"more", 1}}, "has the unknown key \"more\"");
+  told({{"forces", 1}}, "has the unknown key \"forces\"");
+}
+
 TEST_F(Batch, scenes_may_have_materials_by_the_names_of_regions) {
   json scene = small_scene();
   scene["model"] = {{"file", folder_.write("tet.msh", one_tet("fat"))}};
@@ -516,6 +592,62 @@ TEST_F(Batch, a_hash_that_differs_is_told) {
   const auto report = app::verify_batch(plan_, job);
   ASSERT_EQ(report->differences.size(), 1U);
   EXPECT_EQ(report->differences[0].rfind("pressed: state_hash ", 0), 0U) << report->differences[0];
+}
+
+TEST_F(Batch, any_figure_that_comes_out_differently_is_told) {
+  run("out");
+  const std::string shard = "out/shard-00000-of-00001.jsonl", whole = read(folder_ / shard);
+  const json first = lines_of(whole)[0];
+  app::VerifyJob job;
+  job.folder = folder_ / "out";
+  job.items = 100;
+  const json changes = {{"/tets", 7},
+                        {"/volumes", {1, 2}},
+                        {"/quality/after/lr_mean", 3.5},
+                        {"/valid", false},
+                        {"/stroke_names", {"x"}},
+                        {"/input/tets", 5},
+                        {"/cut_tets", 1000000},
+                        {"/quality/before/lr_max", nullptr}};
+  for (const auto& change : changes.items()) {
+    json line = first;
+    line[json::json_pointer(change.key())] = change.value();
+    folder_.write(shard, line.dump() + whole.substr(whole.find('\n')));
+    const auto report = app::verify_batch(plan_, job);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    ASSERT_EQ(report->differences.size(), 1U) << change.key();
+    std::string name = change.key().substr(1);
+    std::replace(name.begin(), name.end(), '/', '.');
+    EXPECT_EQ(report->differences[0].rfind("half: " + name + " ", 0), 0U) << report->differences[0];
+    EXPECT_NE(report->differences[0].find(" in the results"), std::string::npos) << report->differences[0];
+  }
+}
+
+// --- what cannot be written
+
+TEST_F(Batch, says_that_results_go_into_a_folder) {
+  app::BatchJob job;
+  job.folder = cube_;
+  const auto as_run = app::run_batch(plan_, job);
+  const auto as_merged = app::merge_batch(plan_, job.folder);
+  ASSERT_FALSE(as_run.ok());
+  ASSERT_FALSE(as_merged.ok());
+  for (const std::string& message : {as_run.error().message, as_merged.error().message}) {
+    EXPECT_EQ(message, cube_ + ": is a file; results go into a folder: name one with -o");
+  }
+}
+
+TEST_F(Batch, says_what_to_do_where_nothing_can_be_written) {
+  app::BatchJob job;
+  for (const std::string& folder : {folder_ / "no/no", std::string("/proc/foo"), cube_ + "/out"}) {
+    job.folder = folder;
+    const auto refused = app::run_batch(plan_, job);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("; "), std::string::npos) << refused.error().message;
+  }
+  const Status full = app::write_text_file("/dev/full", "results");
+  ASSERT_FALSE(full.ok());
+  EXPECT_NE(full.error().message.find("; make room on the disk"), std::string::npos) << full.error().message;
 }
 
 // --- shards

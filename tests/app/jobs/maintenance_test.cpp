@@ -73,7 +73,8 @@ TEST(Maintenance, switched_off_leaves_the_plain_cut) {
     EXPECT_EQ(report.hash, mesh.hash());
     EXPECT_EQ(report.maintain.work_units, 0U);
     EXPECT_EQ(report.quality_cut.lr_max, report.quality_after.lr_max);
-    EXPECT_EQ(report.after.tets, report.before.tets + report.cut.created_tets);
+    EXPECT_EQ(static_cast<std::int64_t>(report.after.tets),
+              static_cast<std::int64_t>(report.before.tets) + report.cut.created_tets);
   }
 }
 
@@ -82,7 +83,7 @@ TEST(Maintenance, keeps_the_contract_and_its_own_account) {
     const app::JobReport report = cut(three_cuts(profile)).report;
     EXPECT_TRUE(report.change.ok) << app::to_text(report);
     EXPECT_EQ(report.after.components, 8U);
-    const std::int64_t growth = static_cast<std::int64_t>(report.cut.created_tets) + report.maintain.created_tets;
+    const std::int64_t growth = report.cut.created_tets + report.maintain.created_tets;
     EXPECT_EQ(static_cast<std::int64_t>(report.after.tets), static_cast<std::int64_t>(report.before.tets) + growth);
     ASSERT_EQ(report.units_per_stroke.size(), 3U);
     EXPECT_EQ(report.units_per_stroke[0] + report.units_per_stroke[1] + report.units_per_stroke[2],
@@ -103,7 +104,8 @@ TEST(Maintenance, is_measured_right_after_the_last_cut_and_at_the_end) {
   const app::JobReport all = cut(job).report;
   job.strokes.pop_back();
   const app::JobReport two = cut(job).report;
-  EXPECT_EQ(all.quality_cut.tets, two.after.tets + all.cut.created_tets - two.cut.created_tets);
+  EXPECT_EQ(static_cast<std::int64_t>(all.quality_cut.tets),
+            static_cast<std::int64_t>(two.after.tets) + all.cut.created_tets - two.cut.created_tets);
   EXPECT_EQ(all.quality_after.tets, all.after.tets);
   EXPECT_GT(all.quality_cut_incision.tets, 0U);
 }
