@@ -608,7 +608,7 @@ TEST_F(Batch, any_figure_that_comes_out_differently_is_told) {
                         {"/stroke_names", {"x"}},
                         {"/input/tets", 5},
                         {"/cut_tets", 1000000},
-                        {"/quality/before/lr_max", nullptr}};
+                        {"/quality/before/lr_max", 12.5}};
   for (const auto& change : changes.items()) {
     json line = first;
     line[json::json_pointer(change.key())] = change.value();
