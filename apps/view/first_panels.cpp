@@ -255,6 +255,10 @@ void FirstPanels::draw(Viewer& viewer, const PanelContext& context) {
   // The first cut of one's own: now the body is what matters.
   if (!viewer.is_demonstrating() && view.figures.strokes > strokes_) shows_bodies_ = false;
   strokes_ = view.figures.strokes;
+  // An exercise says what to do where the cards would lie; they wait behind their button.
+  const bool is_exercise = view.scene && view.scene->exercise;
+  if (is_exercise && !was_exercise_) shows_bodies_ = false;
+  was_exercise_ = is_exercise;
   draw_ghost_hand(viewer, context);
   draw_tool_column(viewer, context);
   draw_pills(viewer, context);

@@ -44,7 +44,7 @@ class FirstPanels {
 
  private:
   FileList files_;
-  bool shows_bodies_ = true;
+  bool shows_bodies_ = true, was_exercise_ = false;
   std::uint64_t strokes_ = 0;  // when it was last drawn
 };
 /// Every figure.
