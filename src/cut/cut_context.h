@@ -23,7 +23,7 @@ struct CutContext {
 };
 
 /// What `count` has become more since it was `before`; less than zero where it is fewer.
-inline std::int64_t growth(std::size_t before, std::size_t count) {
+inline std::int64_t growth(std::uint64_t before, std::uint64_t count) {
   return static_cast<std::int64_t>(count) - static_cast<std::int64_t>(before);
 }
 

@@ -28,32 +28,32 @@ struct Field {
 using Fields = std::vector<Field>;
 
 const Fields& cut_fields() {
-  static const Fields fields = {{"valid", FieldType::kFlag},     {"strokes", FieldType::kWhole},
-                                {"missed", FieldType::kWhole},   {"vertices", FieldType::kWhole},
-                                {"tets", FieldType::kWhole},     {"pieces", FieldType::kWhole},
-                                {"cut_tets", FieldType::kWhole}, {"incision_faces", FieldType::kWhole}};
-  return fields;
+  static const Fields kFields = {{"valid", FieldType::kFlag},     {"strokes", FieldType::kWhole},
+                                 {"missed", FieldType::kWhole},   {"vertices", FieldType::kWhole},
+                                 {"tets", FieldType::kWhole},     {"pieces", FieldType::kWhole},
+                                 {"cut_tets", FieldType::kWhole}, {"incision_faces", FieldType::kWhole}};
+  return kFields;
 }
 
 const Fields& quality_fields() {
-  static const Fields fields = {{"tets", FieldType::kWhole},
-                                {"flat_tets", FieldType::kWhole},
-                                {"lr_min", FieldType::kFigure},
-                                {"lr_mean", FieldType::kFigure},
-                                {"lr_p99", FieldType::kFigure},
-                                {"lr_max", FieldType::kFigure},
-                                {"lr_over_200_pct", FieldType::kFigure},
-                                {"dihedral_min_deg", FieldType::kFigure},
-                                {"dihedral_max_deg", FieldType::kFigure}};
-  return fields;
+  static const Fields kFields = {{"tets", FieldType::kWhole},
+                                 {"flat_tets", FieldType::kWhole},
+                                 {"lr_min", FieldType::kFigure},
+                                 {"lr_mean", FieldType::kFigure},
+                                 {"lr_p99", FieldType::kFigure},
+                                 {"lr_max", FieldType::kFigure},
+                                 {"lr_over_200_pct", FieldType::kFigure},
+                                 {"dihedral_min_deg", FieldType::kFigure},
+                                 {"dihedral_max_deg", FieldType::kFigure}};
+  return kFields;
 }
 
 const Fields& force_fields() {
-  static const Fields fields = {{"peak_force", FieldType::kFigure},     {"engaged_length", FieldType::kFigure},
-                                {"fracture_work", FieldType::kFigure},  {"friction_work", FieldType::kFigure},
-                                {"tool_work", FieldType::kFigure},      {"touching_frames", FieldType::kWhole},
-                                {"yielding_frames", FieldType::kWhole}, {"peak_hook_force", FieldType::kFigure}};
-  return fields;
+  static const Fields kFields = {{"peak_force", FieldType::kFigure},     {"engaged_length", FieldType::kFigure},
+                                 {"fracture_work", FieldType::kFigure},  {"friction_work", FieldType::kFigure},
+                                 {"tool_work", FieldType::kFigure},      {"touching_frames", FieldType::kWhole},
+                                 {"yielding_frames", FieldType::kWhole}, {"peak_hook_force", FieldType::kFigure}};
+  return kFields;
 }
 
 bool has_type(RangeReader& read, const JsonValue& value, const std::string& path, FieldType type) {
