@@ -233,8 +233,6 @@ std::string points(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " point" : " points");
 }
 
-constexpr double kMostSlicing = 100;
-
 Status check(const BladePose& pose, const std::string& name) {
   if (pose.edge.size() < 2) {
     return bad_pose(name, "its edge has " + points(pose.edge.size()) + "; it needs at least 2");
@@ -243,7 +241,8 @@ Status check(const BladePose& pose, const std::string& name) {
     if (!pose.edge[k].allFinite()) return bad_pose(name, "point " + std::to_string(k) + " of its edge is not finite");
   }
   if (!pose.direction.allFinite()) return bad_pose(name, "its direction is not finite");
-  if (!(pose.slicing >= 0 && pose.slicing <= kMostSlicing)) return bad_pose(name, "its slicing is not in [0, 100]");
+  if (!(pose.slicing >= 0 && pose.slicing <= BladePose::kMostSlicing))
+    return bad_pose(name, "its slicing is not in [0, 100]");
   return {};
 }
 

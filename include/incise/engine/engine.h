@@ -41,11 +41,14 @@ struct StrokeReport {
 
 /// The blade at one moment.
 struct BladePose {
+  static constexpr double kMostSlicing = 100;  ///< the greatest `slicing`
+
   std::vector<Vec3> edge;         ///< the cutting edge as a polyline, at least 2 points, as the body stands now
   Vec3 direction = Vec3::Zero();  ///< where the edge cuts, of any length; zero: where it moves
-  /// How fast the edge moves along itself, by how fast it is pushed, in [0, 100]: a ring that is twisted, an edge that
-  /// saws. What moves it pays its share of the toughness, and the push bears 1 / (1 + slicing²) of it (Atkins, Xu and
-  /// Jeronimidis 2004, doi:10.1023/B:JMSC.0000021451.17182.86). Only a body with toughness knows; the cut is the same.
+  /// How fast the edge moves along itself, by how fast it is pushed, in [0, kMostSlicing]: a ring that is twisted, an
+  /// edge that saws. What moves it pays its share of the toughness, and the push bears 1 / (1 + slicing²) of it
+  /// (Atkins, Xu and Jeronimidis 2004, doi:10.1023/B:JMSC.0000021451.17182.86). Only a body with toughness knows; the
+  /// cut is the same.
   double slicing = 0;
 };
 

@@ -31,7 +31,6 @@ constexpr double kMaxBoxTets = 268435456;                  // as `kuhn_box`
 constexpr double kMaxPoisson = 0.499;                      // as `Material`
 constexpr double kMaxSnap = 0.4;                           // as `CutOptions`
 constexpr double kMaxJitter = 0.15;                        // as `jitter`
-constexpr double kMostSlicing = 100;                       // of a blade
 constexpr double kMaxStretch = 1e6;                        // of the times of a blade
 constexpr double kLeastStretch = 0.5, kMostStretch = 2.0;  // of the body
 constexpr double kLatestStart = 1e7;                       // s, of a suture: beyond the last frame that there may be
@@ -541,7 +540,7 @@ class SceneHandsReader : public SceneOptionsReader {
         !read_.optional_ranged(value, path, "stretch", {0, kMaxStretch, true}, timing.stretch) ||
         !read_.optional_ranged(value, path, "pause", kBoundedAtLeast0, timing.pause) ||
         !read_.optional_point(value, path, "direction", direction) ||
-        !read_.optional_ranged(value, path, "slicing", {0, kMostSlicing}, stop.slicing) ||
+        !read_.optional_ranged(value, path, "slicing", {0, BladePose::kMostSlicing}, stop.slicing) ||
         !read_stops(read_, value, path, stop.stop_at, stop.stop_names)) {
       return false;
     }
