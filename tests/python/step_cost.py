@@ -101,28 +101,33 @@ def cost_of_views(engine):
     return 1e3 * (time.process_time() - began) / 2
 
 
-def run_c(program, mesh, rounds):
-    """The hash, and CPU ms of each step."""
-    command = [program, mesh, str(rounds), str(STEPS)]
+def run(command):
+    """The hash that a program leaves, and CPU ms of each step."""
     left, *ms = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
     return [float(step) for step in ms], left
 
 
+def python_command(mesh, rounds):
+    """Does in Python what step_cost.c does, and prints the same."""
+    return [sys.executable, os.path.abspath(__file__), "--strokes", mesh, str(rounds)]
+
+
 def compare_times(program, mesh):
-    """Each step's least over rounds that take turns: what else a busy machine does falls on few steps of a round."""
-    body = Body(mesh)
+    """Each step's least over programs that take turns: what else a busy machine does falls on few steps of a round, and
+    where a program happens to lie in memory, which is a few percent, on few rounds."""
     in_python, in_c = [], []
     for _ in range(ROUNDS):
-        in_python.append(body.cut_once())
-        in_c.append(run_c(program, mesh, 2))
+        in_python.append(run(python_command(mesh, 2)))
+        in_c.append(run([program, mesh, "2", str(STEPS)]))
     cost_in_python, cost_in_c = (np.min([ms for ms, _ in rounds], axis=0).sum() for rounds in (in_python, in_c))
+    engine = Body(mesh).engine
     print("%s, %d tets, %d steps, CPU: C %.1f ms, Python %.1f ms (%+.1f %%), %.1f us more per step" %
-          (os.path.basename(mesh), body.engine.tet_count, STEPS, cost_in_c, cost_in_python,
+          (os.path.basename(mesh), engine.tet_count, STEPS, cost_in_c, cost_in_python,
            100 * (cost_in_python / cost_in_c - 1), 1e3 * (cost_in_python - cost_in_c) / STEPS))
     bare, whole = compare_in_turns(mesh)
     print("in one process, in turns, medians: bare calls %.1f ms, the package %.1f ms (%+.1f %%), %.1f us more per step" %
           (bare, whole, 100 * (whole / bare - 1), 1e3 * (whole - bare) / STEPS))
-    print("a view of %d rows: %.1f us" % (len(body.engine.tets), cost_of_views(body.engine)))
+    print("a view of %d rows: %.1f us" % (len(engine.tets), cost_of_views(engine)))
     hashes = {left for _, left in in_python + in_c}
     if len(hashes) != 1:
         print("hashes differ:", hashes)
@@ -143,7 +148,7 @@ def compare_instructions(program, mesh):
         return (instructions_of(command(3)) - instructions_of(command(1))) / (2 * STEPS)
 
     in_c = of_a_step(lambda rounds: [program, mesh, str(rounds), str(STEPS)])
-    in_python = of_a_step(lambda rounds: [sys.executable, os.path.abspath(__file__), "--strokes", mesh, str(rounds)])
+    in_python = of_a_step(lambda rounds: python_command(mesh, rounds))
     print("%s, %d steps, instructions of a step with its share of beginning, ending and taking back: C %.0f, Python %.0f "
           "(%+.2f %%)" % (os.path.basename(mesh), STEPS, in_c, in_python, 100 * (in_python / in_c - 1)))
     return 0
@@ -152,8 +157,8 @@ def compare_instructions(program, mesh):
 def main(arguments):
     if arguments[0] == "--strokes":
         body = Body(arguments[1])
-        for _ in range(int(arguments[2])):
-            body.cut_once()
+        rounds = [body.cut_once() for _ in range(int(arguments[2]))]
+        print(rounds[-1][1], *("%.4f" % ms for ms in np.min([ms for ms, _ in rounds], axis=0)), sep="\n")
         return 0
     counts = "--instructions" in arguments
     program, *mesh = [argument for argument in arguments if argument != "--instructions"]

@@ -120,6 +120,34 @@ def test_cuts_step_by_step_in_a_body_that_moves():
         engine.set_positions(engine.rest * np.nan)
 
 
+def read_only(edge):
+    edge.flags.writeable = False
+    return edge
+
+
+@pytest.mark.parametrize("given", [
+    list, read_only, np.asfortranarray, lambda edge: edge[:, ::-1][:, ::-1], lambda edge: np.repeat(edge, 2, axis=0)[::2],
+    lambda edge: edge.astype(">f8"), lambda edge: edge.astype(object), lambda edge: edge.view(np.recarray),
+    lambda edge: np.frombuffer(b"." + edge.tobytes(), np.float64, offset=1).reshape(-1, 3)])
+def test_an_edge_of_any_kind_of_array_cuts_the_same(given):
+    edges = [np.array(blade(1.1 - 0.1 * i)) for i in range(14)]
+    engine, other = incise.box((3, 3, 3)), incise.box((3, 3, 3))
+    engine.cut_along(edges, direction=(0, 0, -1))
+    other.cut_along([given(edge) for edge in edges], direction=given(np.array([[0, 0, -1.0]]))[0])
+    assert engine.hash == other.hash and len(engine.pieces()) == 2
+
+
+@pytest.mark.parametrize("edge", [
+    np.zeros((0, 3)), np.zeros((1, 3)), np.zeros(6), np.zeros((3, 2)), np.zeros((2, 3, 1)), np.zeros((2, 0)),
+    np.full((2, 3), np.nan), np.zeros((2, 3), complex), np.array([["0"] * 3] * 2)])
+def test_an_edge_of_another_shape_or_kind_is_refused_in_a_stroke(edge):
+    engine = incise.box((2, 2, 2))
+    engine.begin_stroke(blade(1.1))
+    with pytest.raises(incise.BadArgument):
+        engine.step(edge)
+    assert engine.is_in_stroke and engine.step(blade(0.5)).cut_tets > 0
+
+
 def test_a_stroke_that_is_broken_off_is_taken_back():
     engine = incise.box((4, 4, 4))
     before, told = engine.hash, []
