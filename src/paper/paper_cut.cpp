@@ -72,23 +72,36 @@ Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const St
   return guarded(mesh, journal, times, [&](const CutContext& context) {
     context.statistics.steps = stroke.times.size() - 1;
     stroke_.may_go_on = false;
-    Status status = cut_parts(context, stroke, tag);
+    Status status = cut_stroke(context, stroke, tag);
     front_.end_stroke(context.statistics.cut_tets > 0);
     return status;
   });
 }
 
-/// The parts of a sweep that meet each other are cut one after the other, in the order of time.
-Status PaperCutter::cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
+/// As one frame, or, where the sweep meets itself, in as many as the stroke has.
+Status PaperCutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   const double spacing = typical_spacing(context.mesh);
   const SweptSurface surface = sweep(with_margin(stroke, kCoincident * spacing), kOwnSlit * spacing);
-  for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
-    front_.begin_sheet();
-    if (Status status = sheet_cut_.cut(context, Sheet(surface, part), tag, front_); !status) return status;
-    context.statistics.latent_faces += sheet_cut_.latent_faces();
-    ++context.statistics.sheets;
+  const auto parts = split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing);
+  if (parts.empty()) return {};
+  if (parts.size() > 1) return cut_in_frames(context, stroke, tag);
+  front_.begin_sheet();
+  Status status = sheet_cut_.cut(context, Sheet(surface, parts.front()), tag, front_);
+  context.statistics.latent_faces += sheet_cut_.latent_faces();
+  ++context.statistics.sheets;
+  return status;
+}
+
+Status PaperCutter::cut_in_frames(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
+  begin(context.mesh, context.journal, stroke.edges.front(), /*has_moved=*/false, tag);
+  Status status;
+  for (std::size_t row = 1; row < stroke.edges.size() && status; ++row) {
+    status = move_at_rest(context, with_margin(stroke.edges[row], kCoincident * stroke_.spacing));
   }
-  return {};
+  if (status) status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
+  count_last_sheet(context.statistics);
+  stroke_ = {};
+  return status;
 }
 
 // --- frame by frame
@@ -143,8 +156,12 @@ Result<CutStatistics> PaperCutter::step(TetMesh& mesh, Journal& journal, std::sp
       stroke_.direction = direction;
       return step_in_material(context, before);
     }
-    return follow(context, stroke_.motion.advance(stroke_.last_row, stroke_.sheet, touches(context.mesh), {}, false));
+    return move_at_rest(context, stroke_.last_row);
   });
+}
+
+Status PaperCutter::move_at_rest(const CutContext& context, std::span<const Vec3> row) {
+  return follow(context, stroke_.motion.advance(row, stroke_.sheet, touches(context.mesh), {}, false));
 }
 
 Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTimes& times) {
@@ -160,12 +177,16 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
     } else {
       status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
     }
-    if (stroke_.has_cut) context.statistics.latent_faces += sheet_cut_.latent_faces();
-    if (!stroke_.motion.is_at_start()) ++context.statistics.sheets;
+    count_last_sheet(context.statistics);
     front_.end_stroke(stroke_.has_cut);
     stroke_.may_go_on = status.ok();
     return status;
   });
+}
+
+void PaperCutter::count_last_sheet(CutStatistics& statistics) const {
+  if (stroke_.has_cut) statistics.latent_faces += sheet_cut_.latent_faces();
+  if (!stroke_.motion.is_at_start()) ++statistics.sheets;
 }
 
 void PaperCutter::find_surface(const CutContext& context) {
