@@ -287,7 +287,7 @@ ImVec2 beside_tools(float width) {
 /// A bar with the value in it; the part within which nothing is lost is marked, and said in words.
 void gauge(const app::ExerciseGauge& g) {
   const bool is_known = std::isfinite(g.value);
-  faint(is_known ? app::formatted("{}  {:.2g} {}", g.name, g.value, g.unit) : std::string(g.name));
+  faint(is_known ? app::formatted("{}  {:.1f} {}", g.name, g.value, g.unit) : std::string(g.name));
   ImGui::SameLine(8.5F * em());
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 0.8F * em());

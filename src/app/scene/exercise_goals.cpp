@@ -100,6 +100,7 @@ void ExerciseGoals::measure(const TetMesh& mesh, ExerciseScore& score) const {
   if (exercise_.remove) measure_removed(mesh, score);
 }
 
+/// Where the layers do not lie under the line nothing is asked.
 void ExerciseGoals::measure_divided(ExerciseScore& score) const {
   std::size_t bins = 0;
   for (std::size_t bin = 0; bin < TargetLine::kBins; ++bin) {

@@ -120,7 +120,7 @@ void ExerciseScorer::State::begin_gauges() {
                depth + allowed.depth,
                kGaugeReach * depth + allowed.depth};
   gauges[1] = {"Angle",
-               "degrees",
+               "deg",
                ExerciseScore::kUnmeasured,
                std::max(0.0, angle - allowed.angle),
                std::min(kRightAngle, angle + allowed.angle),

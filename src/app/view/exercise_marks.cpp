@@ -2,6 +2,7 @@
 #include "app/view/exercise_marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/scene/exercise_grade.h"
@@ -12,25 +13,28 @@ namespace app {
 namespace {
 
 constexpr double kLeastRibbon = 0.5;  // tolerances of the line
-constexpr double kRibbonLift = 0.1;   // tolerances of the line, above the skin: else the two would fight for pixels
+constexpr double kRibbonLift = 0.5;   // tolerances of the line, above the skin, which rises beside a cut
 constexpr float kRibbonOpacity = 0.85F;
 constexpr float kPatchOpacity = 0.45F;
 constexpr float kLumpLine = 1.5F;  // pixels
-constexpr double kSteep = 0.1;    // sine, of the way to up: below, the picture would turn about itself
-constexpr double kLinePad = 0.2;  // of the line, that a picture from above shows around it
+constexpr double kSteep = 0.1;     // sine, of the way to up: below, the picture would turn about itself
+constexpr double kLinePad = 0.2;   // of the line, that a picture from above shows around it
 
 Ink ink_of(ExerciseOff off) {
   if (off == ExerciseOff::kWithin) return Ink::kWithin;
   return off == ExerciseOff::kNear ? Ink::kNear : Ink::kFar;
 }
 
-/// Across the line, to the side where the cut is.
-Vec3 ribbon_side(const Exercise& exercise, const ExercisePlace& place, const Vec3& along) {
-  const double least = kLeastRibbon * exercise.tolerances.line;
-  if (place.beside.norm() >= least) return place.beside;
+/// Both rims of the ribbon at a place: beyond the line on one side, and beyond the cut on the other.
+/// @param along  of the line there.
+std::array<Eigen::Vector3f, 2> ribbon_rims(const Exercise& exercise, const ExercisePlace& place, const Vec3& along) {
+  const double tolerance = exercise.tolerances.line, half = 0.5 * kLeastRibbon * tolerance;
   Vec3 across = place.normal.cross(along);
-  if (across.isZero(0)) across = place.normal.unitOrthogonal();
-  return (across.dot(place.beside) < 0 ? -least : least) * across.normalized();
+  across = across.isZero(0) ? Vec3(place.normal.unitOrthogonal()) : Vec3(across.normalized());
+  const double off = place.beside.dot(across);
+  const Vec3 middle = place.ideal + kRibbonLift * tolerance * place.normal;
+  const Vec3 low = middle + (std::min(off, 0.0) - half) * across, high = middle + (std::max(off, 0.0) + half) * across;
+  return {low.cast<float>(), high.cast<float>()};
 }
 
 }  // namespace
@@ -50,11 +54,8 @@ void mark_deviation(const Exercise& exercise, const ExerciseScore& score, Marks&
     const ExercisePlace &a = score.profile[i - 1], &b = score.profile[i];
     if (!a.is_cut || !b.is_cut) continue;
     const Vec3 along = b.ideal - a.ideal;
-    const double lift = kRibbonLift * exercise.tolerances.line;
-    const Vec3 from = a.ideal + lift * a.normal, to = b.ideal + lift * b.normal;
-    const Eigen::Vector3f p = from.cast<float>(), q = to.cast<float>();
-    const Eigen::Vector3f r = (to + ribbon_side(exercise, b, along)).cast<float>();
-    const Eigen::Vector3f s = (from + ribbon_side(exercise, a, along)).cast<float>();
+    const auto [p, s] = ribbon_rims(exercise, a, along);
+    const auto [q, r] = ribbon_rims(exercise, b, along);
     const Ink ink = ink_of(std::max(off_of(exercise, a), off_of(exercise, b)));
     marks.triangles.push_back({{p, q, r}, ink, kRibbonOpacity});
     marks.triangles.push_back({{p, r, s}, ink, kRibbonOpacity});

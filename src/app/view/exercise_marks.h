@@ -22,7 +22,7 @@ enum class ExerciseOff : std::uint8_t {
 [[nodiscard]] ExerciseOff off_of(const Exercise& exercise, const ExercisePlace& place);
 
 /// Adds a ribbon beside the ideal line of an exercise that was scored: from the line to the cut's contour on the skin,
-/// never narrower than half a tolerance, in the ink of how far off the cut is; nothing where it was missed. It lies
+/// and a quarter of a tolerance beyond both, in the ink of how far off the cut is; nothing where it was missed. It lies
 /// on the uncut skin. Cost: O(places).
 void mark_deviation(const Exercise& exercise, const ExerciseScore& score, Marks& marks);
 
