@@ -123,10 +123,13 @@ class Sweeper {
     return std::all_of(stroke_.edges[row].begin(), stroke_.edges[row].end(),
                        [&](const Vec3& point) { return is_swept(point); });
   }
-  /// Whether the strip between two rows would lie on what was swept already.
+  /// Whether the strip between two rows would lie on what was swept already. One that is narrower than the slit, and
+  /// so within it of the row that it goes on from, need not.
   [[nodiscard]] bool would_cover(std::size_t from, std::size_t to) const {
     for (std::size_t c = 0; c + 1 < stroke_.edges[to].size(); ++c) {
-      if (is_swept(0.25 * (place(from, c) + place(from, c + 1) + place(to, c) + place(to, c + 1)))) {
+      const Vec3 &a = place(from, c), &b = place(from, c + 1), &d = place(to, c), &e = place(to, c + 1);
+      const Vec3 centre = 0.25 * (a + b + d + e);
+      if (is_swept(centre) && closest_on_triangle(centre, a, b, b).distance2 > slit2_) {
         return true;
       }
     }

@@ -42,16 +42,30 @@ double longest_edge_at(const TetMesh& mesh, VertexId vertex, const std::vector<T
   return std::sqrt(longest2);
 }
 
-/// Whether an earlier sheet's point lies on a sheet, as if the two were one.
-bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, StarWalker& walker) {
+/// Whether an earlier sheet's point lies on a sheet, as if the two were one: within `offset` mean edges of its plane.
+bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, double offset, StarWalker& walker) {
   const Vec3& place = mesh.rest(point.vertex);
   const std::vector<TetId>& star = walker.star(mesh, point.vertex);
   const double length = mean_edge_length_at(mesh, point.vertex, star);
   const auto hit = sheet.tree().closest(place, kFrontReach * longest_edge_at(mesh, point.vertex, star));
   if (!hit.is_valid()) return false;
   const Vec3 normal = sheet.normal(hit.triangle).normalized();
-  return std::abs(normal.dot(point.normal)) > kFrontCosine &&
-         std::abs(normal.dot(place - hit.point)) < kFrontOffset * length;
+  return std::abs(normal.dot(point.normal)) > kFrontCosine && std::abs(normal.dot(place - hit.point)) < offset * length;
+}
+
+/// The unit normals of cuts' walls at a vertex, face by face.
+std::vector<Vec3> wall_normals_at(const TetMesh& mesh, VertexId vertex, StarWalker& walker) {
+  std::vector<Vec3> normals;
+  for (const TetId tet : walker.star(mesh, vertex)) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Link link = mesh.links(tet)[s];
+      if (mesh.vertices(tet)[s] == vertex || !link.is_boundary() || link.tag() == 0) continue;
+      const auto face = mesh.vertices(Side(tet, s));
+      const Vec3 &a = mesh.rest(face[0]), &b = mesh.rest(face[1]), &c = mesh.rest(face[2]);
+      normals.push_back((b - a).cross(c - a).normalized());
+    }
+  }
+  return normals;
 }
 
 /// Whether tissue around a vertex lies on both sides of the sheet: on the wall of a cut it does not, and nothing is
@@ -70,6 +84,28 @@ bool has_both_sides(const TetMesh& mesh, VertexId vertex, const Vec3& normal, St
   return is_above && is_below;
 }
 
+/// Adds the copies of points, which lie on the sheet as well. Returns the vertices that were copied and the copies,
+/// ascending.
+std::vector<VertexId> add_copies(const TetMesh& mesh, const std::vector<CopiedVertex>& copied, Points& points) {
+  std::vector<VertexId> divided;
+  Points copies;
+  for (const CopiedVertex& copy : copied) {
+    const CollisionPoint source{copy.source};
+    const auto is_source = [&](const CollisionPoint& point) { return point.vertex == copy.source; };
+    auto from = std::lower_bound(points.begin(), points.end(), source, is_before);
+    if (from == points.end() || !is_source(*from)) {  // of a copy, perhaps
+      from = std::find_if(copies.begin(), copies.end(), is_source);
+      if (from == copies.end()) continue;
+    }
+    copies.push_back({copy.id, mesh.generation(copy.id), from->normal});
+    divided.insert(divided.end(), {copy.source, copy.id});
+  }
+  std::sort(divided.begin(), divided.end());
+  points.insert(points.end(), copies.begin(), copies.end());
+  make_set(points);
+  return divided;
+}
+
 }  // namespace
 
 void IncisionFront::begin_sheet() {
@@ -80,15 +116,34 @@ void IncisionFront::begin_sheet() {
 
 void IncisionFront::mark(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker) {
   const auto met = std::stable_partition(older_.begin(), older_.end(), [&](const CollisionPoint& point) {
-    return !lives(mesh, point) || !lies_on(mesh, sheet, point, walker);
+    return !lives(mesh, point) || !lies_on(mesh, sheet, point, kFrontOffset, walker);
   });
   goes_on_ = goes_on_ || met != older_.end();
   own_.insert(own_.end(), met, older_.end());
   older_.erase(met, older_.end());
+  adopt_walls(mesh, sheet, near, walker);
   make_set(own_);
   for (const CollisionPoint& point : own_) {
     if (lives(mesh, point)) near.mark_on(point.vertex);
   }
+}
+
+void IncisionFront::adopt_walls(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker) {
+  std::vector<VertexId> asked;
+  for (const NearTet& tet : near.tets) {
+    for (const VertexId v : mesh.vertices(tet.id)) {
+      if ((mesh.shape_of(v) & shape::kWall) == 0 || near.index_of_vertex[v.value] != 0) continue;
+      near.index_of_vertex[v.value] = 1;
+      asked.push_back(v);
+      for (const Vec3& normal : wall_normals_at(mesh, v, walker)) {
+        const CollisionPoint point{v, mesh.generation(v), normal};
+        if (!lies_on(mesh, sheet, point, kCoincident, walker) || !has_both_sides(mesh, v, normal, walker)) continue;
+        own_.push_back(point);
+        break;
+      }
+    }
+  }
+  for (const VertexId v : asked) near.index_of_vertex[v.value] = 0;
 }
 
 void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, StarWalker& walker) {
@@ -113,13 +168,12 @@ void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbou
   make_set(own_);
 }
 
-void IncisionFront::follow(const TetMesh& mesh, const Step& step) {
-  std::vector<VertexId> apart;
-  for (const CopiedVertex& copied : step.copied) apart.push_back(copied.source);
-  std::sort(apart.begin(), apart.end());
+void IncisionFront::follow(const TetMesh& mesh, const Step& step, StarWalker& walker) {
   for (Points* points : {&own_, &older_}) {
+    const std::vector<VertexId> divided = add_copies(mesh, step.copied, *points);
     std::erase_if(*points, [&](const CollisionPoint& point) {
-      return !lives(mesh, point) || std::binary_search(apart.begin(), apart.end(), point.vertex);
+      const bool is_divided = std::binary_search(divided.begin(), divided.end(), point.vertex);
+      return !lives(mesh, point) || (is_divided && !has_both_sides(mesh, point.vertex, point.normal, walker));
     });
   }
 }

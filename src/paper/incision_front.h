@@ -11,7 +11,7 @@
 namespace incise {
 inline namespace v0 {
 
-/// A collision point that no division has taken apart yet: the incision may go on from it.
+/// A collision point with tissue on both sides of the sheet: the incision may go on from it.
 struct CollisionPoint {
   VertexId vertex = {};
   std::uint32_t generation = 0;  ///< of the vertex's slot
@@ -30,13 +30,15 @@ class IncisionFront {
   /// Those of the sheet so far become those of an earlier one. Cost: O(points).
   void begin_sheet();
   /// Marks the points that take part in the cut along a sheet, near or not, and makes them the sheet's own.
-  /// Cost: O(points of the sheet), and a search of the sheet for each earlier point.
+  /// Cost: O(points of the sheet), and a search of the sheet for each earlier point and each vertex of a wall nearby.
   void mark(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker);
   /// Takes the collision points of a sheet besides: the vertices that split edges, and those of the mesh that lie on it
   /// with tissue on both sides. `near` as `subdivide` left it. Cost: O(near edges + marked vertices · their stars).
   void take(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, StarWalker& walker);
-  /// Drops the points that a step has taken apart, and those that it removed. Cost: O(points · log copies).
-  void follow(const TetMesh& mesh, const Step& step);
+  /// Drops the points that a step removed. Of those that it divided it keeps the parts, the copies among them, that
+  /// still have tissue on both sides of the sheet: a vertex is divided in one place while the cut goes on in another.
+  /// Cost: O(points + copies · (log points + copies + their stars)).
+  void follow(const TetMesh& mesh, const Step& step, StarWalker& walker);
   /// At the end of a stroke: incisions that it did not go on with are complete, if it cut anything.
   void end_stroke(bool has_cut);
   /// Has the points that live go by their slots' present generations, after undo or redo. Cost: O(points).
@@ -52,6 +54,10 @@ class IncisionFront {
   [[nodiscard]] std::vector<VertexId> vertices(const TetMesh& mesh) const;
 
  private:
+  /// Vertices on the wall of an earlier cut in the plane of the sheet, with tissue on both sides. Where the blade has
+  /// left the body, a lip is no front; but merging may tie it to tissue that the blade meets next.
+  void adopt_walls(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker);
+
   std::vector<CollisionPoint> own_, older_;  // ascending
   bool goes_on_ = false;                     // the stroke under way has met an older point
 };

@@ -27,6 +27,25 @@ std::vector<std::uint32_t> all_triangles(const SweptSurface& surface) {
   return all;
 }
 
+/// An edge whose ends reach on by a margin: one that ends on an older wall, but for rounding, meets it. Not that of a
+/// ring.
+std::vector<Vec3> with_margin(std::span<const Vec3> row, double margin) {
+  std::vector<Vec3> wide(row.begin(), row.end());
+  if (row.front() == row.back()) return wide;
+  const auto reach_on = [margin](Vec3& end, const Vec3& inner) {
+    const double length = (end - inner).norm();
+    if (length > 0) end += margin / length * (end - inner);
+  };
+  reach_on(wide.front(), row[1]);
+  reach_on(wide.back(), row[row.size() - 2]);
+  return wide;
+}
+
+Stroke with_margin(Stroke stroke, double margin) {
+  for (auto& row : stroke.edges) row = with_margin(row, margin);
+  return stroke;
+}
+
 }  // namespace
 
 /// Runs some work; where it fails, what it did is taken back.
@@ -62,7 +81,7 @@ Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const St
 /// The parts of a sweep that meet each other are cut one after the other, in the order of time.
 Status PaperCutter::cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   const double spacing = typical_spacing(context.mesh);
-  const SweptSurface surface = sweep(stroke, kOwnSlit * spacing);
+  const SweptSurface surface = sweep(with_margin(stroke, kCoincident * spacing), kOwnSlit * spacing);
   for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
     front_.begin_sheet();
     if (Status status = sheet_cut_.cut(context, Sheet(surface, part), tag, front_); !status) return status;
@@ -74,18 +93,20 @@ Status PaperCutter::cut_parts(const CutContext& context, const Stroke& stroke, s
 
 // --- frame by frame
 
-void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved,
+void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> given, bool has_moved,
                         std::uint32_t tag) {
+  const double spacing = typical_spacing(mesh);
+  const std::vector<Vec3> row = with_margin(given, kCoincident * spacing);
   surface_.follow(mesh, journal);
   stroke_.tag = tag;
   stroke_.has_cut = false;
   const bool stands = stroke_.may_go_on && stands_at_end(mesh, row, has_moved);
   if (stands && has_moved) return;
-  const std::vector<Vec3> start = stands ? stroke_.last_row : std::vector<Vec3>(row.begin(), row.end());
+  const std::vector<Vec3> start = stands ? stroke_.last_row : row;
   if (!stands) front_.begin_sheet();
   stroke_ = {};
   stroke_.tag = tag;
-  stroke_.spacing = typical_spacing(mesh);
+  stroke_.spacing = spacing;
   stroke_.last_row = start;
   stroke_.is_in_material = has_moved;
   if (has_moved) {
@@ -117,7 +138,7 @@ Result<CutStatistics> PaperCutter::step(TetMesh& mesh, Journal& journal, std::sp
     context.statistics.steps = 1;
     find_surface(context);
     if (has_moved && !stroke_.is_in_material) enter_material(context.mesh);
-    const std::vector<Vec3> before = std::exchange(stroke_.last_row, {row.begin(), row.end()});
+    const std::vector<Vec3> before = std::exchange(stroke_.last_row, with_margin(row, kCoincident * stroke_.spacing));
     if (stroke_.is_in_material) {
       stroke_.direction = direction;
       return step_in_material(context, before);

@@ -27,7 +27,8 @@ inline namespace v0 {
 /// left joined (`IncisionFront`). Where the blade is inside an element nothing comes apart there (§4.5). In a body that
 /// moves the blade is located in the elements as they stand (`MaterialBlade`), so that crossings are those of the body
 /// as it stands; split points are placed on the same edges at rest. A sweep that meets itself is cut in parts, in the
-/// order of time. Keeps scratch memory. One mesh at a time; not thread-safe. Source: docs/decisions/0050.
+/// order of time. The ends of an edge reach on by `kCoincident` spacings, so that one that ends on an older wall but for
+/// rounding meets it. Keeps scratch memory. One mesh at a time; not thread-safe. Source: docs/decisions/0050.
 class PaperCutter {
  public:
   /// `threads` in [1, 256] search the mesh; the result does not depend on it.

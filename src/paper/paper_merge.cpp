@@ -2,9 +2,12 @@
 #include "paper/paper_merge.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cut/spacing.h"
+#include "incise/geom/quality.h"
 #include "incise/mesh/collapse.h"
+#include "paper/constants.h"
 #include "paper/paper_classes.h"
 #include "paper/paper_stage.h"
 
@@ -180,7 +183,8 @@ class EdgeMerger : private PaperStage {
     return merge_at(0.5 * (at_from + at_into)) || merge_at(at_into) || merge_at(at_from);
   }
   bool merge_at(const Vec3& place) {
-    return stays_positive(mesh_, plan_, place) && keeps_surface(place) && keeps_quality(place) && carry_out(place);
+    return stays_positive(mesh_, plan_, place) && keeps_surface(place) && keeps_volume(place) && keeps_quality(place) &&
+           carry_out(place);
   }
   /// What the class of a vertex allows. Whether an edge between surface vertices lies on the surface, the link
   /// condition tells.
@@ -227,6 +231,21 @@ class EdgeMerger : private PaperStage {
       }
     });
     return keeps;
+  }
+  /// Whether the body neither loses nor gains much there, for all that vanishes and changes.
+  [[nodiscard]] bool keeps_volume(const Vec3& place) const {
+    double before = 0, after = 0;
+    for (const TetId tet : plan_.ring) before += mesh_.rest_volume6(tet);
+    for_each_changed(place, [&](TetId tet, VertexId moved) {
+      before += mesh_.rest_volume6(tet);
+      after += moved_volume6(tet, moved, place);
+    });
+    return std::abs(after - before) <= kMostVolumeChange * before;
+  }
+  [[nodiscard]] double moved_volume6(TetId tet, VertexId moved, const Vec3& place) const {
+    const TetVertices& v = mesh_.vertices(tet);
+    const auto at = [&](unsigned k) -> const Vec3& { return v[k] == moved ? place : mesh_.rest(v[k]); };
+    return signed_volume6(at(0), at(1), at(2), at(3));
   }
   [[nodiscard]] Vec3 moved_area(Side face, VertexId moved, const Vec3& place) const {
     const auto v = mesh_.vertices(face);

@@ -29,7 +29,7 @@ Status SheetCut::cut(const CutContext& context, const Sheet& sheet, std::uint32_
   separate(transaction, subdivision, tag, statistics, context.times);
   statistics.new_vertices += growth(0, transaction.new_vertices().size());
   if (context.journal.append_if_changed(transaction.commit())) {
-    front.follow(context.mesh, context.journal.step(context.journal.position() - 1));
+    front.follow(context.mesh, context.journal.step(context.journal.position() - 1), walker_);
   }
   part_edges(context, subdivision);
   statistics.created_tets += growth(tets_before, context.mesh.tet_count());

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cut/sweep.h"
 #include "support/bodies.h"
 #include "support/engines.h"
 
@@ -198,6 +199,18 @@ TEST(DoublePasses, that_go_back_over_themselves_cut_no_more_than_once) {
   cut(both_ways, followed_by(once, reversed(once)));
   EXPECT_EQ(both_ways.mesh().tet_count(), single.mesh().tet_count());
   EXPECT_EQ(find_components(both_ways.mesh()).count(), 2U);
+}
+
+TEST(DoublePasses, that_leave_their_slit_little_by_little_leave_no_gap) {
+  std::vector<std::vector<Vec3>> edges;
+  for (const double x : {0.0, 0.5, 1.0, 0.98, 1.01, 1.035, 1.5}) edges.push_back({{x, 0, 0}, {x, 1, 0}});
+  const SweptSurface surface = sweep(stroke_of(edges), 0.02);  // at 1.01 the blade is in it still
+  double area = 0;
+  for (const SweptTriangle& t : surface.triangles) {
+    const auto at = [&](unsigned k) { return surface.points[t.points[k]].position; };
+    area += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+  }
+  EXPECT_NEAR(area, 1.5, 1e-12);
 }
 
 TEST(DoublePasses, given_twice_cut_no_more_than_once) {
