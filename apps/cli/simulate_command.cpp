@@ -6,6 +6,7 @@
 
 #include "app/jobs/simulate_job.h"
 #include "app/model/fine_file.h"
+#include "app/scene/exercise_page.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/text_file.h"
 #include "command.h"
@@ -22,6 +23,7 @@ using namespace incise;
 
 struct SimulateArguments {
   std::string scene, output, report, record;
+  std::string page;                   // of an exercise
   std::string profile;                // empty: the scene's
   std::uint64_t frames = 0;           // 0: the scene's
   std::uint64_t every = 0;            // 0: as `SimulateJob`
@@ -51,6 +53,7 @@ std::string usage_problem(const SimulateArguments& a) {
     return a.output + ": unknown extension; a simulation is written as .pvd, with a folder of .vtu files beside";
   }
   if (a.record == "-") return "--record needs a file, not stdout";
+  if (a.page == "-") return "--page needs a file, not stdout";
   if (!a.device.empty() && !incise_apps::is_haply(a.device)) {
     return "--device " + a.device + ": haply or haply=HOST:PORT is needed; in the window there are others";
   }
@@ -161,6 +164,17 @@ class FineFilm {
   Status status_;
 };
 
+/// The report of an exercise for people, where it is asked for.
+Status write_page(const SimulateArguments& a, const app::Scene& scene, const app::SimulationReport& report,
+                  const Terminal& terminal) {
+  if (a.page.empty()) return {};
+  if (Status status = app::write_text_file(a.page, app::exercise_page(scene, *report.exercise, {})); !status.ok()) {
+    return status;
+  }
+  terminal.wrote(a.page, "page about the attempt");
+  return {};
+}
+
 int finish_run(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
   print_notes(report.job.notes, report.job.input, terminal);
   if (!a.output.empty() && report.job.change.ok) terminal.wrote(a.output, "series, with its folder");
@@ -177,7 +191,7 @@ int finish_run(const SimulateArguments& a, const app::SimulationReport& report, 
 
 /// Says why outputs cannot be written, as far as their names tell; nothing where they can.
 std::string output_problem(const SimulateArguments& a) {
-  for (const std::string& file : {a.output, a.report, a.record, a.fine.drawn}) {
+  for (const std::string& file : {a.output, a.report, a.record, a.fine.drawn, a.page}) {
     if (!has_folder(file)) return file + ": its folder does not exist; create it first";
   }
   return {};
@@ -190,6 +204,10 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   if (!read.ok()) return fail(terminal, read.error(), kBadInput);
   if (arguments.is_ideal && (!read->exercise || read->exercise->ideal.empty())) {
     return fail(terminal, arguments.scene + ": --ideal shows how an exercise is done; this scene has no exercise.ideal",
+                kBadInput);
+  }
+  if (!arguments.page.empty() && !read->exercise) {
+    return fail(terminal, arguments.scene + ": --page tells how an exercise went; this scene has no exercise",
                 kBadInput);
   }
   const app::Scene scene = overridden(std::move(read).value(), arguments);
@@ -223,6 +241,9 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   if (result->was_stopped) return kInterrupted;
   if (!film.status().ok()) return fail(terminal, film.status().error(), exit_of(film.status().error()));
   if (!arguments.fine.drawn.empty()) terminal.wrote(arguments.fine.drawn, "surface");
+  if (const Status status = write_page(arguments, scene, result->report, terminal); !status.ok()) {
+    return fail(terminal, status.error(), kFailure);
+  }
   return finish_run(arguments, result->report, terminal);
 }
 
@@ -236,6 +257,7 @@ Command add_simulate(CLI::App& root) {
       "  incise simulate scenes/sim_cube.json -o cube.pvd --report cube.json\n"
       "  incise simulate scenes/sim_skin.json --frames 60 --report -\n"
       "  incise simulate scenes/sim_cube.json --surface cube.obj --drawn cube.glb\n"
+      "  incise simulate scenes/train_fat.json --ideal --page ideal.html\n"
       "  incise simulate scenes/sim_cube.json --profile paper --threads 2\n"
       "  incise simulate scenes/sim_cube.json --record cube.jsonl && incise replay cube.jsonl --verify");
   SimulateArguments& s = *arguments;
@@ -256,6 +278,7 @@ Command add_simulate(CLI::App& root) {
              "Microseconds for maintenance per frame, 1 to 3600000000, taken as 10 work units each: no clock is read");
   simulate->add_option("--seed", s.seed, "Seed, instead of the scene's");
   simulate->add_flag("--ideal", s.is_ideal, "Show and score an exercise's ideal strokes, instead of the scene's");
+  simulate->add_option("--page", s.page, "Write how an exercise went as one HTML page with drawings");
   simulate->add_option("--device", s.device,
                        "Who has the blade instead of the scene: haply or haply=HOST:PORT, a hand at a haptic device; "
                        "frames then keep the pace of the clock");

@@ -8,7 +8,10 @@
 #include <system_error>
 #include <utility>
 
+#include "app/scene/exercise_page.h"
 #include "app/session/session_thread.h"
+#include "app/text/text_file.h"
+#include "app/view/exercise_marks.h"
 #include "app/viewer/viewer.h"
 #include "exit_code.h"
 #include "interface.h"
@@ -69,6 +72,8 @@ class Application {
   void draw();
   void print_score();
   void save_picture();
+  void save_page();
+  Result<std::string> photograph(const app::Picture& picture);
 
   Window& window_;
   render::Renderer renderer_;
@@ -148,6 +153,7 @@ void Application::draw() {
     if (std::exchange(complaint_, status.error().message) != status.error().message) fail(kFailure, complaint_);
   }
   save_picture();
+  save_page();
   interface_.draw();
   viewer_.drawn(seconds_now(), 1e3 * (seconds_now() - begin));
   window_.swap();
@@ -170,6 +176,28 @@ void Application::save_picture() {
   const Status status = image.ok() ? write_png(*image, *file) : Status(image.error());
   if (!status.ok()) return viewer_.notify(status.error().message);
   if (!std::as_const(viewer_).state().saves_sequence) viewer_.notify("Saved " + file->string());
+}
+
+/// The bytes of a PNG of a picture, without the panels.
+Result<std::string> Application::photograph(const app::Picture& picture) {
+  if (const Status status = renderer_.draw(picture, panels_.viewport, 0); !status.ok()) return status.error();
+  const Result<render::Image> image = render::read_framebuffer(0, panels_.viewport);
+  return image.ok() ? render::png_bytes(*image) : image.error();
+}
+
+/// What was done, as the person sees it and from straight above the line. The person's view is drawn last: it stays.
+void Application::save_page() {
+  const std::optional<std::filesystem::path> file = viewer_.take_page();
+  if (!file) return;
+  const app::SessionView& view = viewer_.view();
+  app::Picture above = viewer_.picture();
+  app::look_at_line(*view.score, panels_.viewport, above.camera);
+  const Result<std::string> from_above = photograph(above), as_seen = photograph(viewer_.picture());
+  std::vector<app::PagePicture> pictures;
+  if (as_seen.ok()) pictures.push_back({"The attempt, with how far off it is beside the line", *as_seen});
+  if (from_above.ok()) pictures.push_back({"The same from above", *from_above});
+  const Status status = app::write_text_file(*file, app::exercise_page(*view.scene, *view.score, pictures));
+  viewer_.notify(status.ok() ? "Report in " + file->string() : status.error().message);
 }
 
 /// Software renderers smooth edges at a price that is better spent on pictures.

@@ -25,6 +25,8 @@ namespace {
 constexpr float kToolsWidth = 13.5F, kFiguresWidth = 19;  // of the panels
 constexpr float kHistogramHeight = 4.2F, kForceHeight = 3.2F, kLegendHeight = 0.8F;
 constexpr float kTimeHalfWidth = 15.5F, kTimeHeight = 11;
+constexpr float kToolColumn = 4.3F;  // icons of tools, and the way to what is beside them
+constexpr float kExerciseWidth = 25, kNarrowExerciseWidth = 20.5F;
 constexpr int kLogLines = 5;
 
 void tool_buttons(Viewer& viewer, const PanelContext& context) {
@@ -274,23 +276,83 @@ void draw_probe(const app::SessionView& view) {
   ImGui::End();
 }
 
+/// The same to the right of the column of tools.
+ImVec2 beside_tools(float width) {
+  ImVec2 at = lower_left(width);
+  const float room = ImGui::GetMainViewport()->Size.x - 2 * kMargin * em() - width;
+  if (room > 0) at.x = std::min(1.0F, kToolColumn * em() / room);
+  return at;
+}
+
+/// A bar with the value in it; the part within which nothing is lost is marked, and said in words.
+void gauge(const app::ExerciseGauge& g) {
+  const bool is_known = std::isfinite(g.value);
+  faint(is_known ? app::formatted("{}  {:.1f} {}", g.name, g.value, g.unit) : std::string(g.name));
+  ImGui::SameLine(8.5F * em());
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, 0.8F * em());
+  ImGui::Dummy(size);
+  const auto x = [&](double value) { return at.x + size.x * static_cast<float>(std::clamp(value / g.most, 0.0, 1.0)); };
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end(at.x + size.x, at.y + size.y);
+  list.AddRectFilled(at, end, color_of(ImGuiCol_FrameBg), 3);
+  list.AddRectFilled({x(g.low), at.y}, {x(g.high), end.y}, color_of(app::Color{0, 158, 115}), 3);
+  if (!is_known) return;
+  const bool is_within = g.value >= g.low && g.value <= g.high;
+  const float middle = x(g.value);
+  list.AddRectFilled({middle - 2, at.y - 3}, {middle + 2, end.y + 3}, color_of(ImGuiCol_Text));
+  if (is_within) return;
+  list.AddTriangleFilled({middle - 5, at.y - 5}, {middle + 5, at.y - 5}, {middle, at.y + 2}, color_of(ImGuiCol_Text));
+}
+
+void gauges(const app::SessionView& view) {
+  if (!view.gauges) return;
+  for (const app::ExerciseGauge& g : *view.gauges) gauge(g);
+}
+
+/// What the ribbon's inks say.
+void ribbon_words() {
+  constexpr std::array<std::pair<app::Color, const char*>, 3> kInks = {
+      {{{31, 199, 154}, "within"}, {{230, 159, 0}, "near"}, {{255, 122, 31}, "far off"}}};
+  faint("Ribbon:");
+  for (const auto& [color, word] : kInks) {
+    ImGui::SameLine();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.25F * em()}, {at.x + 0.8F * em(), at.y + 0.85F * em()},
+                                              color_of(color));
+    ImGui::Dummy({0.9F * em(), em()});
+    ImGui::SameLine();
+    text(word);
+  }
+}
+
+void score_words(const app::ExerciseScore& score) {
+  ImGui::ProgressBar(static_cast<float>(score.points / 100), {-1, 0},
+                     app::formatted("{:.0f} of 100 points", score.points).c_str());
+  text(app::formatted("{}: {:.3g} points are asked for", score.is_passed ? "Passed" : "Not passed", score.pass));
+  for (const app::ExerciseDeduction& deduction : score.deductions) {
+    text(app::formatted("-{:.1f}  {}", deduction.points, deduction.reason));
+  }
+  if (score.deductions.empty()) text("Nothing to take off.");
+  ribbon_words();
+}
+
 /// What a trainee shall do; afterwards, how it was done.
 void draw_exercise(Viewer& viewer, const PanelContext& context) {
   const app::SessionView& view = viewer.view();
   if (!view.scene || !view.scene->exercise) return;
   const app::Exercise& exercise = *view.scene->exercise;
-  if (begin_panel("exercise", lower_left(25 * em()), 25 * em(), 0.6F * ImGui::GetMainViewport()->Size.y)) {
+  const bool is_research = std::as_const(viewer).state().is_research;
+  const float width = (is_research ? kExerciseWidth : kNarrowExerciseWidth) * em();
+  const ImVec2 at = is_research ? lower_left(width) : beside_tools(width);
+  if (begin_panel("exercise", at, width, 0.6F * ImGui::GetMainViewport()->Size.y)) {
     ImGui::PushTextWrapPos(0);
     faint("Exercise: " + exercise.name);
     if (view.score) {
-      ImGui::ProgressBar(static_cast<float>(view.score->points / 100), {-1, 0},
-                         app::formatted("{:.0f} of 100 points", view.score->points).c_str());
-      for (const app::ExerciseDeduction& deduction : view.score->deductions) {
-        text(app::formatted("-{:.1f}  {}", deduction.points, deduction.reason));
-      }
-      if (view.score->deductions.empty()) text("Nothing to take off.");
+      score_words(*view.score);
     } else {
       text(exercise.instructions);
+      gauges(view);
     }
     ImGui::PopTextWrapPos();
     action_button(viewer, context, Action::kScore, view.score ? "Score again" : "Finish", false);

@@ -87,21 +87,27 @@ bool have_same_size(const Image& a, const Image& b) {
 
 }  // namespace
 
-Status write_png(const Image& image, const fs::path& path) {
-  if (!is_whole(image)) return Error{ErrorCode::kBadArgument, path.string() + ": there are no pixels to write", {}};
-  std::error_code code;
-  const fs::path folder = path.parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, code)) {
-    return Error{ErrorCode::kIo, path.string() + ": there is no folder " + folder.string() + "; make it first", {}};
-  }
+Result<std::string> png_bytes(const Image& image) {
+  if (!is_whole(image)) return Error{ErrorCode::kBadArgument, "there are no pixels to write", {}};
   std::string text;
   const std::vector<std::uint8_t> opaque = without_opacity(image);
   const int channels = opaque.empty() ? kChannels : 3;
   const void* data = opaque.empty() ? static_cast<const void*>(image.pixels.data()) : opaque.data();
   if (stbi_write_png_to_func(append, &text, image.width, image.height, channels, data, channels * image.width) == 0) {
-    return Error{ErrorCode::kOutOfMemory, path.string() + ": there is no memory to pack the picture", {}};
+    return Error{ErrorCode::kOutOfMemory, "there is no memory to pack the picture", {}};
   }
-  return app::write_text_file(path, text);
+  return text;
+}
+
+Status write_png(const Image& image, const fs::path& path) {
+  const Result<std::string> bytes = png_bytes(image);
+  if (!bytes.ok()) return Error{bytes.error().code, path.string() + ": " + bytes.error().message, {}};
+  std::error_code code;
+  const fs::path folder = path.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, code)) {
+    return Error{ErrorCode::kIo, path.string() + ": there is no folder " + folder.string() + "; make it first", {}};
+  }
+  return app::write_text_file(path, *bytes);
 }
 
 Result<Image> read_png(const fs::path& path) {

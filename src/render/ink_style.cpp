@@ -35,6 +35,10 @@ constexpr std::array<InkRow, kStyles> kRows = {{
     {0xF0E442, 0xF0E442, LinePattern::kSolid, BallGlyph::kRing, FillPattern::kRising},            // picked
     {0xFF7A1F, 0xD55E00, LinePattern::kDashDot, BallGlyph::kDonut, FillPattern::kCrossed},        // worst
     {0xA9B4C0, 0x7A858F, LinePattern::kHollow, BallGlyph::kDisc, FillPattern::kPlain},            // tool
+    {0x1FC79A, 0x009E73, LinePattern::kSolid, BallGlyph::kRing, FillPattern::kPlain},             // within
+    {0xE69F00, 0xE69F00, LinePattern::kDashed, BallGlyph::kBullseye, FillPattern::kRising},       // near
+    {0xFF7A1F, 0xD55E00, LinePattern::kDashDot, BallGlyph::kCross, FillPattern::kCrossed},        // far
+    {0x6B3A2A, 0x6B3A2A, LinePattern::kSolid, BallGlyph::kDonut, FillPattern::kPlain},            // spot
     {0xFFF3D6, 0xFFF3D6, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // front
     {0x6E1512, 0x6E1512, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // contour
 }};

@@ -24,7 +24,7 @@ struct InkStyle {
   FillPattern fill = FillPattern::kPlain;
 };
 
-inline constexpr std::size_t kInks = static_cast<std::size_t>(app::Ink::kTool) + 1;
+inline constexpr std::size_t kInks = static_cast<std::size_t>(app::Ink::kSpot) + 1;
 inline constexpr std::size_t kFrontStyle = kInks;        ///< front edges come after the inks
 inline constexpr std::size_t kContourStyle = kInks + 1;  ///< and then the rims of wounds
 inline constexpr std::size_t kStyles = kInks + 2;

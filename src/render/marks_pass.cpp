@@ -50,7 +50,7 @@ class Layout {
 
 void set_styles(const GlObject& program, app::Theme theme) {
   const auto styles = ink_styles(theme);
-  static_assert(kStyles == 14, "the arrays of the shaders have as many");
+  static_assert(kStyles == 18, "the arrays of the shaders have as many");
   std::array<std::array<float, 3>, kStyles> inks, casings;
   std::array<std::array<int, 3>, kStyles> shapes;
   for (std::size_t i = 0; i < kStyles; ++i) {

@@ -11,8 +11,8 @@ inline constexpr const char* kMarksPrelude = R"(
 uniform mat4 to_view, to_clip;
 uniform vec2 pixels;        // of the picture
 uniform float pixel_scale;  // length per pixel at depth 1
-uniform vec3 inks[14], casings[14];
-uniform ivec3 shapes[14];   // of lines, balls, fills
+uniform vec3 inks[18], casings[18];
+uniform ivec3 shapes[18];   // of lines, balls, fills
 const float kCasing = 1.5;  // pixels around an ink
 )";
 

@@ -70,6 +70,7 @@ TEST_F(CliSimulate, scores_the_attempt_of_the_scene_and_the_ideal) {
   json["materials"] = Json::object();
   json["exercise"]["target"] = {{0.45, 0, 1}, {0.45, 1, 1}};
   json["exercise"]["depth"] = 1;
+  json["exercise"].erase("remove");
   json["tools"] = Json::array();
   json["hooks"] = Json::array();
   json["strokes"] = Json::array();
@@ -81,7 +82,10 @@ TEST_F(CliSimulate, scores_the_attempt_of_the_scene_and_the_ideal) {
   const Json ideal = report_of({"--ideal"})["exercise"];
   EXPECT_GT(ideal["points"], 50);
   EXPECT_EQ(ideal["cuts"]["strokes"], 1);
-  const Outcome text = simulate({"--ideal", "--record", folder_ / "r.jsonl"});
+  const Outcome text = simulate({"--ideal", "--record", folder_ / "r.jsonl", "--page", folder_ / "page.html"});
+  const std::string page = read(folder_ / "page.html");
+  EXPECT_NE(page.find("<h1>a cut</h1>"), std::string::npos);
+  EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_NE(text.out.find("of 100 points"), std::string::npos) << text.out;
   EXPECT_EQ(run({"replay", folder_ / "r.jsonl", "--verify"}).code, 0);
 }
@@ -91,6 +95,9 @@ TEST_F(CliSimulate, has_no_ideal_where_the_scene_has_none) {
   EXPECT_EQ(simulate({"--ideal"}).code, 3);
   EXPECT_NE(simulate({"--ideal"}).err.find("this scene has no exercise.ideal"), std::string::npos);
   EXPECT_FALSE(report_of({}).contains("exercise"));
+  const Outcome page = simulate({"--page", folder_ / "page.html"});
+  EXPECT_EQ(page.code, 3);
+  EXPECT_NE(page.err.find("--page tells how an exercise went; this scene has no exercise"), std::string::npos);
 }
 
 TEST_F(CliSimulate, exits_with_2_on_usage) {

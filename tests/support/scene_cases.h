@@ -104,15 +104,21 @@ inline Json full_scene() {
   scene["view"] = {{"from", {1, -2, 3}}, {"up", {0, 0, 2}},       {"target", {0.5, 0.4, 0.9}}, {"distance", 4.5},
                    {"zoom", 1.5},        {"color", "region"},     {"wireframe", true},         {"opacity", 0.25},
                    {"theme", "light"},   {"clip", {0, 1, 0, 0.1}}};
-  scene["exercise"] = {{"name", "a cut"},
-                       {"instructions", "Cut along the line."},
-                       {"target", {{0.45, 0.1, 1}, {0.45, 0.9, 1}}},
-                       {"depth", 0.5},
-                       {"angle", 5},
-                       {"tolerances", {{"line", 0.1}, {"depth", 0.2}, {"angle", 15}, {"force", 0.5}}},
-                       {"max_force", 3},
-                       {"strokes", 2},
-                       {"ideal", {{"blade", {blade_stroke(0, 0.4)}}, {"start", 0.1}, {"direction", {0, 1, 0}}}}};
+  scene["exercise"] = {
+      {"name", "a cut"},
+      {"instructions", "Cut along the line."},
+      {"target", {{0.45, 0.1, 1}, {0.45, 0.9, 1}}},
+      {"depth", 0.5},
+      {"angle", 5},
+      {"tolerances", {{"line", 0.1}, {"depth", 0.2}, {"angle", 15}, {"force", 0.5}}},
+      {"max_force", 3},
+      {"strokes", 2},
+      {"pass", 80},
+      {"divide", {{"regions", {3}}, {"name", "the rind"}}},
+      {"spare", {{{"regions", {4, 5}}, {"name", "the core"}, {"depth", 0.1}}}},
+      {"remove",
+       {{"regions", {6}}, {"name", "the spot"}, {"share", 0.9}, {"margin", {0.1, 0.2}}, {"volume", {0.01, 0.02}}}},
+      {"ideal", {{"blade", {blade_stroke(0, 0.4)}}, {"start", 0.1}, {"direction", {0, 1, 0}}}}};
   return scene;
 }
 

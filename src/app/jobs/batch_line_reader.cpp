@@ -16,7 +16,7 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-constexpr std::size_t kMaxListed = 16;  // pieces and strokes, in a line
+constexpr std::size_t kMaxListedInLine = 16;  // pieces and strokes, in a line
 
 enum class FieldType : std::uint8_t { kWhole, kFigure, kFlag, kText };
 
@@ -95,7 +95,7 @@ bool has_object(RangeReader& read, const JsonValue& root, const std::string& pat
 
 bool has_list(RangeReader& read, const JsonValue& root, const char* key, FieldType type) {
   const JsonValue* list = read.member(root, "", key);
-  if (list == nullptr || !read.is_array(*list, key, 0, kMaxListed)) return false;
+  if (list == nullptr || !read.is_array(*list, key, 0, kMaxListedInLine)) return false;
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     if (!has_type(read, list->items[i], at(key, i), type)) return false;
   }
@@ -106,7 +106,7 @@ bool has_list(RangeReader& read, const JsonValue& root, const char* key, FieldTy
 bool has_volumes(RangeReader& read, const JsonValue& root) {
   if (!has_list(read, root, "volumes", FieldType::kFigure)) return false;
   const JsonValue& volumes = *root.find("volumes");
-  const std::uint64_t wanted = std::min<std::uint64_t>(root.find("pieces")->whole, kMaxListed);
+  const std::uint64_t wanted = std::min<std::uint64_t>(root.find("pieces")->whole, kMaxListedInLine);
   return volumes.items.size() == wanted ||
          read.fail(volumes, "volumes", "must have one entry for each piece, of the first 16");
 }

@@ -31,6 +31,10 @@ std::uint64_t first_frame(const Exercise& exercise, double frame_seconds) {
 
 }  // namespace
 
+bool is_closed(const Exercise& exercise) {
+  return exercise.target.size() > 3 && exercise.target.front() == exercise.target.back();
+}
+
 std::vector<BladePose> ideal_poses(const Scene& scene, std::uint64_t frame) {
   if (!scene.exercise || scene.exercise->ideal.empty() || frame > kMaxSceneFrames) return {};
   const double seconds = scene.options.frame_seconds;

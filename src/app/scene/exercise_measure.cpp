@@ -25,20 +25,11 @@ struct SkinSoup {
   std::vector<TriangleTree::Triangle> triangles;
 };
 
-template <class Visit>
-void for_each_boundary_side(const TetMesh& mesh, const Visit& visit) {
-  mesh.for_each_tet([&](TetId tet) {
-    for (unsigned s = 0; s < 4; ++s) {
-      if (mesh.links(tet)[s].is_boundary()) visit(mesh.vertices(Side(tet, s)), mesh.links(tet)[s].tag());
-    }
-  });
-}
-
 SkinSoup skin_of(const TetMesh& mesh) {
   SkinSoup soup;
   soup.points.resize(mesh.vertex_slots(), Vec3::Zero());
   mesh.for_each_vertex([&](VertexId v) { soup.points[v.value] = mesh.rest(v); });
-  for_each_boundary_side(mesh, [&](const std::array<VertexId, 3>& v, std::uint32_t) {
+  for_each_boundary_side(mesh, [&](TetId, const std::array<VertexId, 3>& v, std::uint32_t) {
     soup.triangles.push_back({v[0].value, v[1].value, v[2].value});
   });
   return soup;
@@ -53,7 +44,11 @@ Vec3 normal_of(const SkinSoup& soup, std::uint32_t triangle) {
 }  // namespace
 
 TargetLine::TargetLine(const Exercise& exercise, const TetMesh& mesh)
-    : points_(exercise.target), arcs_(1, 0.0), near_(kNearTolerances * exercise.tolerances.line) {
+    : points_(exercise.target),
+      arcs_(1, 0.0),
+      is_closed_(app::is_closed(exercise)),
+      end_(exercise.tolerances.line),
+      near_(kNearTolerances * exercise.tolerances.line) {
   for (std::size_t i = 1; i < points_.size(); ++i) {
     arcs_.push_back(arcs_.back() + (points_[i] - points_[i - 1]).norm());
   }
@@ -106,11 +101,16 @@ std::size_t TargetLine::bin_at(double arc) const {
 }
 
 LinePlace TargetLine::place_of(const Vec3& point) const {
-  const Foot foot = foot_of(point, true);
+  const Foot foot = foot_of(point, !is_closed_);
   const Skin& skin = skin_[bin_at(foot.arc)];
   const Vec3 off = point - foot.point;
-  const double lateral = (off - off.dot(skin.normal) * skin.normal).norm();
-  return {foot.arc, lateral, (skin.point - point).dot(skin.normal)};
+  const Vec3 beside = off - off.dot(skin.normal) * skin.normal;
+  return {foot.arc, beside.norm(), (skin.point - point).dot(skin.normal), beside};
+}
+
+bool TargetLine::is_end(std::size_t bin) const {
+  const double arc = length() * (static_cast<double>(bin) + 0.5) / static_cast<double>(kBins);
+  return !is_closed_ && std::min(arc, length() - arc) < end_;
 }
 
 double TargetLine::distance(const Vec3& point) const {
@@ -141,7 +141,7 @@ Cuts cuts_of(const TetMesh& mesh) {
   Cuts cuts;
   std::vector<Edge> skin;
   const auto is_at_wall = [&](VertexId v) { return (mesh.shape_of(v) & shape::kWall) != 0; };
-  for_each_boundary_side(mesh, [&](const std::array<VertexId, 3>& v, std::uint32_t tag) {
+  for_each_boundary_side(mesh, [&](TetId, const std::array<VertexId, 3>& v, std::uint32_t tag) {
     if (tag > 0) cuts.walls.push_back(v);
     for (unsigned i = 0; i < 3; ++i) {
       const VertexId a = v[i], b = v[(i + 1) % 3];
@@ -160,7 +160,9 @@ Cuts cuts_of(const TetMesh& mesh) {
 class MeshMeasure {
  public:
   MeshMeasure(const Exercise& exercise, const TargetLine& line, const TetMesh& mesh, ExerciseScore& score)
-      : exercise_(exercise), line_(line), mesh_(mesh), score_(score) {}
+      : exercise_(exercise), line_(line), mesh_(mesh), score_(score) {
+    beside_.fill(Vec3::Zero());
+  }
 
   void run() {
     const Cuts cuts = cuts_of(mesh_);
@@ -173,6 +175,7 @@ class MeshMeasure {
     }
     finish_line();
     finish_depth();
+    finish_profile();
   }
 
  private:
@@ -207,13 +210,16 @@ class MeshMeasure {
   }
 
   void add_entry(const LinePlace& place, double length, std::size_t bin) {
-    const double beyond = std::max(-place.arc, place.arc - line_.length());
+    const double beyond = line_.is_closed() ? 0 : std::max(-place.arc, place.arc - line_.length());
     score_.overshoot = std::max(score_.overshoot, beyond);
     weight_ += length;
     sum_ += length * place.lateral;
     sum2_ += length * place.lateral * place.lateral;
     most_ = std::max(most_, place.lateral);
-    if (beyond <= 0) is_covered_[bin] = true;
+    if (beyond > 0) return;
+    is_covered_[bin] = true;
+    beside_[bin] += length * place.beside;
+    lengths_[bin] += length;
   }
 
   void add_wall(const LinePlace& place) {
@@ -239,7 +245,7 @@ class MeshMeasure {
       if (!is_covered_[bin]) continue;
       const double off = deepest_[bin] - exercise_.depth;
       score_.too_deep = std::max(score_.too_deep, off);
-      if (is_end(bin)) continue;
+      if (line_.is_end(bin)) continue;
       count += 1;
       depth += deepest_[bin];
       error += std::abs(off);
@@ -250,10 +256,17 @@ class MeshMeasure {
     score_.depth_error_mean = error / count;
     score_.depth_error_max = most;
   }
-  /// Whether a part is so near an end that the cut may have begun or ended there.
-  [[nodiscard]] bool is_end(std::size_t bin) const {
-    const double arc = line_.length() * (static_cast<double>(bin) + 0.5) / TargetLine::kBins;
-    return std::min(arc, line_.length() - arc) < exercise_.tolerances.line;
+  void finish_profile() {
+    score_.profile.assign(TargetLine::kBins, {});
+    for (std::size_t bin = 0; bin < TargetLine::kBins; ++bin) {
+      ExercisePlace& place = score_.profile[bin];
+      place.ideal = line_.skin_at(bin);
+      place.normal = line_.skin_normal(bin);
+      place.is_cut = is_covered_[bin];
+      if (!place.is_cut) continue;
+      if (lengths_[bin] > 0) place.beside = beside_[bin] / lengths_[bin];
+      place.depth = deepest_[bin];
+    }
   }
 
   static constexpr double kMostPieces = 1000;  // of an edge that is far longer than the line
@@ -264,6 +277,8 @@ class MeshMeasure {
   ExerciseScore& score_;
   std::array<bool, TargetLine::kBins> is_covered_{};
   std::array<double, TargetLine::kBins> deepest_{};
+  std::array<Vec3, TargetLine::kBins> beside_;  // sum over the contour, by length
+  std::array<double, TargetLine::kBins> lengths_{};
   double weight_ = 0, sum_ = 0, sum2_ = 0, most_ = 0;
 };
 

@@ -16,6 +16,7 @@ struct LinePlace {
   double arc = 0;      ///< along the line from its first point; below 0 and above its length on its prolongations
   double lateral = 0;  ///< beside the line, along the skin; at least 0
   double depth = 0;    ///< below the skin; below 0 outside the body
+  Vec3 beside = Vec3::Zero();  ///< from the line to the point, along the skin
 };
 
 /// The target line on the skin of the uncut mesh.
@@ -26,6 +27,13 @@ class TargetLine {
   TargetLine(const Exercise& exercise, const TetMesh& mesh);
 
   [[nodiscard]] double length() const { return arcs_.back(); }
+  /// Whether it comes back to where it begins: it has no ends.
+  [[nodiscard]] bool is_closed() const { return is_closed_; }
+  /// The skin nearest to the middle of a part of the line.
+  [[nodiscard]] const Vec3& skin_at(std::size_t bin) const { return skin_[bin].point; }
+  [[nodiscard]] const Vec3& skin_normal(std::size_t bin) const { return skin_[bin].normal; }
+  /// Whether a part is so near an end that the cut may have begun or ended there.
+  [[nodiscard]] bool is_end(std::size_t bin) const;
   [[nodiscard]] LinePlace place_of(const Vec3& point) const;
   /// Outward and unit: the skin's normal nearest to the line at an arc length.
   [[nodiscard]] const Vec3& normal_at(double arc) const { return skin_[bin_at(arc)].normal; }
@@ -55,11 +63,23 @@ class TargetLine {
 
   std::vector<Vec3> points_;
   std::vector<double> arcs_;  // per point
+  bool is_closed_ = false;
+  double end_ = 0;  // length of what `is_end`
   double near_ = 0, slope_ = 0;
   std::vector<Skin> skin_;  // per bin
 };
 
-/// Fills in all figures that the mesh tells.
+/// Calls `visit(tet, vertices, tag)` for each side of the boundary: tag 0 is skin, others are walls of cuts.
+template <class Visit>
+void for_each_boundary_side(const TetMesh& mesh, const Visit& visit) {
+  mesh.for_each_tet([&](TetId tet) {
+    for (unsigned s = 0; s < 4; ++s) {
+      if (mesh.links(tet)[s].is_boundary()) visit(tet, mesh.vertices(Side(tet, s)), mesh.links(tet)[s].tag());
+    }
+  });
+}
+
+/// Fills in all figures that the mesh tells, but for those of regions.
 void measure_mesh(const Exercise& exercise, const TargetLine& line, const TetMesh& mesh, ExerciseScore& score);
 
 }  // namespace app

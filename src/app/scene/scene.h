@@ -31,11 +31,14 @@ struct SceneBox {
   double jitter = 0;           ///< as `fraction` of `jitter`, in [0, 0.15]; with the scene's seed
 };
 
-/// Gives all tets whose centroid lies in a half-space a region label, and the region a name.
+/// A part of space.
+using ScenePlace = std::variant<Box, BallTool, HalfSpace>;
+
+/// Gives all tets whose centroid lies somewhere a region label, and the region a name.
 struct RegionPaint {
   std::int32_t region = 0;
   std::string name;  ///< may be empty
-  HalfSpace below;
+  ScenePlace where;
 };
 
 /// Another body of the same scene.
@@ -62,7 +65,7 @@ struct NamedMaterial {
 
 /// Holds the vertices whose rest position lies somewhere.
 struct Attachment {
-  std::variant<Box, BallTool, HalfSpace> where;
+  ScenePlace where;
   bool surface_only = false;
   double stiffness = std::numeric_limits<double>::infinity();  ///< N/m per vertex; infinite: rigidly
   double strength = std::numeric_limits<double>::infinity();   ///< N per vertex, above 0; of springs alone

@@ -40,6 +40,7 @@ constexpr double kSteepestAngle = 89;           // degrees, of an exercise: an e
 constexpr std::size_t kMaxTargetPoints = 1000;  // each part of an attempt is compared with each of them
 constexpr double kLineTolerance = 0.05;         // of the target line's length
 constexpr double kDepthTolerance = 0.25;        // of the depth
+constexpr double kAllPoints = 100;              // that an attempt may have
 
 /// A scene as far as it is read, and what all of its readers need.
 class SceneParts {
@@ -158,12 +159,9 @@ class SceneBodyReader : public SceneParts {
   }
   bool read_painting(const JsonValue& value, const std::string& path) {
     RegionPaint& paint = scene_.model.regions.emplace_back();
-    if (!read_.is_object(value, path, {"region", "name", "below"}) || !read_region(value, path, paint.region) ||
-        !read_.optional_text(value, path, "name", paint.name)) {
-      return false;
-    }
-    const JsonValue* below = read_.member(value, path, "below");
-    return below != nullptr && read_plane(*below, path + ".below", paint.below);
+    return read_.is_object(value, path, {"region", "name", "below", "ball", "box"}) &&
+           read_region(value, path, paint.region) && read_.optional_text(value, path, "name", paint.name) &&
+           has_one(value, path, {"box", "ball", "below"}) && read_where(value, path, paint.where);
   }
   bool read_materials(const JsonValue& root) {
     const JsonValue* value = root.find("materials");
@@ -268,7 +266,7 @@ class SceneBodyReader : public SceneParts {
   bool read_attachment(const JsonValue& value, const std::string& path) {
     Attachment& held = scene_.attachments.emplace_back();
     return read_.is_object(value, path, {"box", "ball", "below", "surface", "stiffness", "strength", "tears"}) &&
-           has_one(value, path, {"box", "ball", "below"}) && read_where(value, path, held) &&
+           has_one(value, path, {"box", "ball", "below"}) && read_where(value, path, held.where) &&
            read_.optional_boolean(value, path, "surface", held.surface_only) &&
            read_.optional_ranged(value, path, "stiffness", kBoundedAbove0, held.stiffness) &&
            read_.optional_ranged(value, path, "strength", kBoundedAbove0, held.strength) &&
@@ -279,13 +277,13 @@ class SceneBodyReader : public SceneParts {
     return std::isfinite(held.stiffness) || !std::isfinite(held.strength) ||
            read_.fail(value, path, "has a strength, but holds rigidly; give it a \"stiffness\"");
   }
-  bool read_where(const JsonValue& value, const std::string& path, Attachment& held) {
-    if (const JsonValue* box = value.find("box")) return read_hold_box(*box, path + ".box", held.where.emplace<Box>());
+  bool read_where(const JsonValue& value, const std::string& path, ScenePlace& where) {
+    if (const JsonValue* box = value.find("box")) return read_hold_box(*box, path + ".box", where.emplace<Box>());
     if (const JsonValue* ball = value.find("ball")) {
       return read_.is_object(*ball, path + ".ball", {"centre", "radius"}) &&
-             read_ball(*ball, path + ".ball", held.where.emplace<BallTool>());
+             read_ball(*ball, path + ".ball", where.emplace<BallTool>());
     }
-    return read_plane(*value.find("below"), path + ".below", held.where.emplace<HalfSpace>());
+    return read_plane(*value.find("below"), path + ".below", where.emplace<HalfSpace>());
   }
   bool read_hold_box(const JsonValue& value, const std::string& path, Box& box) {
     if (!read_.is_object(value, path, {"low", "high"}) || !read_.need_point(value, path, "low", box.lo) ||
@@ -606,9 +604,9 @@ class SceneExerciseReader : public SceneHandsReader {
     const std::string path = "exercise";
     Exercise& exercise = scene_.exercise.emplace();
     std::uint64_t strokes = exercise.strokes;
-    if (!read_.is_object(
-            *value, path,
-            {"name", "instructions", "target", "depth", "angle", "tolerances", "max_force", "strokes", "ideal"}) ||
+    if (!read_.is_object(*value, path,
+                         {"name", "instructions", "target", "depth", "angle", "tolerances", "max_force", "strokes",
+                          "ideal", "divide", "spare", "remove", "pass"}) ||
         !read_.optional_text(*value, path, "name", exercise.name) ||
         !read_.optional_text(*value, path, "instructions", exercise.instructions) ||
         !read_target(*value, path, exercise) ||
@@ -616,7 +614,8 @@ class SceneExerciseReader : public SceneHandsReader {
         !read_.optional_ranged(*value, path, "angle", {0, kSteepestAngle}, exercise.angle) ||
         !read_tolerances(*value, path + ".tolerances", exercise) ||
         !read_.optional_ranged(*value, path, "max_force", kBoundedAtLeast0, exercise.max_force) ||
-        !read_.optional_whole(*value, path, "strokes", 1, kMaxSceneItems, strokes)) {
+        !read_.optional_whole(*value, path, "strokes", 1, kMaxSceneItems, strokes) ||
+        !read_.optional_ranged(*value, path, "pass", {0, kAllPoints}, exercise.pass) || !read_goals(*value, path)) {
       return false;
     }
     exercise.strokes = static_cast<std::uint32_t>(strokes);
@@ -649,6 +648,47 @@ class SceneExerciseReader : public SceneHandsReader {
            read_.optional_ranged(*given, path, "depth", kBoundedAbove0, allowed.depth) &&
            read_.optional_ranged(*given, path, "angle", {0, 90, true}, allowed.angle) &&
            read_.optional_ranged(*given, path, "force", kBoundedAtLeast0, allowed.force);
+  }
+  /// What becomes of regions.
+  bool read_goals(const JsonValue& value, const std::string& path) {
+    Exercise& exercise = *scene_.exercise;
+    if (const JsonValue* divide = value.find("divide")) {
+      const std::string at_divide = path + ".divide";
+      if (!read_.is_object(*divide, at_divide, {"regions", "name"}) ||
+          !read_regions(*divide, at_divide, exercise.divide.emplace())) {
+        return false;
+      }
+    }
+    const JsonValue* remove = value.find("remove");
+    return read_list(*this, value, path + ".spare", &SceneExerciseReader::read_goal_spare) &&
+           (remove == nullptr || read_remove(*remove, path + ".remove", exercise.remove.emplace()));
+  }
+  bool read_regions(const JsonValue& value, const std::string& path, ExerciseRegions& goal) {
+    return read_.member(value, path, "regions") != nullptr &&
+           app::read_regions(read_, value, path, "regions", goal.stop_at, goal.stop_names) &&
+           read_.optional_text(value, path, "name", goal.name);
+  }
+  bool read_goal_spare(const JsonValue& value, const std::string& path) {
+    ExerciseSpare& spare = scene_.exercise->spare.emplace_back();
+    return read_.is_object(value, path, {"regions", "name", "depth"}) && read_regions(value, path, spare) &&
+           read_.optional_ranged(value, path, "depth", kBoundedAtLeast0, spare.depth);
+  }
+  bool read_remove(const JsonValue& value, const std::string& path, ExerciseRemove& remove) {
+    return read_.is_object(value, path, {"regions", "name", "share", "margin", "volume"}) &&
+           read_regions(value, path, remove) &&
+           read_.optional_ranged(value, path, "share", {0, 1, true}, remove.share) &&
+           read_span(value, path, "margin", remove.margin) && read_span(value, path, "volume", remove.volume);
+  }
+  /// The least and the greatest of something.
+  bool read_span(const JsonValue& value, const std::string& path, const std::string& key,
+                 std::optional<std::array<double, 2>>& out) {
+    const JsonValue* span = value.find(key);
+    if (span == nullptr) return true;
+    std::array<double, 2>& ends = out.emplace();
+    const std::string place = path + "." + key;
+    if (!read_.numbers(*span, place, ends.data(), 2)) return false;
+    return (ends[0] >= 0 && ends[0] < ends[1]) ||
+           read_.fail(*span, place, "must be the least and the greatest, [least,greatest], at least 0 and rising");
   }
   /// One of the scene's strokes by its number, or a blade.
   bool read_ideal(const JsonValue* value, const std::string& path, std::vector<SceneStroke>& ideal) {

@@ -36,7 +36,8 @@ void paint(const std::vector<RegionPaint>& regions, TetSoup& soup) {
     Vec3 centroid = Vec3::Zero();
     for (const std::uint32_t v : soup.tets[i]) centroid += 0.25 * soup.points[v];
     for (const RegionPaint& region : regions) {
-      if (lies_in(centroid, region.below)) soup.regions[i] = region.region;
+      const auto has = [&](const auto& where) { return lies_in(centroid, where); };
+      if (std::visit(has, region.where)) soup.regions[i] = region.region;
     }
   }
 }
@@ -91,18 +92,52 @@ Status resolve_materials(const io::RegionNames& names, Scene& scene) {
   return {};
 }
 
-/// Of what has `stop_at` and `stop_names`.
+/// Of what has `stop_at` and `stop_names`; `key` is what they are called in a scene.
+template <class Item>
+Status resolve_regions(const io::RegionNames& names, const char* key, Item& item) {
+  for (const std::string& name : item.stop_names) {
+    const Result<std::vector<std::int32_t>> regions = find_regions(name, names);
+    if (!regions.ok()) return Error{ErrorCode::kBadFile, std::string(key) + ": " + regions.error().message};
+    item.stop_at.insert(item.stop_at.end(), regions->begin(), regions->end());
+  }
+  item.stop_names.clear();
+  return {};
+}
+
 template <class Item>
 Status resolve_stops(const io::RegionNames& names, std::vector<Item>& items) {
   for (Item& item : items) {
-    for (const std::string& name : item.stop_names) {
-      const Result<std::vector<std::int32_t>> regions = find_regions(name, names);
-      if (!regions.ok()) return Error{ErrorCode::kBadFile, "stop_at: " + regions.error().message};
-      item.stop_at.insert(item.stop_at.end(), regions->begin(), regions->end());
-    }
-    item.stop_names.clear();
+    if (Status status = resolve_regions(names, "stop_at", item); !status.ok()) return status;
   }
   return {};
+}
+
+/// What people call regions where the scene does not say.
+std::string called(const io::RegionNames& names, const std::vector<std::int32_t>& regions) {
+  std::string all;
+  for (const std::int32_t region : regions) {
+    const auto found = names.find(region);
+    all +=
+        (all.empty() ? "" : ", ") +
+        (found != names.end() && !found->second.empty() ? "the " + found->second : "region " + std::to_string(region));
+  }
+  return all;
+}
+
+Status resolve_goal(const io::RegionNames& names, const char* key, ExerciseRegions& goal) {
+  Status status = resolve_regions(names, key, goal);
+  if (goal.name.empty()) goal.name = called(names, goal.stop_at);
+  return status;
+}
+
+Status resolve_exercise(const io::RegionNames& names, Exercise& exercise) {
+  Status status;
+  if (exercise.divide) status = resolve_goal(names, "exercise.divide", *exercise.divide);
+  for (ExerciseSpare& spare : exercise.spare) {
+    if (status.ok()) status = resolve_goal(names, "exercise.spare", spare);
+  }
+  if (exercise.remove && status.ok()) status = resolve_goal(names, "exercise.remove", *exercise.remove);
+  return status.ok() ? resolve_stops(names, exercise.ideal) : status;
 }
 
 /// A generated box, as if it came from a file.
@@ -263,6 +298,10 @@ Result<io::LoadedMesh> take_model(Scene& scene) {
   if (const Status status = resolve_materials(loaded->region_names, scene); !status.ok()) return status.error();
   if (const Status status = resolve_stops(loaded->region_names, scene.strokes); !status.ok()) return status.error();
   if (const Status status = resolve_stops(loaded->region_names, scene.spare); !status.ok()) return status.error();
+  if (!scene.exercise) return loaded;
+  if (const Status status = resolve_exercise(loaded->region_names, *scene.exercise); !status.ok()) {
+    return status.error();
+  }
   return loaded;
 }
 

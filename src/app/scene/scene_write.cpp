@@ -21,6 +21,14 @@ Json json_of_shape(const std::string& file, const SceneBox& box) {
            {{"cells", box.cells}, {"size", encode(box.size)}, {"origin", encode(box.origin)}, {"jitter", box.jitter}}}};
 }
 
+struct EncodeWhere {
+  Json operator()(const Box& box) const { return {{"box", {{"low", encode(box.lo)}, {"high", encode(box.hi)}}}}; }
+  Json operator()(const BallTool& ball) const {
+    return {{"ball", {{"centre", encode(ball.centre)}, {"radius", ball.radius}}}};
+  }
+  Json operator()(const HalfSpace& plane) const { return {{"below", json_of(plane)}}; }
+};
+
 Json json_of(const SceneModel& model) {
   Json root = json_of_shape(model.file, model.box);
   if (!model.surface.empty()) root["surface"] = model.surface;
@@ -32,7 +40,8 @@ Json json_of(const SceneModel& model) {
   }
   root["regions"] = Json::array();
   for (const RegionPaint& paint : model.regions) {
-    Json item = {{"region", paint.region}, {"below", json_of(paint.below)}};
+    Json item = std::visit(EncodeWhere{}, paint.where);
+    item["region"] = paint.region;
     if (!paint.name.empty()) item["name"] = paint.name;
     root["regions"].push_back(std::move(item));
   }
@@ -85,14 +94,6 @@ Json json_of_materials(const Scene& scene) {
   if (scene.has_materials_by_name) root["by_name"] = true;
   return root;
 }
-
-struct EncodeWhere {
-  Json operator()(const Box& box) const { return {{"box", {{"low", encode(box.lo)}, {"high", encode(box.hi)}}}}; }
-  Json operator()(const BallTool& ball) const {
-    return {{"ball", {{"centre", encode(ball.centre)}, {"radius", ball.radius}}}};
-  }
-  Json operator()(const HalfSpace& plane) const { return {{"below", json_of(plane)}}; }
-};
 
 Json json_of(const Attachment& held) {
   Json root = std::visit(EncodeWhere{}, held.where);
@@ -207,6 +208,28 @@ Json json_of_ideal(const std::vector<SceneStroke>& strokes) {
   return root;
 }
 
+Json json_of(const ExerciseRegions& goal) {
+  Json root = {{"regions", Json::array()}};
+  for (const std::int32_t region : goal.stop_at) root["regions"].push_back(region);
+  for (const std::string& name : goal.stop_names) root["regions"].push_back(name);
+  if (!goal.name.empty()) root["name"] = goal.name;
+  return root;
+}
+
+void add_goals(const Exercise& exercise, Json& root) {
+  if (exercise.divide) root["divide"] = json_of(*exercise.divide);
+  for (const ExerciseSpare& spare : exercise.spare) {
+    Json item = json_of(static_cast<const ExerciseRegions&>(spare));
+    item["depth"] = spare.depth;
+    root["spare"].push_back(std::move(item));
+  }
+  if (!exercise.remove) return;
+  Json& remove = root["remove"] = json_of(static_cast<const ExerciseRegions&>(*exercise.remove));
+  remove["share"] = exercise.remove->share;
+  if (exercise.remove->margin) remove["margin"] = *exercise.remove->margin;
+  if (exercise.remove->volume) remove["volume"] = *exercise.remove->volume;
+}
+
 Json json_of(const Exercise& exercise) {
   const ExerciseTolerances& allowed = exercise.tolerances;
   Json root = {{"name", exercise.name},
@@ -217,7 +240,9 @@ Json json_of(const Exercise& exercise) {
                {"tolerances",
                 {{"line", allowed.line}, {"depth", allowed.depth}, {"angle", allowed.angle}, {"force", allowed.force}}},
                {"max_force", exercise.max_force},
-               {"strokes", exercise.strokes}};
+               {"strokes", exercise.strokes},
+               {"pass", exercise.pass}};
+  add_goals(exercise, root);
   if (!exercise.ideal.empty()) root["ideal"] = json_of_ideal(exercise.ideal);
   return root;
 }

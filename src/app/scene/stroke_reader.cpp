@@ -137,9 +137,15 @@ class StrokeReader {
 
 bool read_stops(JsonReader& reader, const JsonValue& value, const std::string& path, std::vector<std::int32_t>& numbers,
                 std::vector<std::string>& names) {
-  const JsonValue* list = value.find("stop_at");
+  return read_regions(reader, value, path, "stop_at", numbers, names);
+}
+
+bool read_regions(JsonReader& reader, const JsonValue& value, const std::string& path, const std::string& key,
+                  std::vector<std::int32_t>& numbers, std::vector<std::string>& names) {
+  const JsonValue* list = value.find(key);
   if (list == nullptr) return true;
-  if (!reader.is_array(*list, path + ".stop_at", 1, kMaxStops)) return false;
+  const std::string place = path + "." + key;
+  if (!reader.is_array(*list, place, 1, kMaxStops)) return false;
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     const JsonValue& item = list->items[i];
     if (item.kind == JsonValue::Kind::kString && !item.text.empty()) {
@@ -147,7 +153,7 @@ bool read_stops(JsonReader& reader, const JsonValue& value, const std::string& p
     } else if (item.is_whole && item.whole <= kMaxStrokeRegion) {
       numbers.push_back(static_cast<std::int32_t>(item.whole));
     } else {
-      return reader.fail(item, at(path + ".stop_at", i), "must be a region's number or its name");
+      return reader.fail(item, at(place, i), "must be a region's number or its name");
     }
   }
   return true;

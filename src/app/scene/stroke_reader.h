@@ -18,6 +18,9 @@ bool read_strokes(JsonReader& reader, const JsonValue& list, const std::string& 
 /// Reads `stop_at` of an object, where it has one: regions by number or name, which are appended.
 bool read_stops(JsonReader& reader, const JsonValue& value, const std::string& path, std::vector<std::int32_t>& numbers,
                 std::vector<std::string>& names);
+/// The same of another key.
+bool read_regions(JsonReader& reader, const JsonValue& value, const std::string& path, const std::string& key,
+                  std::vector<std::int32_t>& numbers, std::vector<std::string>& names);
 
 }  // namespace app
 }  // namespace v0

@@ -9,6 +9,7 @@
 #include "app/session/session_state.h"
 #include "app/text/formatted.h"
 #include "app/text/json_write.h"
+#include "app/view/exercise_marks.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/components.h"
@@ -366,6 +367,11 @@ std::optional<ExerciseScore> Session::score() const {
   return s.scorer->score(s.simulation->simulation());
 }
 
+std::optional<ExerciseGauges> Session::gauges() const {
+  if (!state_->scorer) return std::nullopt;
+  return state_->scorer->gauges();
+}
+
 static void draw_sutures(const Simulation& simulation, Marks& marks) {
   for (const SutureState& suture : simulation.sutures()) {
     if (suture.status != SutureStatus::kHolds) continue;
@@ -377,7 +383,10 @@ static void draw_sutures(const Simulation& simulation, Marks& marks) {
 
 void Session::draw(Marks& marks, bool shows_ideal) const {
   const State& s = *state_;
-  if (s.scene.exercise) draw_line(s.scene.exercise->target, Ink::kTarget, marks);
+  if (s.scene.exercise) {
+    draw_line(s.scene.exercise->target, Ink::kTarget, marks);
+    mark_removal(*s.scene.exercise, mesh(), marks);
+  }
   if (shows_ideal) {
     const std::uint64_t frame = s.attempt_began ? s.figures.frames - *s.attempt_began : 0;
     for (const BladePose& blade : ideal_poses(s.scene, frame)) draw_line(blade.edge, Ink::kIdeal, marks);

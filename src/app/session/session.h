@@ -137,8 +137,10 @@ class Session {
   [[nodiscard]] OperationLog& log();
   /// How well the exercise of the scene was done so far; nothing where it has none. Cost: O(tets).
   [[nodiscard]] std::optional<ExerciseScore> score() const;
+  /// Depth, angle and force of the blade in the last frame; nothing where the scene has no exercise. Cost: O(1).
+  [[nodiscard]] std::optional<ExerciseGauges> gauges() const;
   /// Adds the marks of what the scene or the recording does: its blade, hooks, tools and sutures, and an
-  /// exercise's target.
+  /// exercise's target and what is to come off.
   /// @param shows_ideal  the ideal blade of the exercise as well, where it would be now.
   void draw(Marks& marks, bool shows_ideal = false) const;
 

@@ -13,6 +13,7 @@
 
 #include "app/jobs/cut_job.h"
 #include "app/text/text_file.h"
+#include "app/view/exercise_marks.h"
 #include "app/view/fine_view.h"
 #include "incise/core/triple_buffer.h"
 #include "incise/mesh/bounds.h"
@@ -339,6 +340,7 @@ void SessionThread::State::find_worst() {
 void SessionThread::State::score(const std::filesystem::path& json, const std::filesystem::path& attempt) {
   view.score = session.score();
   if (!view.score) return tell("This scene is no exercise");
+  ++view.scores;
   options.is_paused = true;
   if (const Status status = write_text_file(json, to_json(*view.score)); !status.ok()) return tell(status);
   if (!session.is_replay()) {
@@ -350,6 +352,8 @@ void SessionThread::State::score(const std::filesystem::path& json, const std::f
 void SessionThread::State::draw_marks() {
   view.marks = {};
   session.draw(view.marks, shows_ideal);
+  view.gauges = session.gauges();
+  if (view.score) mark_deviation(*session.scene().exercise, *view.score, view.marks);
   if (options.device) options.device->draw(view.marks);
   const TetMesh& mesh = session.mesh();
   for (const TetId tet : worst) add_edges(corners_of(mesh, tet), Ink::kWorst, view.marks);

@@ -34,7 +34,9 @@ struct SessionView {
   ValidityLight validity;
   std::shared_ptr<const std::vector<Operation>> log = std::make_shared<const std::vector<Operation>>();  ///< never null
   std::optional<ProbeInfo> probe;
-  std::optional<ExerciseScore> score;  ///< once it was asked for, until the body starts anew
+  std::optional<ExerciseScore> score;    ///< once it was asked for, until the body starts anew
+  std::uint64_t scores = 0;              ///< how many there were
+  std::optional<ExerciseGauges> gauges;  ///< of an exercise
   ReplayPlace place;
   double steps_per_second = 0;  ///< of the simulation, by the clock
   double real_time = 0;         ///< seconds simulated per second, where it runs; 1: it keeps up

@@ -165,9 +165,9 @@ Scene skin_patch() {
   scene.name = kStartingBodies[0].text;
   scene.model.box.cells = {16, 12, 8};
   scene.model.box.size = {84, 60, 24};
-  scene.model.regions = {{kMuscle, "muscle", {Vec3::UnitZ(), 12}},
-                         {kFat, "fat", {-Vec3::UnitZ(), -12}},
-                         {kSkin, "skin", {-Vec3::UnitZ(), -21}}};
+  scene.model.regions = {{kMuscle, "muscle", HalfSpace{Vec3::UnitZ(), 12}},
+                         {kFat, "fat", HalfSpace{-Vec3::UnitZ(), -12}},
+                         {kSkin, "skin", HalfSpace{-Vec3::UnitZ(), -21}}};
   scene.options.body.length_unit = kOrganUnit;
   scene.options.body.gravity = {0, 0, -9.81};
   scene.options.body.damping = 2;

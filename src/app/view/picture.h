@@ -44,6 +44,10 @@ enum class Ink : std::uint8_t {
   kPicked,      ///< the element that is probed
   kWorst,       ///< a tet of bad shape
   kTool,        ///< balls, rods and tables
+  kWithin,      ///< of a scored exercise: the cut is within one tolerance
+  kNear,        ///< of a scored exercise: it is within three
+  kFar,         ///< of a scored exercise: it is further off
+  kSpot,        ///< of an exercise: tissue that is to come off
 };
 
 /// Things beside the surface. Lengths in the mesh's unit unless they say pixels.

@@ -71,6 +71,7 @@ struct Viewer::State {
   std::uint64_t sequence_number = 0;
   fs::path sequence_folder;
   fs::path attempt;  // the recording of what was scored last
+  std::uint64_t scores_seen = 0;
   Vec3 clip_normal = Vec3::UnitX();
   FirstSteps first_steps;
   bool is_demonstrating = false;
@@ -546,6 +547,13 @@ Camera& Viewer::camera() {
 ToolMachine& Viewer::tools() {
   state_->is_changed = true;
   return state_->tools;
+}
+
+std::optional<fs::path> Viewer::take_page() {
+  State& s = *state_;
+  const SessionView& view = s.session.view();
+  if (!view.score || std::exchange(s.scores_seen, view.scores) == view.scores) return std::nullopt;
+  return free_name(s.options.folder, "incise-report", ".html");
 }
 
 std::optional<fs::path> Viewer::take_screenshot() {

@@ -99,6 +99,8 @@ class Viewer {
 
   /// A picture to save now: a screenshot that was asked for, or the next of a sequence where the session went on.
   [[nodiscard]] std::optional<std::filesystem::path> take_screenshot();
+  /// Where the report of an attempt goes that was just scored, once for each score; see `exercise_page`.
+  [[nodiscard]] std::optional<std::filesystem::path> take_page();
 
  private:
   struct State;

@@ -72,6 +72,34 @@ double lost(const app::ExerciseScore& score, const std::string& kind) {
   return points;
 }
 
+/// What was lost is what the criteria say, and no more than the most that each of them says.
+void expect_agrees_with_itself(const app::ExerciseScore& score) {
+  double points = 100;
+  std::size_t deduction = 0;
+  for (const app::ExerciseCriterion& c : score.criteria) {
+    EXPECT_GE(c.lost, 0) << c.kind;
+    EXPECT_LE(c.lost, c.most) << c.kind;
+    points -= c.lost;
+    if (c.lost == 0) continue;
+    ASSERT_LT(deduction, score.deductions.size());
+    EXPECT_EQ(score.deductions[deduction].kind, c.kind);
+    EXPECT_EQ(score.deductions[deduction++].points, c.lost);
+  }
+  EXPECT_EQ(deduction, score.deductions.size());
+  EXPECT_NEAR(score.points, std::max(points, 0.0), 1e-9);
+  EXPECT_EQ(score.is_passed, score.points >= score.pass);
+  const Json written = Json::parse(to_json(score));
+  EXPECT_EQ(written["criteria"].size(), score.criteria.size());
+  EXPECT_EQ(written["is_passed"], score.is_passed);
+}
+
+TEST(ExerciseScore, agrees_with_itself_whatever_was_done) {
+  for (const Vec3& to : {Vec3(22, 8.3, 6), Vec3(22, 10.5, 4), Vec3(15, 8.3, 8), Vec3(25, 8.3, -1)}) {
+    expect_agrees_with_itself(score_of({straight_cut(0.1, {8, 8.3, to.z()}, to, 0.3)}));
+  }
+  expect_agrees_with_itself(score_of({}));
+}
+
 TEST(ExerciseScore, of_the_ideal_is_nearly_all_points) {
   const app::ExerciseScore score = run(with_ideal(parsed(exercise_scene())));
   EXPECT_GE(score.points, 95) << to_text(score);
@@ -277,11 +305,14 @@ TEST_P(ShippedExercise, gives_its_ideal_nearly_all_points) {
   shown.frames = static_cast<std::uint64_t>(shown.strokes.back().stroke.times.back() * 60) + 30;
   const app::ExerciseScore score = run(shown);
   EXPECT_GE(score.points, 95) << to_text(score);
+  EXPECT_TRUE(score.is_passed);
   EXPECT_EQ(score.force_frames, 0U);
   EXPECT_FALSE(score.is_through);
+  expect_agrees_with_itself(score);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedExercise, testing::Values("train_skin", "train_vein"),
+INSTANTIATE_TEST_SUITE_P(All, ShippedExercise,
+                         testing::Values("train_skin", "train_vein", "train_fat", "train_core", "train_excision"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace

@@ -185,6 +185,7 @@ TEST(Scene, refuses_numbers_out_of_range_and_says_where) {
   expect_refused("/model/box/size", {1, 0, 1}, "model.box.size must be above 0");
   expect_refused("/model/box/jitter", 0.2, "model.box.jitter is 0.2");
   expect_refused("/model/regions/0/below", {0, 0, 0, 1}, "needs a normal that is not zero");
+  expect_refused("/model/regions/0", Json{{"region", 1}}, "model.regions[0] needs one of the keys box, ball, below");
   expect_refused("/attachments/1/stiffness", 0, "attachments[1].stiffness is 0");
   expect_refused("/attachments/1/box/low/0", 3, "low corner that is not below");
   expect_refused("/tools/1/ball/radius", 0, "tools[1].ball.radius is 0");
@@ -340,6 +341,13 @@ TEST(Scene, refuses_exercises_that_cannot_be_done) {
   expect_refused("/exercise/ideal", 2, "exercise.ideal must be the number of one of the scene's strokes");
   expect_refused("/exercise/ideal", "none.json", "exercise.ideal must be the number");
   expect_refused("/exercise/ideal/stretch", 0.001, "exercise.ideal lasts less than a frame");
+  expect_refused("/exercise/pass", 101, "exercise.pass is 101");
+  expect_refused("/exercise/divide", Json{{"name", "x"}}, "exercise.divide lacks the key \"regions\"");
+  expect_refused("/exercise/spare/0/depth", -1, "exercise.spare[0].depth is -1");
+  expect_refused("/exercise/spare/0/regions", Json::array(), "exercise.spare[0].regions");
+  expect_refused("/exercise/remove/regions", {-1}, "exercise.remove.regions[0] must be a region's number or its name");
+  expect_refused("/exercise/remove/share", 0, "exercise.remove.share is 0");
+  expect_refused("/exercise/remove/margin", {2, 1}, "exercise.remove.margin must be the least and the greatest");
   expect_refused("/exercise", Json{{"depth", 1}}, "lacks the key \"target\"");
   expect_refused("/exercise", Json{{"target", {{0, 0, 0}, {1, 0, 0}}}}, "lacks the key \"depth\"");
 }
@@ -557,6 +565,9 @@ TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
       {"/view", "/properties/view"},
       {"/exercise", "/properties/exercise"},
       {"/exercise/tolerances", "/properties/exercise/properties/tolerances"},
+      {"/exercise/divide", "/properties/exercise/properties/divide"},
+      {"/exercise/spare/0", "/properties/exercise/properties/spare/items"},
+      {"/exercise/remove", "/properties/exercise/properties/remove"},
       {"/strokes/0/blade/0", "/$defs/stroke/oneOf/0"},
       {"/strokes/0/blade/0/edges/0", "/$defs/stroke/oneOf/0/properties/edges/items"},
       {"/strokes/1/blade/0", "/$defs/stroke/oneOf/1"},

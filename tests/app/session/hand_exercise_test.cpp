@@ -52,20 +52,24 @@ Scene exercise(bool is_curved) {
 /// did when it comes to it.
 class Trainee {
  public:
-  explicit Trainee(const Manner& manner)
+  /// @param angle  of the scalpel to the left of upright, degrees.
+  explicit Trainee(const Manner& manner, const Scene& scene, double angle = 0)
       : manner_(manner),
-        session_(Session::open(exercise(manner.is_curved)).value()),
-        view_(session_.mesh(), session_.engine().journal()) {
+        session_(Session::open(scene).value()),
+        view_(session_.mesh(), session_.engine().journal()),
+        body_{{0, 0, 0}, scene.model.box.size} {
     look();
-    const Box body{{0, 0, 0}, {80, 60, 24}};
-    tools_.set(settings_for(body, 4000, 1e-3));
+    tools_.set(settings_for(body_, 4000, 1e-3));
     ToolSettings settings = tools_.settings();
     settings.depth = session_.scene().exercise->depth;
+    settings.angle = angle * M_PI / 180;
     tools_.set(settings);
-    camera_ = camera_of(session_.scene(), body, kWindow);
+    camera_ = camera_of(session_.scene(), body_, kWindow);
   }
 
-  ExerciseScore draw() {
+  ExerciseScore draw() { return draw(session_.scene().exercise->target); }
+  ExerciseScore draw(const std::vector<Vec3>& line) {
+    line_ = line;
     const auto events = static_cast<int>(manner_.seconds * kEventsPerSecond);
     send(Kind::kPress, 0);
     for (int i = 1; i <= events; ++i) {
@@ -81,14 +85,14 @@ class Trainee {
  private:
   /// At a share of the target's length.
   void send(Kind kind, double share) {
-    const std::vector<Vec3>& line = session_.scene().exercise->target;
+    const std::vector<Vec3>& line = line_;
     const double at = share * static_cast<double>(line.size() - 1);
     const std::size_t from = std::min(static_cast<std::size_t>(at), line.size() - 2);
     const Vec3 point = line[from] + (at - static_cast<double>(from)) * (line[from + 1] - line[from]);
     PointerEvent event;
     event.kind = kind;
     event.pixel = to_pixel(camera_, kWindow, point).value();
-    tools_.handle(event, {kWindow, &seen_.front(), {{0, 0, 0}, {80, 60, 24}}}, camera_);
+    tools_.handle(event, {kWindow, &seen_.front(), body_}, camera_);
     queue_.push(tools_.hands());
   }
   /// The time between two events.
@@ -110,6 +114,8 @@ class Trainee {
   Manner manner_;
   Session session_;
   SurfaceView view_;
+  Box body_;
+  std::vector<Vec3> line_;         // that is drawn
   std::deque<SurfaceFrame> seen_;  // the newest last; the first is on the screen
   ToolMachine tools_{ToolSettings{1, 0, 1, 1, 1, 1}};
   HandQueue queue_;
@@ -120,9 +126,31 @@ class Trainee {
 class HandOnExercise : public testing::TestWithParam<Manner> {};
 
 TEST_P(HandOnExercise, MakesTheIncision) {
-  Trainee trainee(GetParam());
+  Trainee trainee(GetParam(), exercise(GetParam().is_curved));
   const ExerciseScore score = trainee.draw();
   EXPECT_GE(score.points, kMust) << to_text(score);
+  EXPECT_TRUE(validate(trainee.session().mesh(), ValidateLevel::kGeometry).ok);
+}
+
+/// A part of a closed line, and as much beyond both of its ends.
+std::vector<Vec3> arc_of(const std::vector<Vec3>& line, std::size_t from, std::size_t to, double beyond) {
+  std::vector<Vec3> arc(line.begin() + static_cast<std::ptrdiff_t>(from),
+                        line.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+  arc.insert(arc.begin(), arc[0] + beyond * (arc[0] - arc[1]).normalized());
+  const Vec3 &end = arc.back(), &before = arc[arc.size() - 2];
+  arc.push_back(end + beyond * (end - before).normalized());
+  return arc;
+}
+
+TEST(HandOnExcision, TakesTheLesionOffWithItsMargin) {
+  const Scene scene = read_scene(std::string(INCISE_SCENES) + "/train_excision.json").value();
+  const std::vector<Vec3> line = scene.exercise->target;
+  const std::size_t corner = line.size() / 2;
+  Trainee trainee({"two arcs", 4, 1, 60, false}, scene, scene.exercise->angle);
+  trainee.draw(arc_of(line, 0, corner, 2.5));
+  const ExerciseScore score = trainee.draw(arc_of(line, corner, line.size() - 1, 2.5));
+  EXPECT_GE(score.points, kMust) << to_text(score);
+  EXPECT_TRUE(score.is_passed);
   EXPECT_TRUE(validate(trainee.session().mesh(), ValidateLevel::kGeometry).ok);
 }
 

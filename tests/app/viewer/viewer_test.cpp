@@ -406,6 +406,11 @@ TEST_F(ViewerTest, the_ideal_is_shown_and_after_the_score_beside_the_attempt) {
   act(Action::kScore);
   ASSERT_TRUE(sees([](const SessionView& view) { return view.score.has_value(); }));
   ASSERT_TRUE(sees_notice("incise-score-0001.json"));
+  const std::optional<std::filesystem::path> page = viewer_->take_page();
+  ASSERT_TRUE(page.has_value());
+  EXPECT_EQ(page->filename(), "incise-report-0001.html");
+  EXPECT_FALSE(viewer_->take_page().has_value()) << "one page for each score";
+  ASSERT_TRUE(view().gauges.has_value());
   act(Action::kIdeal);
   EXPECT_TRUE(state().shows_ideal);
   ASSERT_TRUE(sees_session(2));
