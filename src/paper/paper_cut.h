@@ -27,17 +27,18 @@ inline namespace v0 {
 /// left joined (`IncisionFront`). Where the blade is inside an element nothing comes apart there (§4.5). In a body that
 /// moves the blade is located in the elements as they stand (`MaterialBlade`), so that crossings are those of the body
 /// as it stands; split points are placed on the same edges at rest. A whole stroke whose sweep meets itself is cut
-/// frame by frame, too, as if its blade had come in steps. The ends of an edge reach on by `kCoincident` spacings, so that one that ends on an older wall but for
-/// rounding meets it. Keeps scratch memory. One mesh at a time; not thread-safe. Source: docs/decisions/0050.
+/// frame by frame, too, as if its blade had come in steps. The ends of an edge reach on by `kCoincident` spacings, so
+/// that one that ends on an older wall but for rounding meets it. Keeps scratch memory. One mesh at a time; not
+/// thread-safe. Source: docs/decisions/0050.
 class PaperCutter {
  public:
   /// `threads` in [1, 256] search the mesh; the result does not depend on it.
   explicit PaperCutter(unsigned threads) : sheet_cut_(threads), complex_(templates_) {}
 
-  /// Cuts along a whole stroke, at rest, as one frame, or as many as it has times where its sweep meets itself: up to two
-  /// journal steps for each. Walls get `tag`, in [1, 2^31). Appends nothing where the blade misses. Errors: kBadArgument for a malformed stroke,
-  /// kOutOfMemory where ids or memory would run out; the mesh is then as before. Cost: one pass over the mesh for each
-  /// frame, then O(cut tets · rounds).
+  /// Cuts along a whole stroke, at rest, as one frame, or as many as it has times where its sweep meets itself: up to
+  /// two journal steps for each. Walls get `tag`, in [1, 2^31). Appends nothing where the blade misses. Errors:
+  /// kBadArgument for a malformed stroke, kOutOfMemory where ids or memory would run out; the mesh is then as before.
+  /// Cost: one pass over the mesh for each frame, then O(cut tets · rounds).
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times);
 

@@ -75,8 +75,8 @@ struct MergeCensus {
 /// An end that is freer than the other moves to it; two of a kind meet in the middle or, where that may not be, at
 /// either end. Contour vertices merge along their contour alone, corners stay. A merge is done where the paper's
 /// conditions and the link condition hold, no tet turns over, the worst tet afterwards is not bad-shaped (`kBadShape`)
-/// or no worse than the worst before, no boundary face turns by more than a sharp angle (`kSharpCosine`), so that smooth
-/// surfaces stay smooth, and what vanishes and changes keeps its volume within 1 % (`kMostVolumeChange`).
+/// or no worse than the worst before, no boundary face turns by more than a sharp angle (`kSharpCosine`), so that
+/// smooth surfaces stay smooth, and what vanishes and changes keeps its volume within 1 % (`kMostVolumeChange`).
 /// @param tets  to look at, ascending; dead ones are passed over, and those that are held.
 /// @param census  is added to, where given.
 /// Cost: O(tets) per round; few rounds. **Source:** Paper §2.5, Figure 6. Differs: the link condition, and the limits
