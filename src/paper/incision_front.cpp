@@ -118,7 +118,6 @@ void IncisionFront::mark(const TetMesh& mesh, const Sheet& sheet, Neighbourhood&
   const auto met = std::stable_partition(older_.begin(), older_.end(), [&](const CollisionPoint& point) {
     return !lives(mesh, point) || !lies_on(mesh, sheet, point, kFrontOffset, walker);
   });
-  goes_on_ = goes_on_ || met != older_.end();
   own_.insert(own_.end(), met, older_.end());
   older_.erase(met, older_.end());
   adopt_walls(mesh, sheet, near, walker);
@@ -178,11 +177,6 @@ void IncisionFront::follow(const TetMesh& mesh, const Step& step, StarWalker& wa
   }
 }
 
-void IncisionFront::end_stroke(bool has_cut) {
-  if (has_cut && !goes_on_) older_.clear();
-  goes_on_ = false;
-}
-
 void IncisionFront::renew(const TetMesh& mesh) {
   for (Points* points : {&own_, &older_}) {
     std::erase_if(*points, [&](const CollisionPoint& point) { return !mesh.is_live(point.vertex); });
@@ -193,7 +187,6 @@ void IncisionFront::renew(const TetMesh& mesh) {
 void IncisionFront::clear() {
   own_.clear();
   older_.clear();
-  goes_on_ = false;
 }
 
 std::vector<VertexId> IncisionFront::vertices(const TetMesh& mesh) const {

@@ -23,7 +23,7 @@ struct CollisionPoint {
 /// A frame crosses some edges of a tet, the next one others: a face between collision points of both is an incision
 /// face, too. So every frame is cut with the points that those before have left joined. Points of the sheet under way
 /// count as they are. Those of an earlier sheet count where they lie on the present one: in its plane, and within an
-/// edge of it; an incision whose front a stroke meets like that goes on. Source: paper §2.2 and §2.3, which speak of
+/// edge of it; an incision whose front a stroke meets like that goes on, whatever was cut in between. Source: paper §2.2 and §2.3, which speak of
 /// one incision, and §4.2, in which it takes many frames; docs/decisions/0050.
 class IncisionFront {
  public:
@@ -39,8 +39,6 @@ class IncisionFront {
   /// still have tissue on both sides of the sheet: a vertex is divided in one place while the cut goes on in another.
   /// Cost: O(points + copies · (log points + copies + their stars)).
   void follow(const TetMesh& mesh, const Step& step, StarWalker& walker);
-  /// At the end of a stroke: incisions that it did not go on with are complete, if it cut anything.
-  void end_stroke(bool has_cut);
   /// Has the points that live go by their slots' present generations, after undo or redo. Cost: O(points).
   void renew(const TetMesh& mesh);
   /// All incisions are complete.
@@ -59,7 +57,6 @@ class IncisionFront {
   void adopt_walls(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker);
 
   std::vector<CollisionPoint> own_, older_;  // ascending
-  bool goes_on_ = false;                     // the stroke under way has met an older point
 };
 
 }  // namespace v0

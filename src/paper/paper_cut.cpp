@@ -73,7 +73,6 @@ Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const St
     context.statistics.steps = stroke.times.size() - 1;
     stroke_.may_go_on = false;
     Status status = cut_stroke(context, stroke, tag);
-    front_.end_stroke(context.statistics.cut_tets > 0);
     return status;
   });
 }
@@ -178,7 +177,6 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
       status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
     }
     count_last_sheet(context.statistics);
-    front_.end_stroke(stroke_.has_cut);
     stroke_.may_go_on = status.ok();
     return status;
   });
