@@ -23,8 +23,8 @@ struct CollisionPoint {
 /// A frame crosses some edges of a tet, the next one others: a face between collision points of both is an incision
 /// face, too. So every frame is cut with the points that those before have left joined. Points of the sheet under way
 /// count as they are. Those of an earlier sheet count where they lie on the present one: in its plane, and within an
-/// edge of it; an incision whose front a stroke meets like that goes on, whatever was cut in between. Source: paper §2.2 and §2.3, which speak of
-/// one incision, and §4.2, in which it takes many frames; docs/decisions/0050.
+/// edge of it; an incision whose front a stroke meets like that goes on, whatever was cut in between. Source: paper
+/// §2.2 and §2.3, which speak of one incision, and §4.2, in which it takes many frames; docs/decisions/0050.
 class IncisionFront {
  public:
   /// Those of the sheet so far become those of an earlier one. Cost: O(points).
