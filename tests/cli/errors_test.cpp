@@ -212,23 +212,23 @@ TEST_F(CliErrors, blades_out_of_reach) {
 
 std::string ball_mesh() {
   io::MeshData data;
-  data.soup = test::ball(4);
+  data.soup = test::ball(2);
   return io::write_mesh_bytes(".mesh", data).value();
 }
 
-/// A coarse ball, 14 slices of which the profile paper smoothes until the volume has drifted too far.
+/// A coarse ball, thin slices of which the profile paper smoothes until the volume has drifted too far.
 TEST(Cli, a_cut_that_breaks_the_contract_is_taken_back_and_what_was_valid_is_written) {
   Folder folder;
   const std::string body = folder.write("ball.mesh", ball_mesh());
   std::string strokes;
-  for (int i = 0; i < 14; ++i) {
-    const double y = -0.8 + 0.12 * i;
+  for (int i = 0; i < 40; ++i) {
+    const double y = -0.8 + 0.04 * i;
     const auto edge = [&](double at, double z) {
       return "[[-2," + std::to_string(at) + "," + std::to_string(z) + "],[2," + std::to_string(at + 0.05) + "," +
              std::to_string(z) + "]]";
     };
     strokes += std::string(i > 0 ? "," : "") + R"({"name":"slice )" + std::to_string(i) +
-               R"(","edges":[{"t":0,"points":)" + edge(y, -2) + R"(},{"t":1,"points":)" + edge(y - 0.03, 2) + "}]}";
+               R"(","edges":[{"t":0,"points":)" + edge(y, -2) + R"(},{"t":1,"points":)" + edge(y - 0.8, 2) + "}]}";
   }
   const std::string blade = folder.write("blade.json", kBladeHead + strokes + "]}");
   const std::vector<std::string> arguments = {"cut",       body,

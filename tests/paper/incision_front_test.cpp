@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "incise/mesh/transaction.h"
 #include "paper_support.h"
 
 namespace incise::test::incision_front_test {
