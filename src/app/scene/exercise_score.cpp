@@ -207,7 +207,7 @@ ExerciseScore ExerciseScorer::score(const Simulation& simulation) const {
   score.peak_force = s.peak_force;
   score.force_frames = s.force_frames;
   score.forces = s.forces;
-  score.forces.resize(std::min<std::size_t>(s.forces.size(), s.end_blade - s.first_blade));
+  score.forces.resize(static_cast<std::size_t>(std::min<std::uint64_t>(s.forces.size(), s.end_blade - s.first_blade)));
   score.seconds = static_cast<double>(s.end_blade - s.first_blade) * s.frame_seconds;
   grade(s.exercise, score);
   return score;
