@@ -12,6 +12,7 @@
 #include "app/text/formatted.h"
 #include "app/view/color_map.h"
 #include "panel_parts.h"
+#include "render/ink_style.h"
 
 namespace incise_view {
 
@@ -311,22 +312,25 @@ void gauges(const app::SessionView& view) {
 }
 
 /// What the ribbon's inks say.
-void ribbon_words() {
-  constexpr std::array<std::pair<app::Color, const char*>, 3> kInks = {
-      {{{31, 199, 154}, "within"}, {{230, 159, 0}, "near"}, {{255, 122, 31}, "far off"}}};
+void ribbon_words(app::Theme theme) {
+  using app::Ink;
+  constexpr std::array<std::pair<Ink, const char*>, 3> kInks = {
+      {{Ink::kWithin, "within"}, {Ink::kNear, "near"}, {Ink::kFar, "far off"}}};
+  const auto styles = render::ink_styles(theme);
   faint("Ribbon:");
-  for (const auto& [color, word] : kInks) {
+  for (const auto& [ink, word] : kInks) {
+    const auto& [red, green, blue] = styles[static_cast<std::size_t>(ink)].color;
     ImGui::SameLine();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.25F * em()}, {at.x + 0.8F * em(), at.y + 0.85F * em()},
-                                              color_of(color));
+                                              ImGui::GetColorU32({red, green, blue, 1}));
     ImGui::Dummy({0.9F * em(), em()});
     ImGui::SameLine();
     text(word);
   }
 }
 
-void score_words(const app::ExerciseScore& score) {
+void score_words(const app::ExerciseScore& score, app::Theme theme) {
   ImGui::ProgressBar(static_cast<float>(score.points / 100), {-1, 0},
                      app::formatted("{:.0f} of 100 points", score.points).c_str());
   text(app::formatted("{}: {:.3g} points are asked for", score.is_passed ? "Passed" : "Not passed", score.pass));
@@ -334,7 +338,7 @@ void score_words(const app::ExerciseScore& score) {
     text(app::formatted("-{:.1f}  {}", deduction.points, deduction.reason));
   }
   if (score.deductions.empty()) text("Nothing to take off.");
-  ribbon_words();
+  ribbon_words(theme);
 }
 
 /// What a trainee shall do; afterwards, how it was done.
@@ -342,14 +346,15 @@ void draw_exercise(Viewer& viewer, const PanelContext& context) {
   const app::SessionView& view = viewer.view();
   if (!view.scene || !view.scene->exercise) return;
   const app::Exercise& exercise = *view.scene->exercise;
-  const bool is_research = std::as_const(viewer).state().is_research;
+  const app::ViewerState& state = std::as_const(viewer).state();
+  const bool is_research = state.is_research;
   const float width = (is_research ? kExerciseWidth : kNarrowExerciseWidth) * em();
   const ImVec2 at = is_research ? lower_left(width) : beside_tools(width);
   if (begin_panel("exercise", at, width, 0.6F * ImGui::GetMainViewport()->Size.y)) {
     ImGui::PushTextWrapPos(0);
     faint("Exercise: " + exercise.name);
     if (view.score) {
-      score_words(*view.score);
+      score_words(*view.score, state.options.theme);
     } else {
       text(exercise.instructions);
       gauges(view);

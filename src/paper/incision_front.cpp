@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "cut/constants.h"
 #include "incise/mesh/edge_length.h"
@@ -42,30 +43,37 @@ double longest_edge_at(const TetMesh& mesh, VertexId vertex, const std::vector<T
   return std::sqrt(longest2);
 }
 
-/// Whether an earlier sheet's point lies on a sheet, as if the two were one: within `offset` mean edges of its plane.
-bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, double offset, StarWalker& walker) {
-  const Vec3& place = mesh.rest(point.vertex);
-  const std::vector<TetId>& star = walker.star(mesh, point.vertex);
-  const double length = mean_edge_length_at(mesh, point.vertex, star);
-  const auto hit = sheet.tree().closest(place, kFrontReach * longest_edge_at(mesh, point.vertex, star));
-  if (!hit.is_valid()) return false;
+/// The unit normal of a sheet within whose plane a vertex lies, but for `offset` of its mean edge, and near which it
+/// is.
+std::optional<Vec3> plane_at(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, double offset,
+                             StarWalker& walker) {
+  const Vec3& place = mesh.rest(vertex);
+  const std::vector<TetId>& star = walker.star(mesh, vertex);
+  const auto hit = sheet.tree().closest(place, kFrontReach * longest_edge_at(mesh, vertex, star));
+  if (!hit.is_valid()) return std::nullopt;
   const Vec3 normal = sheet.normal(hit.triangle).normalized();
-  return std::abs(normal.dot(point.normal)) > kFrontCosine && std::abs(normal.dot(place - hit.point)) < offset * length;
+  const bool is_in_plane = std::abs(normal.dot(place - hit.point)) < offset * mean_edge_length_at(mesh, vertex, star);
+  return is_in_plane ? std::optional(normal) : std::nullopt;
 }
 
-/// The unit normals of cuts' walls at a vertex, face by face.
-std::vector<Vec3> wall_normals_at(const TetMesh& mesh, VertexId vertex, StarWalker& walker) {
-  std::vector<Vec3> normals;
+/// Whether an earlier sheet's point lies on a sheet, as if the two were one.
+bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, StarWalker& walker) {
+  const auto normal = plane_at(mesh, sheet, point.vertex, kFrontOffset, walker);
+  return normal && std::abs(normal->dot(point.normal)) > kFrontCosine;
+}
+
+/// Whether some wall of a cut at a vertex goes along a plane.
+bool has_wall_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
   for (const TetId tet : walker.star(mesh, vertex)) {
     for (unsigned s = 0; s < 4; ++s) {
       const Link link = mesh.links(tet)[s];
       if (mesh.vertices(tet)[s] == vertex || !link.is_boundary() || link.tag() == 0) continue;
       const auto face = mesh.vertices(Side(tet, s));
       const Vec3 &a = mesh.rest(face[0]), &b = mesh.rest(face[1]), &c = mesh.rest(face[2]);
-      normals.push_back((b - a).cross(c - a).normalized());
+      if (std::abs((b - a).cross(c - a).normalized().dot(normal)) > kFrontCosine) return true;
     }
   }
-  return normals;
+  return false;
 }
 
 /// Whether tissue around a vertex lies on both sides of the sheet: on the wall of a cut it does not, and nothing is
@@ -116,7 +124,7 @@ void IncisionFront::begin_sheet() {
 
 void IncisionFront::mark(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker) {
   const auto met = std::stable_partition(older_.begin(), older_.end(), [&](const CollisionPoint& point) {
-    return !lives(mesh, point) || !lies_on(mesh, sheet, point, kFrontOffset, walker);
+    return !lives(mesh, point) || !lies_on(mesh, sheet, point, walker);
   });
   own_.insert(own_.end(), met, older_.end());
   older_.erase(met, older_.end());
@@ -134,11 +142,9 @@ void IncisionFront::adopt_walls(const TetMesh& mesh, const Sheet& sheet, Neighbo
       if ((mesh.shape_of(v) & shape::kWall) == 0 || near.index_of_vertex[v.value] != 0) continue;
       near.index_of_vertex[v.value] = 1;
       asked.push_back(v);
-      for (const Vec3& normal : wall_normals_at(mesh, v, walker)) {
-        const CollisionPoint point{v, mesh.generation(v), normal};
-        if (!lies_on(mesh, sheet, point, kCoincident, walker) || !has_both_sides(mesh, v, normal, walker)) continue;
-        own_.push_back(point);
-        break;
+      const auto normal = plane_at(mesh, sheet, v, kCoincident, walker);
+      if (normal && has_wall_along(mesh, v, *normal, walker) && has_both_sides(mesh, v, *normal, walker)) {
+        own_.push_back({v, mesh.generation(v), *normal});
       }
     }
   }

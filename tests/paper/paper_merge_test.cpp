@@ -356,6 +356,14 @@ TEST(Merge, beside_a_curved_wall_changes_the_volume_by_little) {
   EXPECT_EQ(euler_characteristics(body.mesh), characteristics);
 }
 
+TEST(Merge, beside_coarse_round_skin_changes_the_volume_by_little) {
+  CutBody body =
+      cut_as_paper(ball(4), {{Vec3(1, 0.3, 0.2), 0.1}, {Vec3(0.2, 1, -0.3), -0.2}, {Vec3(0.1, 0.2, 1), 0.3}});
+  const double before = volume_of(body.mesh);
+  EXPECT_GT(merge(body).collapsed_edges, 50U);
+  EXPECT_NEAR(volume_of(body.mesh) / before, 1, 2e-3);
+}
+
 TEST(Merge, passes_over_dead_tets) {
   CutBody body = cut_as_paper(kuhn_cube(3), {{Vec3(1, 0.004, 0.007), 0.7}});
   std::vector<TetId> tets;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/text/formatted.h"
+#include "app/text/markup.h"
 #include "app/text/text_file.h"
 #include "incise/io/mesh_file.h"
 
@@ -46,23 +47,6 @@ bool is_free(const fs::path& folder) {
 fs::path with(fs::path path, const char* suffix) {
   path += suffix;
   return path;
-}
-
-/// For an attribute of XML.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
 }
 
 }  // namespace
@@ -107,7 +91,7 @@ std::string FrameSeries::collection() const {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n<Collection>\n";
-  const std::string folder = escaped(folder_.filename().string());
+  const std::string folder = as_markup(folder_.filename().string());
   for (std::size_t i = 0; i < times_.size(); ++i) {
     text += formatted("<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", times_[i], folder, frame_name(i));
   }

@@ -20,12 +20,6 @@ bool is_goal_region(const std::vector<std::int32_t>& regions, std::int32_t regio
   return std::find(regions.begin(), regions.end(), region) != regions.end();
 }
 
-double rest_volume(const TetMesh& mesh, TetId tet) {
-  const auto& v = mesh.vertices(tet);
-  const Vec3 &a = mesh.rest(v[0]), &b = mesh.rest(v[1]), &c = mesh.rest(v[2]), &d = mesh.rest(v[3]);
-  return std::abs((b - a).cross(c - a).dot(d - a)) / 6;
-}
-
 /// Where a ray passes through a triangle: the way to it; NaN where it does not.
 double way_to(const std::array<Vec3, 3>& t, const Vec3& from, const Vec3& along) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -90,7 +84,7 @@ ExerciseGoals::ExerciseGoals(const Exercise& exercise, const TargetLine& line, c
   if (!exercise.remove) return;
   rim_ = RegionFaces(exercise.remove->stop_at, mesh).rim();
   mesh.for_each_tet([&](TetId tet) {
-    if (is_goal_region(exercise.remove->stop_at, mesh.region(tet))) volume_ += rest_volume(mesh, tet);
+    if (is_goal_region(exercise.remove->stop_at, mesh.region(tet))) volume_ += mesh.rest_volume(tet);
   });
 }
 
@@ -139,7 +133,7 @@ struct FoundPiece {
 FoundPiece piece_with(const std::vector<std::int32_t>& regions, const TetMesh& mesh, const Components& pieces) {
   std::vector<double> held(pieces.count(), 0.0);
   mesh.for_each_tet([&](TetId tet) {
-    if (is_goal_region(regions, mesh.region(tet))) held[pieces.label[tet.value]] += rest_volume(mesh, tet);
+    if (is_goal_region(regions, mesh.region(tet))) held[pieces.label[tet.value]] += mesh.rest_volume(tet);
   });
   const auto body = std::max_element(pieces.volume.begin(), pieces.volume.end()) - pieces.volume.begin();
   if (!held.empty()) held[static_cast<std::size_t>(body)] = 0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/text/formatted.h"
+#include "app/text/markup.h"
 
 namespace incise {
 inline namespace v0 {
@@ -29,23 +30,6 @@ td.n{{text-align:right;white-space:nowrap}}img,svg{{max-width:100%;height:auto;d
 figcaption{{color:#56616b;font-size:.9rem}}text{{font:12px system-ui,sans-serif;fill:#56616b}}
 </style></head><body>
 )";
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 /// What a kind of fault is called.
 const char* fault_name(std::string_view kind) {
@@ -88,7 +72,7 @@ std::string criteria_table(const ExerciseScore& score) {
     const ExerciseCriterion& c = score.criteria[i];
     const std::string* reason = reason_of(score, i);
     html += formatted("<tr><td>{}</td><td class=\"n\">{:.1f} of {:.0f}</td><td>{}</td></tr>\n", fault_name(c.kind),
-                      c.lost, c.most, reason != nullptr ? html_text(*reason) : std::string());
+                      c.lost, c.most, reason != nullptr ? as_markup(*reason) : std::string());
   }
   return html + "</table>\n";
 }
@@ -97,12 +81,12 @@ std::string tissue_table(const ExerciseScore& score) {
   if (score.wounds.empty() && !score.removed) return {};
   std::string html = "<h2>What became of the tissue</h2>\n<table>\n";
   for (const ExerciseWound& w : score.wounds) {
-    html += formatted("<tr><td>{}</td><td>cut {:.3g} deep; {:.3g} is allowed</td></tr>\n", html_text(w.name), w.depth,
+    html += formatted("<tr><td>{}</td><td>cut {:.3g} deep; {:.3g} is allowed</td></tr>\n", as_markup(w.name), w.depth,
                       w.allowed);
   }
   if (score.removed) {
     const ExerciseRemoved& r = *score.removed;
-    html += formatted("<tr><td>{}</td><td>{}</td></tr>\n", html_text(r.name),
+    html += formatted("<tr><td>{}</td><td>{}</td></tr>\n", as_markup(r.name),
                       r.has_piece
                           ? formatted("{:.3g} % of it is in a piece with a volume of {:.4g}; margin {:.3g} to {:.3g}",
                                       100 * r.share, r.volume, r.margin_least, r.margin_most)
@@ -135,13 +119,13 @@ class Chart {
                       kChartEdge, upper, kChartWidth - 2 * kChartEdge, std::abs(y(from) - y(to)));
   }
   void word(double px, double py, const std::string& text) {
-    svg_ += formatted("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", px, py, html_text(text));
+    svg_ += formatted("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", px, py, as_markup(text));
   }
   [[nodiscard]] std::string figure(const std::string& title) const {
     return formatted(
         "<figure><svg viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" role=\"img\" aria-label=\"{}\">\n{}</svg>"
         "<figcaption>{}</figcaption></figure>\n",
-        kChartWidth, height_, kChartWidth, html_text(title), svg_, html_text(title));
+        kChartWidth, height_, kChartWidth, as_markup(title), svg_, as_markup(title));
   }
 
  private:
@@ -242,9 +226,9 @@ std::string force_figure(const Exercise& exercise, const ExerciseScore& score) {
 
 std::string heading_of(const Scene& scene, const ExerciseScore& score) {
   const Exercise& exercise = *scene.exercise;
-  const std::string title = html_text(exercise.name.empty() ? scene.name : exercise.name);
+  const std::string title = as_markup(exercise.name.empty() ? scene.name : exercise.name);
   std::string html = formatted(kPageHead, title);
-  html += formatted("<h1>{}</h1>\n<p>{}</p>\n", title, html_text(exercise.instructions));
+  html += formatted("<h1>{}</h1>\n<p>{}</p>\n", title, as_markup(exercise.instructions));
   html += formatted(
       "<p><span class=\"points\">{:.1f}</span> of 100 points, <b class=\"{}\">{}</b> ({:.3g} are asked for)</p>\n",
       score.points, score.is_passed ? "yes" : "no", score.is_passed ? "passed" : "not passed", score.pass);
@@ -275,7 +259,7 @@ std::string exercise_page(const Scene& scene, const ExerciseScore& score, const 
   std::string html = heading_of(scene, score);
   for (const PagePicture& picture : pictures) {
     html += formatted("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
-                      html_text(picture.title), to_base64(picture.png), html_text(picture.title));
+                      as_markup(picture.title), to_base64(picture.png), as_markup(picture.title));
   }
   html += criteria_table(score) + tissue_table(score);
   html += "<h2>How it was cut</h2>\n" + plan_figure(score) + depth_figure(*scene.exercise, score);
