@@ -100,6 +100,15 @@ TEST_F(IncisionFrontTest, keeps_the_copy_where_that_is_joined) {
   EXPECT_EQ(front.vertices(mesh_), std::vector{copy});
 }
 
+TEST_F(IncisionFrontTest, goes_on_at_points_of_an_earlier_sheet_that_are_no_walls_yet) {
+  IncisionFront front = front_at_centre();
+  front.begin_sheet();
+  EXPECT_EQ(met_by(swept_up_to(0.4), front), std::vector{centre_});
+  const SweptSurface oblique =
+      sweep(quad_stroke({0.45, -0.2, -0.2}, {0.45, 1.2, -0.2}, {0.5, 1.2, 0.45}, {0.5, -0.2, 0.45}));
+  EXPECT_EQ(met_by(oblique, front), std::vector{centre_}) << "by a hand that does not come back to the plane itself";
+}
+
 TEST_F(IncisionFrontTest, goes_on_at_a_wall_in_the_plane_that_tissue_joins) {
   divide(/*quarter_gets_copy=*/true);
   EXPECT_EQ(met_by(swept_up_to(0.4)), std::vector{centre_}) << "an edge from the sheet, in its plane";

@@ -356,6 +356,18 @@ TEST(Merge, beside_a_curved_wall_changes_the_volume_by_little) {
   EXPECT_EQ(euler_characteristics(body.mesh), characteristics);
 }
 
+TEST(Merge, takes_inside_vertices_to_a_wall_and_leaves_the_wall) {
+  CutBody body = cut_as_paper(kuhn_cube(3), {{Vec3(1, 0, 0), 0.36}});  // a twelfth of an edge beside vertices
+  const double area = wall_area(body.mesh, 1);
+  EXPECT_GT(merge(body).collapsed_edges, 0U);
+  body.mesh.for_each_vertex([&](VertexId v) {
+    const Vec3& p = body.mesh.rest(v);
+    const bool is_inside = std::min({p.y(), p.z(), 1 - p.y(), 1 - p.z()}) > 1e-9;
+    EXPECT_FALSE(is_inside && std::abs(p.x() - 1.0 / 3) < 1e-9) << p.transpose();
+  });
+  EXPECT_NEAR(wall_area(body.mesh, 1), area, 1e-12);
+}
+
 TEST(Merge, beside_coarse_round_skin_changes_the_volume_by_little) {
   CutBody body =
       cut_as_paper(ball(4), {{Vec3(1, 0.3, 0.2), 0.1}, {Vec3(0.2, 1, -0.3), -0.2}, {Vec3(0.1, 0.2, 1), 0.3}});
