@@ -42,9 +42,10 @@ namespace paper {
 /// L/r above which a tet is bad-shaped. Merging and Boundary Laplacian may not make a tet worse than this, nor worse
 /// than the worst about already is. **Source:** Paper §4.3, Table 3 ("measurement > 200").
 inline constexpr double kBadShape = kBadRatio;
-/// Merging may change the volume of the tets that it takes part in by at most this share. More, and a stroke through a
-/// coarse body with round, thin parts takes 2 % of it away; less, and thin tets stay where skin is curved.
-inline constexpr double kMostVolumeChange = 0.01;
+/// Between the skin before a merge and after it may lie at most this share of the volume of the tets there. More, and a
+/// stroke through a coarse body with round, thin parts takes 2 % of it away; less, and thin tets stay where skin is
+/// curved.
+inline constexpr double kMostSkinChange = 0.01;
 /// Boundary edges whose faces enclose a greater angle than this are sharp, and so are contours that turn by more:
 /// 45°, as its cosine √½. Below it lie the facets of a curved skin of a few hundred faces; above it what one sees as an
 /// edge.

@@ -183,7 +183,7 @@ class EdgeMerger : private PaperStage {
     return merge_at(0.5 * (at_from + at_into)) || merge_at(at_into) || merge_at(at_from);
   }
   bool merge_at(const Vec3& place) {
-    return stays_positive(mesh_, plan_, place) && keeps_surface(place) && keeps_volume(place) && keeps_quality(place) &&
+    return stays_positive(mesh_, plan_, place) && keeps_surface(place) && keeps_skin(place) && keeps_quality(place) &&
            carry_out(place);
   }
   /// What the class of a vertex allows. Whether an edge between surface vertices lies on the surface, the link
@@ -232,20 +232,33 @@ class EdgeMerger : private PaperStage {
     });
     return keeps;
   }
-  /// Whether the body neither loses nor gains much there, for all that vanishes and changes.
-  [[nodiscard]] bool keeps_volume(const Vec3& place) const {
-    double before = 0, after = 0;
-    for (const TetId tet : plan_.ring) before += mesh_.rest_volume6(tet);
-    for_each_changed(place, [&](TetId tet, VertexId moved) {
-      before += mesh_.rest_volume6(tet);
-      after += moved_volume6(tet, moved, place);
-    });
-    return std::abs(after - before) <= kMostVolumeChange * before;
+  /// Whether the body's skin stays where it is, but for little volume beside that of the tets there. What lies between
+  /// the skin as it is and as it would be are the cones from the place over the faces that move. Walls of cuts may
+  /// give: smoothing moves them as well.
+  [[nodiscard]] bool keeps_skin(const Vec3& place) const {
+    double between = 0, all = 0;
+    const auto add = [&](TetId tet) {
+      all += mesh_.rest_volume6(tet);
+      for (unsigned s = 0; s < 4; ++s) {
+        if (is_moving_skin({tet, s})) between += cone6({tet, s}, place);
+      }
+    };
+    for (const TetId tet : plan_.ring) add(tet);
+    for (const TetId tet : plan_.fan) add(tet);
+    for (const TetId tet : plan_.around) {
+      if (mesh_.corner_of(tet, plan_.from) == 4) add(tet);
+    }
+    return std::abs(between) <= kMostSkinChange * all;
   }
-  [[nodiscard]] double moved_volume6(TetId tet, VertexId moved, const Vec3& place) const {
-    const TetVertices& v = mesh_.vertices(tet);
-    const auto at = [&](unsigned k) -> const Vec3& { return v[k] == moved ? place : mesh_.rest(v[k]); };
-    return signed_volume6(at(0), at(1), at(2), at(3));
+  [[nodiscard]] bool is_moving_skin(Side side) const {
+    const Link link = mesh_.link(side);
+    if (!link.is_boundary() || link.tag() != 0) return false;
+    const auto v = mesh_.vertices(side);
+    return std::any_of(v.begin(), v.end(), [&](VertexId w) { return w == plan_.from || w == plan_.into; });
+  }
+  [[nodiscard]] double cone6(Side side, const Vec3& apex) const {
+    const auto v = mesh_.vertices(side);
+    return signed_volume6(apex, mesh_.rest(v[0]), mesh_.rest(v[1]), mesh_.rest(v[2]));
   }
   [[nodiscard]] Vec3 moved_area(Side face, VertexId moved, const Vec3& place) const {
     const auto v = mesh_.vertices(face);

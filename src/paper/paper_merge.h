@@ -76,11 +76,11 @@ struct MergeCensus {
 /// either end. Contour vertices merge along their contour alone, corners stay. A merge is done where the paper's
 /// conditions and the link condition hold, no tet turns over, the worst tet afterwards is not bad-shaped (`kBadShape`)
 /// or no worse than the worst before, no boundary face turns by more than a sharp angle (`kSharpCosine`), so that
-/// smooth surfaces stay smooth, and what vanishes and changes keeps its volume within 1 % (`kMostVolumeChange`).
+/// smooth surfaces stay smooth, and the skin stays where it is but for 1 % of the volume there (`kMostSkinChange`).
 /// @param tets  to look at, ascending; dead ones are passed over, and those that are held.
 /// @param census  is added to, where given.
 /// Cost: O(tets) per round; few rounds. **Source:** Paper §2.5, Figure 6. Differs: the link condition, and the limits
-/// on shapes and volumes; without those on shapes a few merges leave tets of L/r up to 1e6.
+/// on shapes and skin; without those on shapes a few merges leave tets of L/r up to 1e6.
 MaintainStatistics merge_edges(Transaction& transaction, const std::vector<TetId>& tets,
                                const MergeThresholds& thresholds = {}, const Held& held = {},
                                MergeCensus* census = nullptr);
