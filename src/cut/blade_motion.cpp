@@ -21,6 +21,8 @@ constexpr double kSlitShare = 0.25;
 constexpr double kMostSamples = 256;
 /// Points of a blade that moved less than this many spacings wait for more.
 constexpr double kLeastStep = 0.05;
+/// Those that moved less than this many spacings, as the point does that an edge turns about, have not moved.
+constexpr double kStays = 1e-9;
 /// A blade within so many spacings of what it has swept waits until it gets on: folds that are finer enclose vertices.
 constexpr double kWaits = 1.0;
 /// It comes by its front if it has left its slit within so many spacings of it.
@@ -483,7 +485,7 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnShe
     for (std::size_t c = 0; c < start.size(); ++c) front_[c].position = start[c];
   }
   if (around.has_older_cuts) stay_before_walls(front(), row, around);
-  const double least2 = flushes ? 0.0 : kLeastStep * spacing_ * kLeastStep * spacing_;
+  const double least2 = std::pow((flushes ? kStays : kLeastStep) * spacing_, 2);
   std::vector<Vec3> wanted(row.begin(), row.end());
   std::vector<std::size_t> free;  // points that are neither in the slit nor where the front is
   for (std::size_t c = 0; c < row.size(); ++c) {

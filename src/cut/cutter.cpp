@@ -37,8 +37,6 @@ constexpr double kWeld = 0.08;
 constexpr double kReachOn = 0.3, kReachThrough = 0.12;
 /// A wall that it comes to at an angle may be so many spacings away: tissue that thin is of no use beside a cut.
 constexpr double kWeldThrough = 0.11;
-/// What a blade sweeps while it turns is made of triangles that lie within so many spacings of it.
-constexpr double kTwist = 0.1;
 /// The end of a blade that passes an older wall by less than that stays so many spacings before it.
 constexpr double kBefore = 0.02;
 /// It draws back from walls that it meets at an angle of this sine at least: those along its way are crooked.
@@ -78,12 +76,6 @@ void add_triangles(SweptTriangles& to, const SweptSurface& surface) {
   for (const SweptTriangle& triangle : surface.triangles) {
     to.triangles.push_back({first + triangle.points[0], first + triangle.points[1], first + triangle.points[2]});
   }
-}
-
-SweptTriangles triangles_of(const SweptSurface& surface) {
-  SweptTriangles triangles;
-  add_triangles(triangles, surface);
-  return triangles;
 }
 
 /// The one of some places that is nearest to all others.
@@ -145,16 +137,19 @@ Result<CutStatistics> Cutter::step(TetMesh& mesh, Journal& journal, std::span<co
       enter_material(context.mesh);
     }
     stroke_.given_row.assign(row.begin(), row.end());
-    if (!stroke_.is_in_material) divide_edge(row);
+    if (!stroke_.is_in_material) return move_at_rest(context, row);
     const std::vector<Vec3> before = std::exchange(stroke_.last_row, stroke_.edge.divided(row));
-    if (stroke_.is_in_material) {
-      stroke_.direction = direction;
-      return step_in_material(context, before, direction);
-    }
-    if (goes_on_shortly(context.mesh, stroke_.last_row)) return {};
-    return follow(context, stroke_.motion.advance(stroke_.last_row, stroke_cut_.sheet(), touches(context.mesh),
-                                                  surroundings(context), false));
+    stroke_.direction = direction;
+    return step_in_material(context, before, direction);
   });
+}
+
+Status Cutter::move_at_rest(const CutContext& context, std::span<const Vec3> row) {
+  divide_edge(row);
+  stroke_.last_row = stroke_.edge.divided(row);
+  if (goes_on_shortly(context.mesh, stroke_.last_row)) return {};
+  return follow(context, stroke_.motion.advance(stroke_.last_row, stroke_cut_.sheet(), touches(context.mesh),
+                                                surroundings(context), false));
 }
 
 Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& times) {
@@ -166,16 +161,24 @@ Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& t
       if (status && !stroke_.has_ended) status = cut_to(context, stroke_.last_row, stroke_.direction, true);
       stroke_.is_last = false;
       if (status) status = end_in_point(context);
-    } else if (goes_on_shortly(context.mesh, stroke_.last_row)) {
-      status = end_shortly(context, stroke_.last_row);
     } else {
-      status = follow(context, stroke_.motion.end(stroke_cut_.sheet(), touches(context.mesh), surroundings(context)));
+      status = end_at_rest(context);
     }
-    if (status) status = follow(context, stroke_.motion.reach_on(surroundings(context)));
-    if (status && !(stroke_.has_left && stroke_.motion.is_at_start())) finish_sheet(context);
-    if (status) cut_bridges(context, stroke_.swept, stroke_.joints, stroke_.tag);
+    if (status) status = end_sheets(context);
     return status;
   });
+}
+
+Status Cutter::end_at_rest(const CutContext& context) {
+  if (goes_on_shortly(context.mesh, stroke_.last_row)) return end_shortly(context, stroke_.last_row);
+  return follow(context, stroke_.motion.end(stroke_cut_.sheet(), touches(context.mesh), surroundings(context)));
+}
+
+Status Cutter::end_sheets(const CutContext& context) {
+  if (Status status = follow(context, stroke_.motion.reach_on(surroundings(context))); !status) return status;
+  if (!(stroke_.has_left && stroke_.motion.is_at_start())) finish_sheet(context);
+  cut_bridges(context, stroke_.swept, stroke_.joints, stroke_.tag);
+  return {};
 }
 
 std::shared_ptr<const Cutter::Pause> Cutter::pause(const TetMesh& mesh) const {
@@ -251,7 +254,7 @@ Result<CutStatistics> Cutter::cut(TetMesh& mesh, Journal& journal, const Stroke&
   }
   return guarded(mesh, journal, times, [&](const CutContext& context) {
     context.statistics.steps = stroke.times.size() - 1;
-    return cut_parts(context, stroke, tag);
+    return cut_stroke(context, stroke, tag);
   });
 }
 
@@ -652,37 +655,36 @@ FrontRules Cutter::rules() const {
   return rules;
 }
 
-/// The parts of a sweep that meet each other are cut one after the other, in the order of time.
-Status Cutter::cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
+/// At once, or, where the sweep meets itself, as if its blade had come in steps.
+Status Cutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   stroke_.is_in_material = false;
   const double spacing = stroke_.spacing = spacing_of(context.mesh, false);
-  const Stroke divided = with_divided_edge(stroke, kTwist * spacing);
-  const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
-  std::vector<std::uint32_t> before, joints;
-  for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
-    if (Status status = cut_strip(context, part_of(surface, part), tag); !status) return status;
-    ++context.statistics.sheets;
-    std::set_intersection(before.begin(), before.end(), part.begin(), part.end(), std::back_inserter(joints));
-    before = part;
-  }
-  if (!joints.empty()) cut_bridges(context, triangles_of(surface), triangles_of(part_of(surface, joints)), tag);
+  SweptSurface surface = sweep(with_divided_edge(stroke, kTwist * spacing), kOwnSlit * spacing);
+  if (surface.triangles.empty()) return {};
+  if (meets_itself(surface, kCoincident * spacing)) return cut_in_steps(context, stroke, tag);
+  if (Status status = cut_strip(context, std::move(surface), tag); !status) return status;
+  ++context.statistics.sheets;
   return {};
 }
 
-/// One part of the sweep as a sheet of its own, in one step.
+Status Cutter::cut_in_steps(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
+  begin(context.mesh, context.journal, stroke.edges.front(), /*has_moved=*/false, tag);
+  Status status;
+  for (std::size_t row = 1; row < stroke.edges.size() && status; ++row) {
+    status = move_at_rest(context, stroke.edges[row]);
+  }
+  if (status) status = end_at_rest(context);
+  if (status) status = end_sheets(context);
+  return status;
+}
+
+/// What a stroke swept, as one sheet in one step.
 Status Cutter::cut_strip(const CutContext& context, SweptSurface part, std::uint32_t tag) {
   stroke_cut_.begin(tag, stroke_.spacing);
   auto strip = std::make_unique<Strip>(std::move(part), std::vector<std::array<std::uint64_t, 2>>());
   Status status = stroke_cut_.advance(context, std::move(strip), rules());
   stroke_cut_.finish(context, rules());
   return status;
-}
-
-SweptSurface Cutter::part_of(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles) {
-  SweptSurface part;
-  part.points = surface.points;
-  for (const std::uint32_t t : triangles) part.triangles.push_back(surface.triangles[t]);
-  return part;
 }
 
 }  // namespace v0

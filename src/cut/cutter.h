@@ -117,6 +117,9 @@ class Cutter {
   Result<CutStatistics> guarded(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work);
   [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const;
   void enter_material(const TetMesh& mesh);
+  Status move_at_rest(const CutContext& context, std::span<const Vec3> row);
+  Status end_at_rest(const CutContext& context);
+  Status end_sheets(const CutContext& context);
   void divide_edge(std::span<const Vec3> row);
   Status step_in_material(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction);
   Status step_from_far(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction);
@@ -142,9 +145,9 @@ class Cutter {
   bool comes_back(const CutContext& context, const Strip& strip);
   void go_on_from_front(const CutContext& context);
   [[nodiscard]] FrontRules rules() const;
-  Status cut_parts(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
+  Status cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
+  Status cut_in_steps(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
   Status cut_strip(const CutContext& context, SweptSurface part, std::uint32_t tag);
-  static SweptSurface part_of(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles);
 
   CutOptions options_;
   StrokeCut stroke_cut_;

@@ -16,7 +16,6 @@ void FaceOpening::open() {
       close_latent(face);
     } else {
       state_.transaction.open(face.a, face.b, state_.settings.tags.last);
-      for (const Side side : {face.a, face.b}) state_.done.opened_sides += is_dirty(side.tet()) ? 1U : 0U;
       faces[kept++] = face;
     }
   }
@@ -28,11 +27,6 @@ void FaceOpening::close_latent(const IncisionFace& face) {
   faces_.close(face);
   faces_.note_closed(face);
   ++state_.done.latent_faces;
-}
-
-bool FaceOpening::is_dirty(TetId tet) const {
-  const std::uint32_t master = state_.complex.find(tet);
-  return master != Master::kNone && state_.complex[master].is_dirty;
 }
 
 /// Joins faces of the cut that are not rebuilt and that nothing separates any more.

@@ -31,7 +31,6 @@ class FaceOpening {
 
  private:
   void close_latent(const IncisionFace& face);
-  [[nodiscard]] bool is_dirty(TetId tet) const;
   void join_latent_walls();
   void collect_walls();
   [[nodiscard]] bool is_opened_now(Side side) const;

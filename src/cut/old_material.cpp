@@ -21,12 +21,8 @@ void OldMaterial::keep_all() {
 void OldMaterial::keep(std::uint32_t index) {
   Master& master = state_.complex[index];
   Range range{memory_.children.size(), 0, {}};
-  for (const TetId child : state_.complex.children(master)) {
-    memory_.children.add(state_.mesh, child);
-    for (const Link link : state_.mesh.links(child)) {
-      state_.done.closed_sides += state_.settings.tags.own(link) ? 1U : 0U;
-    }
-  }
+  state_.done.own_sides_before += state_.own_sides(master);
+  for (const TetId child : state_.complex.children(master)) memory_.children.add(state_.mesh, child);
   range.last = memory_.children.size();
   for (unsigned s = 0; s < 4; ++s) {
     if (master.behind[s] == Master::kNone) range.outside[s] = state_.complex.outside(state_.mesh, master, s);

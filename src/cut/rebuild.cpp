@@ -43,6 +43,9 @@ class Rebuild::Run {
     separation_.separate();
     for (unsigned round = 0; round < kMaxPinchRounds && close_pinched(); ++round) separation_.separate();
     opening_.open();
+    for (const std::uint32_t index : state_.dirty) {
+      state_.done.own_sides_after += state_.own_sides(state_.complex[index]);
+    }
     vertices_.bury_retired();
     material_.forget_pieces();
     return state_.done;

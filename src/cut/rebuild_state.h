@@ -25,7 +25,7 @@ struct RebuildSettings {
 
 /// What a rebuild did.
 struct RebuildStatistics {
-  std::uint64_t opened_sides = 0, closed_sides = 0;  ///< of incision faces, made and unmade
+  std::uint64_t own_sides_before = 0, own_sides_after = 0;  ///< of the incision's walls, on what was rebuilt
   std::uint64_t copied_vertices = 0;
   std::uint64_t crumbs_kept = 0;
   std::uint64_t latent_faces = 0;
@@ -37,6 +37,15 @@ struct RebuildStatistics {
 struct RebuildState {
   RebuildState(Transaction& edits, ClosedComplex& closed, const RebuildSettings& asked)
       : transaction(edits), mesh(edits.mesh()), complex(closed), dirty(closed.dirty()), settings(asked) {}
+
+  /// The sides of the incision's walls on the children of a master. Cost: O(its children).
+  [[nodiscard]] std::uint64_t own_sides(const Master& master) const {
+    std::uint64_t sides = 0;
+    for (const TetId child : complex.children(master)) {
+      for (const Link link : mesh.links(child)) sides += settings.tags.own(link) ? 1U : 0U;
+    }
+    return sides;
+  }
 
   Transaction& transaction;  ///< every change of the mesh goes through it
   const TetMesh& mesh;       ///< as it stands after the changes so far

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace incise {
 inline namespace v0 {
@@ -14,12 +13,6 @@ using Keys = std::array<std::uint64_t, 2>;
 
 Keys keys_of(const SosPoint& a, const SosPoint& b) {
   return {std::min(a.key, b.key), std::max(a.key, b.key)};
-}
-
-std::vector<std::uint32_t> all_triangles(const SweptSurface& surface) {
-  std::vector<std::uint32_t> all(surface.triangles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  return all;
 }
 
 /// The edges that an odd number of triangles use, without `inner`; ascending by keys.
@@ -48,10 +41,7 @@ std::vector<Strip::Segment> border_of(const SweptSurface& surface, const std::ve
 }  // namespace
 
 Strip::Strip(SweptSurface swept, const std::vector<Keys>& shared)
-    : surface(std::move(swept)),
-      sheet(surface, all_triangles(surface)),
-      border(border_of(surface, shared)),
-      inner(shared) {}
+    : surface(std::move(swept)), sheet(surface), border(border_of(surface, shared)), inner(shared) {}
 
 void OwnSheet::clear() {
   strips_.clear();

@@ -347,7 +347,7 @@ void StrokeCut::rebuild(const CutContext& context, bool closes_pinched) {
   context.statistics.new_vertices += growth(vertices, context.mesh.vertex_count());
   context.statistics.copied_vertices += done.copied_vertices;
   // A step may close more sides than it opens; the sum over a stroke counts what is open at its end.
-  context.statistics.incision_faces += growth(done.closed_sides, done.opened_sides) / 2;
+  context.statistics.incision_faces += growth(done.own_sides_before, done.own_sides_after) / 2;
   context.statistics.crumbs_kept += done.crumbs_kept;
   context.statistics.latent_faces += done.latent_faces;
   for (const Side side : rebuild_.left_pinched()) {

@@ -157,10 +157,21 @@ class Sweeper {
 
 // --- self-crossing ---------------------------------------------------------------------------------------------------
 
-bool share_a_point(const Corners& a, const Corners& b) {
-  return std::any_of(a.begin(), a.end(), [&](const SosPoint& p) {
-    return std::any_of(b.begin(), b.end(), [&](const SosPoint& q) { return p.key == q.key; });
-  });
+Corners::const_iterator find_key(const Corners& triangle, const SosPoint& p) {
+  return std::find_if(triangle.begin(), triangle.end(), [&](const SosPoint& q) { return p.key == q.key; });
+}
+
+long shared_points(const Corners& a, const Corners& b) {
+  return std::count_if(a.begin(), a.end(), [&](const SosPoint& p) { return find_key(b, p) != b.end(); });
+}
+
+/// Whether two triangles that share one corner cross besides, as those of an edge that has turned all round do.
+bool cross_besides(Corners a, Corners b) {
+  if (shared_points(a, b) != 1) return false;
+  const auto corner = std::find_if(a.begin(), a.end(), [&](const SosPoint& p) { return find_key(b, p) != b.end(); });
+  std::rotate(b.begin(), b.begin() + (find_key(b, *corner) - b.begin()), b.end());
+  std::rotate(a.begin(), corner, a.end());
+  return triangles_cross_besides(a, b);
 }
 
 Vec3 area_vector(const std::array<SosPoint, 3>& t) {
@@ -177,9 +188,7 @@ bool covers(const std::array<SosPoint, 3>& a, const std::array<SosPoint, 3>& b, 
 /// Whether two triangles of a sweep meet otherwise than as neighbours on one sheet.
 bool meet(const Corners& a, const Corners& b, double slit) {
   const double reach = std::min(slit, 1e-3 * std::sqrt(std::min(area_vector(a).norm(), area_vector(b).norm())));
-  if (!share_a_point(a, b) && triangles_cross(a, b)) {
-    return true;
-  }
+  if (shared_points(a, b) == 0 && triangles_cross(a, b)) return true;
   return covers(a, b, reach) || covers(b, a, reach);
 }
 
@@ -226,9 +235,9 @@ std::vector<std::uint32_t> last_met(const SweptSurface& surface, double slit) {
   std::vector<std::uint32_t> met(triangles.size(), 0);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     tree.for_each_overlap(box_of(surface, i, slit), [&](std::uint32_t j) {
-      if (j < i && j + 1 > met[i] && meet(corners(surface, i), corners(surface, j), slit)) {
-        met[i] = j + 1;
-      }
+      if (j >= i || j + 1 <= met[i]) return;
+      const Corners a = corners(surface, i), b = corners(surface, j);
+      if (meet(a, b, slit) || cross_besides(a, b)) met[i] = j + 1;
     });
   }
   return met;
@@ -283,6 +292,12 @@ std::uint32_t overlap_start(const SweptSurface& surface, const std::vector<doubl
   return first;
 }
 
+std::vector<std::uint32_t> all_triangles(const SweptSurface& surface) {
+  std::vector<std::uint32_t> all(surface.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
 }  // namespace
 
 SweptSurface sweep(const Stroke& stroke, double slit) {
@@ -316,6 +331,11 @@ std::vector<std::vector<std::uint32_t>> split_at_self_crossings(const SweptSurfa
   return parts;
 }
 
+bool meets_itself(const SweptSurface& surface, double slit) {
+  const std::vector<std::uint32_t> met = last_met(surface, slit);
+  return std::any_of(met.begin(), met.end(), [](std::uint32_t earlier) { return earlier != 0; });
+}
+
 bool strips_meet(const SweptSurface& strip, const SweptSurface& earlier, const Sheet& sheet, double slit) {
   bool do_meet = false;
   for (std::uint32_t i = 0; i < strip.triangles.size() && !do_meet; ++i) {
@@ -347,6 +367,8 @@ void append(SweptSurface& surface, const SweptSurface& more) {
     surface.triangles.push_back(triangle);
   }
 }
+
+Sheet::Sheet(const SweptSurface& surface) : Sheet(surface, all_triangles(surface)) {}
 
 Sheet::Sheet(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles) : surface_(&surface) {
   std::vector<Vec3> points;

@@ -48,6 +48,10 @@ SweptSurface sweep(const Stroke& stroke, double slit = 0.0);
 std::vector<std::vector<std::uint32_t>> split_at_self_crossings(const SweptSurface& surface, double overlap,
                                                                 double slit);
 
+/// Whether a sweep meets itself otherwise than as neighbours on one sheet: triangles cross, or one covers another
+/// within `slit`. Cost: O(n log n) triangle pairs whose boxes overlap.
+bool meets_itself(const SweptSurface& surface, double slit);
+
 class Sheet;
 
 /// Whether a strip meets an earlier one, given with its sheet, otherwise than as its neighbour on one sheet: their
@@ -62,6 +66,8 @@ void append(SweptSurface& surface, const SweptSurface& more);
 class Sheet {
  public:
   Sheet(const SweptSurface& surface, const std::vector<std::uint32_t>& triangles);
+  /// Of all its triangles.
+  explicit Sheet(const SweptSurface& surface);
 
   [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
   [[nodiscard]] const SosPoint& point(std::uint32_t triangle, unsigned corner) const {

@@ -3,11 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
+
+/// The point that a segment turns about moves less than this share of what its ends do.
+constexpr double kPivotShare = 0.5;
+
+/// One that moves by less than this share of the tolerance does so by rounding alone.
+constexpr double kHolds = 1e-8;
 
 /// How far the middle of the ruled surface between two segments lies off the diagonal of its two triangles.
 double twist_of(const Vec3& a, const Vec3& b, const Vec3& d, const Vec3& e) {
@@ -22,20 +30,23 @@ std::vector<double> even_shares(double parts) {
   return shares;
 }
 
-}  // namespace
+/// Where a segment turns about a point between its ends, as a share of its length: the point that moves least. Not
+/// where that moves about as far as they do, nor where they hardly move.
+std::optional<double> pivot_of(const Vec3& a, const Vec3& b, const Vec3& d, const Vec3& e, double tolerance) {
+  const Vec3 way_a = d - a, way_b = e - b, change = way_b - way_a;
+  const double least = std::min(way_a.norm(), way_b.norm());
+  if (!(way_a.dot(way_b) < 0) || !(least > tolerance)) return std::nullopt;
+  const double share = -way_a.dot(change) / change.squaredNorm();
+  return (way_a + share * change).norm() < kPivotShare * least ? std::optional(share) : std::nullopt;
+}
 
-std::vector<std::vector<double>> EdgeDivision::divide(std::span<const Vec3> from, std::span<const Vec3> to,
-                                                      double tolerance) {
-  std::vector<std::vector<double>> parts;
-  std::size_t most = 1;
-  for (std::size_t c = 0; c + 1 < from.size(); ++c) {
-    const double twist = twist_of(from[c], from[c + 1], to[c], to[c + 1]);
-    parts.push_back(even_shares(std::clamp(std::ceil(twist / tolerance), 1.0, kMostParts)));
-    most = std::max(most, parts.back().size());
-  }
-  if (most == 1) return {};
+using Shares = std::vector<std::vector<double>>;
+
+/// The shares of segments whose parts are divided in turn, part by part.
+Shares divided_further(const Shares& coarse, const Shares& parts) {
+  Shares all;
   std::size_t c = 0;
-  for (std::vector<double>& shares : shares_) {
+  for (const std::vector<double>& shares : coarse) {
     std::vector<double> finer;
     double start = 0;
     for (const double end : shares) {
@@ -43,8 +54,41 @@ std::vector<std::vector<double>> EdgeDivision::divide(std::span<const Vec3> from
       start = end;
       ++c;
     }
-    shares = std::move(finer);
+    all.push_back(std::move(finer));
   }
+  return all;
+}
+
+bool divides(const Shares& parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const auto& shares) { return shares.size() > 1; });
+}
+
+Shares at_pivots(std::span<const Vec3> from, std::span<const Vec3> to, double tolerance) {
+  Shares parts;
+  for (std::size_t c = 0; c + 1 < from.size(); ++c) {
+    const auto pivot = pivot_of(from[c], from[c + 1], to[c], to[c + 1], tolerance);
+    parts.push_back(pivot ? std::vector<double>{*pivot, 1.0} : std::vector<double>{1.0});
+  }
+  return parts;
+}
+
+Shares where_twisted(std::span<const Vec3> from, std::span<const Vec3> to, double tolerance) {
+  Shares parts;
+  for (std::size_t c = 0; c + 1 < from.size(); ++c) {
+    const double twist = twist_of(from[c], from[c + 1], to[c], to[c + 1]);
+    parts.push_back(even_shares(std::clamp(std::ceil(twist / tolerance), 1.0, EdgeDivision::kMostParts)));
+  }
+  return parts;
+}
+
+}  // namespace
+
+Shares EdgeDivision::divide(std::span<const Vec3> from, std::span<const Vec3> to, double tolerance) {
+  Shares parts = at_pivots(from, to, tolerance);
+  const std::vector<Vec3> finer_from = incise::divided(from, parts), finer_to = incise::divided(to, parts);
+  parts = divided_further(parts, where_twisted(finer_from, finer_to, tolerance));
+  if (!divides(parts)) return {};
+  shares_ = divided_further(shares_, parts);
   return parts;
 }
 
@@ -65,6 +109,12 @@ Stroke with_divided_edge(const Stroke& stroke, double tolerance) {
   }
   Stroke divided = stroke;
   for (std::vector<Vec3>& edge : divided.edges) edge = division.divided(edge);
+  for (std::size_t i = 1; i < divided.edges.size(); ++i) {  // what an edge turns about does not move
+    for (std::size_t c = 0; c < divided.edges[i].size(); ++c) {
+      const Vec3& before = divided.edges[i - 1][c];
+      if ((divided.edges[i][c] - before).norm() <= kHolds * tolerance) divided.edges[i][c] = before;
+    }
+  }
   return divided;
 }
 

@@ -51,5 +51,10 @@ bool triangles_cross(const Triangle& first, const Triangle& second) {
   return has_crossing_edge(first, sides_of_first, second) || has_crossing_edge(second, sides_of_second, first);
 }
 
+bool triangles_cross_besides(const Triangle& first, const Triangle& second) {
+  return segment_crosses_triangle(first[1], first[2], second[0], second[1], second[2]) ||
+         segment_crosses_triangle(second[1], second[2], first[0], first[1], first[2]);
+}
+
 }  // namespace v0
 }  // namespace incise

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <numeric>
 #include <utility>
 
 #include "cut/constants.h"
@@ -20,12 +19,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-std::vector<std::uint32_t> all_triangles(const SweptSurface& surface) {
-  std::vector<std::uint32_t> all(surface.triangles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  return all;
-}
 
 /// An edge whose ends reach on by a margin: one that ends on an older wall, but for rounding, meets it. Not that of a
 /// ring.
@@ -80,12 +73,12 @@ Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const St
 /// As one frame, or, where the sweep meets itself, in as many as the stroke has.
 Status PaperCutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   const double spacing = typical_spacing(context.mesh);
-  const SweptSurface surface = sweep(with_margin(stroke, kCoincident * spacing), kOwnSlit * spacing);
-  const auto parts = split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing);
-  if (parts.empty()) return {};
-  if (parts.size() > 1) return cut_in_frames(context, stroke, tag);
+  const Stroke divided = with_divided_edge(with_margin(stroke, kCoincident * spacing), kTwist * spacing);
+  const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
+  if (surface.triangles.empty()) return {};
+  if (meets_itself(surface, kCoincident * spacing)) return cut_in_frames(context, stroke, tag);
   front_.begin_sheet();
-  Status status = sheet_cut_.cut(context, Sheet(surface, parts.front()), tag, front_);
+  Status status = sheet_cut_.cut(context, Sheet(surface), tag, front_);
   context.statistics.latent_faces += sheet_cut_.latent_faces();
   ++context.statistics.sheets;
   return status;
@@ -95,11 +88,11 @@ Status PaperCutter::cut_in_frames(const CutContext& context, const Stroke& strok
   begin(context.mesh, context.journal, stroke.edges.front(), /*has_moved=*/false, tag);
   Status status;
   for (std::size_t row = 1; row < stroke.edges.size() && status; ++row) {
-    status = move_at_rest(context, with_margin(stroke.edges[row], kCoincident * stroke_.spacing));
+    status = move_at_rest(context, stroke.edges[row]);
   }
   if (status) status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
   count_last_sheet(context.statistics);
-  stroke_ = {};
+  stroke_ = OpenStroke();
   return status;
 }
 
@@ -115,8 +108,10 @@ void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<c
   const bool stands = stroke_.may_go_on && stands_at_end(mesh, row, has_moved);
   if (stands && has_moved) return;
   const std::vector<Vec3> start = stands ? stroke_.last_row : row;
+  const EdgeDivision edge = stands ? stroke_.edge : EdgeDivision(row.size());
   if (!stands) front_.begin_sheet();
-  stroke_ = {};
+  stroke_ = OpenStroke();
+  stroke_.edge = edge;
   stroke_.tag = tag;
   stroke_.spacing = spacing;
   stroke_.last_row = start;
@@ -129,8 +124,9 @@ void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<c
 }
 
 /// Whether a blade stands where that of the stroke that has ended would.
-bool PaperCutter::stands_at_end(const TetMesh& mesh, std::span<const Vec3> row, bool has_moved) {
-  if (row.size() != stroke_.last_row.size()) return false;
+bool PaperCutter::stands_at_end(const TetMesh& mesh, std::span<const Vec3> given, bool has_moved) {
+  if (given.size() != stroke_.edge.points()) return false;
+  const std::vector<Vec3> row = stroke_.edge.divided(given);
   if (has_moved && stroke_.is_in_material) {
     complex_.clear();
     stroke_.material.find_masters(mesh, surface_, complex_);
@@ -150,17 +146,26 @@ Result<CutStatistics> PaperCutter::step(TetMesh& mesh, Journal& journal, std::sp
     context.statistics.steps = 1;
     find_surface(context);
     if (has_moved && !stroke_.is_in_material) enter_material(context.mesh);
-    const std::vector<Vec3> before = std::exchange(stroke_.last_row, with_margin(row, kCoincident * stroke_.spacing));
-    if (stroke_.is_in_material) {
-      stroke_.direction = direction;
-      return step_in_material(context, before);
-    }
-    return move_at_rest(context, stroke_.last_row);
+    if (!stroke_.is_in_material) return move_at_rest(context, row);
+    stroke_.direction = direction;
+    const std::vector<Vec3> to = stroke_.edge.divided(with_margin(row, kCoincident * stroke_.spacing));
+    return step_in_material(context, std::exchange(stroke_.last_row, to));
   });
 }
 
-Status PaperCutter::move_at_rest(const CutContext& context, std::span<const Vec3> row) {
-  return follow(context, stroke_.motion.advance(row, stroke_.sheet, touches(context.mesh), {}, false));
+Status PaperCutter::move_at_rest(const CutContext& context, std::span<const Vec3> given) {
+  const std::vector<Vec3> row = with_margin(given, kCoincident * stroke_.spacing);
+  divide_edge(row);
+  stroke_.last_row = stroke_.edge.divided(row);
+  return follow(context, stroke_.motion.advance(stroke_.last_row, stroke_.sheet, touches(context.mesh), {}, false));
+}
+
+/// Divides the blade's edge where it turns on its way to a row.
+void PaperCutter::divide_edge(std::span<const Vec3> row) {
+  const auto parts = stroke_.edge.divide(stroke_.last_row, stroke_.edge.divided(row), kTwist * stroke_.spacing);
+  if (parts.empty()) return;
+  stroke_.motion.refine(parts);
+  stroke_.last_row = divided(stroke_.last_row, parts);
 }
 
 Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTimes& times) {
@@ -193,9 +198,7 @@ void PaperCutter::find_surface(const CutContext& context) {
 }
 
 BladeMotion::Touches PaperCutter::touches(const TetMesh& mesh) const {
-  return [&mesh](const SweptSurface& surface) {
-    return !find_near_tets(mesh, Sheet(surface, all_triangles(surface))).empty();
-  };
+  return [&mesh](const SweptSurface& surface) { return !find_near_tets(mesh, Sheet(surface)).empty(); };
 }
 
 /// The body has begun to move: from now on the blade is located in the elements as they stand.

@@ -10,6 +10,7 @@
 #include "cut/closed_complex.h"
 #include "cut/material_blade.h"
 #include "cut/surface_index.h"
+#include "cut/twist.h"
 #include "incise/core/profile.h"
 #include "incise/core/result.h"
 #include "incise/cut/options.h"
@@ -27,9 +28,9 @@ inline namespace v0 {
 /// left joined (`IncisionFront`). Where the blade is inside an element nothing comes apart there (§4.5). In a body that
 /// moves the blade is located in the elements as they stand (`MaterialBlade`), so that crossings are those of the body
 /// as it stands; split points are placed on the same edges at rest. A whole stroke whose sweep meets itself is cut
-/// frame by frame, too, as if its blade had come in steps. The ends of an edge reach on by `kCoincident` spacings, so
-/// that one that ends on an older wall but for rounding meets it. Keeps scratch memory. One mesh at a time; not
-/// thread-safe. Source: docs/decisions/0050.
+/// frame by frame, too, as if its blade had come in steps. An edge that turns is divided (`EdgeDivision`). The ends of
+/// an edge reach on by `kCoincident` spacings, so that one that ends on an older wall but for rounding meets it. Keeps
+/// scratch memory. One mesh at a time; not thread-safe. Source: docs/decisions/0050.
 class PaperCutter {
  public:
   /// `threads` in [1, 256] search the mesh; the result does not depend on it.
@@ -67,7 +68,8 @@ class PaperCutter {
     BladeMotion motion;
     MaterialBlade material;
     OwnSheet sheet;
-    std::vector<Vec3> last_row;
+    EdgeDivision edge;
+    std::vector<Vec3> last_row;  // divided
     double spacing = 1.0;
     Vec3 direction = Vec3::Zero();  // of the last frame in a body that moves
     Vec3 course = Vec3::Zero();     // of the front there, at rest; unit
@@ -82,6 +84,7 @@ class PaperCutter {
   Status cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
   Status cut_in_frames(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
   Status move_at_rest(const CutContext& context, std::span<const Vec3> row);
+  void divide_edge(std::span<const Vec3> row);
   void count_last_sheet(CutStatistics& statistics) const;
   [[nodiscard]] bool stands_at_end(const TetMesh& mesh, std::span<const Vec3> row, bool has_moved);
   void enter_material(const TetMesh& mesh);

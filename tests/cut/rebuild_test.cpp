@@ -196,7 +196,7 @@ TEST(Rebuild, gives_one_corner_against_three_four_children_and_two_against_two_s
     FlaggedBody body(one_tet());
     for (const unsigned e : edges) body.toggle(body.complex()[0].edges[e], 0.5);
     const RebuildStatistics done = body.rebuild();
-    return std::pair(body.mesh().tet_count(), done.opened_sides / 2);
+    return std::pair(body.mesh().tet_count(), (done.own_sides_after - done.own_sides_before) / 2);
   };
   EXPECT_EQ(count_children({0, 1, 2}), std::pair(std::size_t{4}, std::uint64_t{1}));
   EXPECT_EQ(count_children({1, 2, 3, 4}), std::pair(std::size_t{6}, std::uint64_t{2}));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cut/sweep.h"
+#include "support/strokes.h"
 
 namespace incise::test::twist_test {
 namespace {
@@ -77,9 +78,34 @@ TEST(EdgeDivision, divides_what_is_divided_and_no_more_than_it_must) {
   EXPECT_EQ(division.divided(turned(0.6, 0.4)).size(), divided(from, parts).size());
 }
 
+TEST(EdgeDivision, divides_an_edge_where_it_turns_about_a_point_of_its_own) {
+  // In its plane, and on a cone: about the point at a quarter of its length.
+  for (const double height : {0.0, 0.4}) {
+    const auto edge = [&](double angle) {
+      const Vec3 along(std::cos(angle), std::sin(angle), height);
+      return Row{Vec3(-1.0 * along), Vec3(3.0 * along)};
+    };
+    EdgeDivision division(2);
+    const auto parts = division.divide(edge(0), edge(0.2), 0.1);
+    ASSERT_EQ(parts.size(), 1U);
+    ASSERT_EQ(parts[0].size(), 2U);
+    EXPECT_NEAR(parts[0][0], 0.25, 1e-12);
+    EXPECT_EQ(division.points(), 2U);
+    EXPECT_LT(division.divided(edge(0.4))[1].norm(), 1e-12);
+    EXPECT_TRUE(division.divide(division.divided(edge(0.2)), division.divided(edge(0.4)), 0.1).empty());
+  }
+}
+
+TEST(EdgeDivision, leaves_an_edge_alone_that_hardly_turns_or_turns_about_its_end) {
+  EdgeDivision division(2);
+  EXPECT_TRUE(division.divide(turned(0, 0), turned(0.04, 0), 0.05).empty());
+  const Vec3 pivot(-1, 0, 0);
+  EXPECT_TRUE(division.divide(Row{pivot, Vec3(1, 0, 0)}, Row{pivot, Vec3(0.8, 0.6, 0)}, 1e-6).empty());
+}
+
 TEST(EdgeDivision, has_a_greatest_number_of_parts) {
   EdgeDivision division(2);
-  const auto parts = division.divide(turned(0, 0), turned(1.5, 0.2), 1e-12);
+  const auto parts = division.divide(turned(0, 0), turned(1.5, 3), 1e-12);
   EXPECT_EQ(parts[0].size(), static_cast<std::size_t>(EdgeDivision::kMostParts));
 }
 
@@ -88,6 +114,32 @@ TEST(EdgeDivision, makes_a_screw_smooth_that_folds_however_short_its_steps_are) 
     EXPECT_LT(sharpest_fold(sweep(screw(3.0, steps))), 0.0) << steps;
     EXPECT_GT(sharpest_fold(sweep(with_divided_edge(screw(3.0, steps), 0.002))), 0.8) << steps;
   }
+}
+
+/// Turns about its middle, on a disc or a double cone.
+Stroke about_its_middle(double rise, double turns, unsigned steps) {
+  std::vector<Row> edges;
+  for (unsigned i = 0; i <= steps; ++i) {
+    const auto [x, y] = on_circle(turns * i / steps);
+    const Vec3 along(x, y, rise);
+    edges.push_back({Vec3(-1.0 * along), along});
+  }
+  return stroke_of(std::move(edges));
+}
+
+TEST(WithDividedEdge, keeps_the_point_that_an_edge_turns_about) {
+  for (const double rise : {0.0, 0.8}) {
+    const Stroke divided = with_divided_edge(about_its_middle(rise, 0.4, 16), 0.1);
+    ASSERT_EQ(divided.edges.front().size(), 3U);
+    for (const Row& row : divided.edges) EXPECT_EQ(row[1], divided.edges.front()[1]);
+    EXPECT_FALSE(meets_itself(sweep(divided), 1e-6));
+    EXPECT_TRUE(meets_itself(sweep(about_its_middle(rise, 0.4, 16)), 1e-6));  // as it is given, its strips overlap
+  }
+}
+
+TEST(MeetsItself, sees_a_cone_that_was_swept_twice_through_its_tip) {
+  EXPECT_FALSE(meets_itself(sweep(with_divided_edge(about_its_middle(0.8, 0.9, 16), 0.1)), 1e-6));
+  EXPECT_TRUE(meets_itself(sweep(with_divided_edge(about_its_middle(0.8, 1.3, 16), 0.1)), 1e-6));
 }
 
 }  // namespace

@@ -37,6 +37,19 @@ TEST(TrianglesCross, IsFalseForTrianglesApart) {
   EXPECT_FALSE(triangles_cross(kFloor, triangle({3, 3, -1}, {3, 3, 1}, {9, 9, 1}, 20)));
 }
 
+TEST(TrianglesCross, BesidesWhereTheyShareACorner) {
+  const SosPoint corner{{0, 0, 0}, 1};
+  const auto at_corner = [&](const Vec3& a, const Vec3& b, std::uint64_t key) {
+    return Triangle{corner, SosPoint{a, key}, SosPoint{b, key + 1}};
+  };
+  const Triangle floor = at_corner({4, 0, 0}, {0, 4, 0}, 10);
+  EXPECT_TRUE(triangles_cross_besides(floor, at_corner({1, 1, -1}, {1, 1, 1}, 20)));
+  EXPECT_TRUE(triangles_cross_besides(at_corner({1, 1, -1}, {1, 1, 1}, 20), floor));
+  EXPECT_TRUE(triangles_cross_besides(floor, at_corner({9, 9, -1}, {9, 9, 1}, 20)));       // larger: its side is beyond
+  EXPECT_FALSE(triangles_cross_besides(floor, at_corner({-1, -1, -1}, {-1, -1, 1}, 20)));  // on the other side
+  EXPECT_FALSE(triangles_cross_besides(floor, at_corner({1, 1, 1}, {2, 1, 1}, 20)));
+}
+
 TEST(TrianglesCross, AgreesWithItsDefinitionOnDegenerateGrids) {
   test::Random random(1);
   int crossing = 0;

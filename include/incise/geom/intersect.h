@@ -17,5 +17,11 @@ inline namespace v0 {
 /// **Source:** Edelsbrunner & Mücke 1990 (perturbation).
 bool triangles_cross(const std::array<SosPoint, 3>& first, const std::array<SosPoint, 3>& second);
 
+/// Whether two triangles that share a corner cross besides: the side of one that is opposite to it passes through the
+/// other. Exact, and never degenerate, as above.
+/// @param first, second  the corner that both have comes first; the other four keys differ.
+/// Cost: two `segment_crosses_triangle`.
+bool triangles_cross_besides(const std::array<SosPoint, 3>& first, const std::array<SosPoint, 3>& second);
+
 }  // namespace v0
 }  // namespace incise
