@@ -12,8 +12,6 @@ inline constexpr double kCoincident = 1e-6;
 inline constexpr double kOwnSlit = 0.02;
 /// What a blade sweeps while it turns is made of triangles that lie within so many spacings of it.
 inline constexpr double kTwist = 0.1;
-/// Consecutive parts of a sweep that meets itself overlap by this many spacings, so that the cut stays whole.
-inline constexpr double kPartOverlap = 3.0;
 
 }  // namespace v0
 }  // namespace incise

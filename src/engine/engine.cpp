@@ -164,22 +164,25 @@ Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   if (Status status = check_reach(stroke, rest_box_); !status) {
     return status.error();
   }
-  StrokeReport report;
-  report.stroke = next_stroke();
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first_step = journal_.position();
+  open_ = {};
+  StrokeReport& report = open_.report;
+  report.stroke = next_stroke();
+  open_.first_step = first_step;
+  maintainer_.begin_reference(report.stroke);
+  maintain_between_sheets(report.maintain, report.times);
   Result<CutStatistics> cut = is_paper() ? paper_cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times)
                                          : cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
   if (!cut) {
-    forget_lost_redo();
+    take_back(first_step);
     return cut.error();
   }
   const std::size_t first_maintaining = journal_.position();
   Status status = check_steps(first_step);
   if (status) {
-    maintainer_.begin_reference(report.stroke);
-    take_up(swept_triangles(stroke), report.stroke, first_step);
-    report.maintain = maintain(options_.maintain.work_units, report.times, {});
+    take_up(swept_triangles(stroke), report.stroke, open_.first_step);
+    report.maintain += maintain(options_.maintain.work_units, report.times, {});
     status = check_steps(first_maintaining);
   }
   if (!status) {
@@ -190,7 +193,7 @@ Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   tell(options_.log, *cut);
   report.step_ms.push_back(milliseconds_since(start));
   push_operation(true);
-  return report;
+  return std::move(report);
 }
 
 /// What a call committed is checked by whom the options name.

@@ -18,6 +18,9 @@ inline namespace v0 {
 
 namespace {
 
+/// Consecutive parts of a sweep that meets itself overlap by this many spacings, so that the cut stays whole.
+constexpr double kPartOverlap = 3.0;
+
 Status cut_sheet(LabMethod method, const CutContext& context, const Sheet& sheet, std::uint32_t tag, unsigned threads) {
   switch (method) {
     case LabMethod::kRemoval:

@@ -79,6 +79,33 @@ TEST_P(TurningEdge, makes_no_layers_of_tets_where_it_comes_round_again) {
   }
 }
 
+TEST_P(TurningEdge, opens_faces_and_closes_no_older_ones) {
+  for (const double turns : {0.8, 1.0, 1.5}) {
+    SCOPED_TRACE(turns);
+    Engine engine = make_engine(jittered_cube(5, 7), 0.2, std::get<0>(GetParam()));
+    const auto report = engine.cut(turning({0.5, 0.5, 0.5}, 1.6, turns, 40));
+    ASSERT_TRUE(report.ok());
+    EXPECT_GT(report->cut.incision_faces, 100);
+  }
+}
+
+/// What a stroke that came before by steps wanted is nothing to a stroke that is given as a whole.
+TEST(WholeStroke, does_not_depend_on_a_stroke_before_that_missed) {
+  const Stroke stroke = turning({0.5, 0.5, 0.5}, 1.6, 1.5, 16);
+  std::vector<std::pair<std::size_t, std::vector<double>>> results;
+  for (const bool has_missed : {false, true}) {
+    Engine engine = Engine::create(build(jittered_cube(5, 7)), {}).value();
+    if (has_missed) {
+      ASSERT_TRUE(engine.begin_stroke({{Vec3(3, 0, 0), Vec3(3, 1, 0)}}).ok());
+      ASSERT_TRUE(engine.step({{Vec3(3, 0, 1), Vec3(3, 1, 1)}}).ok());
+      ASSERT_TRUE(engine.end_stroke().ok());
+    }
+    ASSERT_TRUE(engine.cut(stroke).ok());
+    results.emplace_back(engine.mesh().tet_count(), piece_volumes(engine.mesh()));
+  }
+  EXPECT_EQ(results[0], results[1]);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, TurningEdge,
                          testing::Combine(testing::Values(Profile::kIncise, Profile::kPaper), testing::Bool()),
                          [](const auto& cases) {

@@ -149,8 +149,7 @@ std::string work_text(const JobReport& report) {
   std::string text;
   if (report.strokes > 0) {
     text = formatted("cut {} in {}: {} opened, {} vertices snapped, {} bent\n", counted(cut.cut_tets, "tet"),
-                     counted(cut.steps, "step"),
-                     counted(static_cast<std::uint64_t>(std::max<std::int64_t>(0, cut.incision_faces)), "face"),
+                     counted(cut.steps, "step"), counted(static_cast<std::uint64_t>(cut.incision_faces), "face"),
                      cut.snapped_vertices, cut.bent_vertices);
   }
   if (report.options.merge || report.options.improve) {
