@@ -25,6 +25,8 @@ constexpr double kLeastStep = 0.05;
 constexpr double kStays = 1e-9;
 /// A blade within so many spacings of what it has swept waits until it gets on: folds that are finer enclose vertices.
 constexpr double kWaits = 1.0;
+/// One that comes to what it has swept from so many spacings away closes a ring.
+constexpr double kLeavesFor = 0.4;
 /// It comes by its front if it has left its slit within so many spacings of it.
 constexpr double kByFront = 0.75;
 /// It gets on if so much of its way is along the way that its front has come.
@@ -47,6 +49,19 @@ std::array<std::uint64_t, 2> keys_of(const SosPoint& a, const SosPoint& b) {
   return {std::min(a.key, b.key), std::max(a.key, b.key)};
 }
 
+/// How far the point moves that moves furthest.
+double step_between(const std::vector<SosPoint>& from, const std::vector<SosPoint>& to) {
+  double step = 0;
+  for (std::size_t c = 0; c < to.size(); ++c) step = std::max(step, (to[c].position - from[c].position).norm());
+  return step;
+}
+
+double length_of(const std::vector<std::vector<SosPoint>>& rows) {
+  double length = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) length += step_between(rows[i - 1], rows[i]);
+  return length;
+}
+
 }  // namespace
 
 void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
@@ -61,6 +76,8 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   is_first_strip_ = true;
   ways_.assign(row.size(), Vec3::Zero());
   trail_.clear();
+  beginning_ = {front_};
+  next_over_ = 0;
   starts_at_wall_ = false;
   course_.begin(row, spacing);
   reaches_on_ = {};
@@ -115,19 +132,41 @@ bool BladeMotion::is_on(const Vec3& point, const OwnSheet& sheet, double distanc
   return distance2_to_front(place.point) > tolerance * tolerance;
 }
 
+/// How far a way from a place on the sheet leads away from it, in length units, at most `2 kWaits` spacings.
+double BladeMotion::furthest_from(const OwnSheet& sheet, const Vec3& from, const Vec3& to) const {
+  const double most = 2.0 * kWaits * spacing_;
+  const double parts = std::clamp(std::ceil(4.0 * (to - from).norm() / (kWaits * spacing_)), 1.0, kMostSamples);
+  double furthest = 0;
+  for (double k = parts; k >= 1 && furthest < most; --k) {
+    const SheetPlace place = sheet.closest(from + (k / parts) * (to - from), most);
+    furthest = std::max(furthest, place.is_valid() ? std::sqrt(place.distance2) : most);
+  }
+  return furthest;
+}
+
+/// Whether all that moves of a blade comes, from elsewhere, to what it swept well before: a ring is full, however
+/// small.
+bool BladeMotion::closes_ring(std::span<const std::size_t> points, std::span<const Vec3> row,
+                              const OwnSheet& sheet) const {
+  const double before = sheet.travel() - kFrontShare * spacing_;
+  return std::all_of(points.begin(), points.end(), [&](std::size_t c) {
+    return sheet.closest(row[c], kSlitShare * spacing_, before).is_valid() &&
+           furthest_from(sheet, front_[c].position, row[c]) > kLeavesFor * spacing_;
+  });
+}
+
 /// Whether a blade may still come back to its way: it moves beside its front, or behind it, without getting on, and is
-/// close to what it has swept. Laid at once, such strips would fold the sheet more finely than elements can follow.
+/// close to what it has swept all the way. Laid at once, such strips would fold the sheet more finely than elements can
+/// follow. One that goes round to where it began has left the sheet on its way.
 bool BladeMotion::waits(std::span<const std::size_t> points, std::span<const Vec3> row, const OwnSheet& sheet,
                         bool flushes) const {
   const auto count = static_cast<double>(points.size());
   const FrontCourse::Progress progress = course_.progress(front_, row, points);
   if (!progress.is_known) return !flushes && progress.all < kSlitShare * spacing_ * count;
   if (progress.on >= (flushes ? 0.0 : kGetsOn) * progress.all) return false;
+  if (closes_ring(points, row, sheet)) return false;
   double sum = 0;
-  for (const std::size_t c : points) {
-    const SheetPlace place = sheet.closest(row[c], 2.0 * kWaits * spacing_);
-    sum += place.is_valid() ? std::sqrt(place.distance2) : 2.0 * kWaits * spacing_;
-  }
+  for (const std::size_t c : points) sum += furthest_from(sheet, front_[c].position, row[c]);
   return sum < kWaits * spacing_ * count;
 }
 
@@ -188,6 +227,36 @@ bool BladeMotion::comes_round(const Row& to, const OwnSheet& sheet) const {
   return false;
 }
 
+/// The first rows of a stroke, as far as a sheet that comes round goes over them once more.
+void BladeMotion::note_beginning(const Row& to) {
+  if (length_of(beginning_) < kOverlap * spacing_) beginning_.push_back(to);
+}
+
+/// Whether a blade comes, from elsewhere, to where its stroke began.
+bool BladeMotion::comes_to_beginning(const Row& to) const {
+  const Row& first = beginning_.front();
+  const auto is_there = [&](const Vec3& point) {
+    for (std::size_t c = 0; c + 1 < first.size(); ++c) {
+      const Vec3 &a = first[c].position, &b = first[c + 1].position;
+      if (closest_on_triangle(point, a, b, b).distance2 <= std::pow(kSlitShare * spacing_, 2)) return true;
+    }
+    return false;
+  };
+  if (length_of(beginning_) < kOverlap * spacing_) return false;
+  for (std::size_t c = 0; c < to.size(); ++c) {
+    if (!is_there(to[c].position) || is_there(front_[c].position)) return false;
+  }
+  return true;
+}
+
+BladeMotion::Move BladeMotion::go_over_beginning(const Surroundings& around) {
+  if (next_over_ == 0 || next_over_ == beginning_.size()) {
+    next_over_ = 0;
+    return {};
+  }
+  return move_to(number(places_of(beginning_[next_over_++])), around);
+}
+
 /// The segments of the front that the strip to `to` leaves behind.
 std::vector<std::array<std::uint64_t, 2>> BladeMotion::inner_segments(const Row& to) const {
   std::vector<std::array<std::uint64_t, 2>> inner = seam_segments_;
@@ -233,13 +302,7 @@ void BladeMotion::leave_behind(const Row& row) {
   trail_.push_back(row);
   double travel = 0;
   std::size_t first = trail_.size() - 1;
-  for (; first > 0 && travel < kOverlap * spacing_; --first) {
-    double step = 0;
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      step = std::max(step, (trail_[first][c].position - trail_[first - 1][c].position).norm());
-    }
-    travel += step;
-  }
+  for (; first > 0 && travel < kOverlap * spacing_; --first) travel += step_between(trail_[first - 1], trail_[first]);
   trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
@@ -302,7 +365,9 @@ void BladeMotion::refine(const std::vector<std::vector<double>>& shares) {
     if (fan.size() > 2) seam_segments_.push_back(keys_of(a, b));
     refined.insert(refined.end(), fan.begin() + 1, fan.end());
   }
-  for (Row& row : trail_) row = divided_row(row, shares);
+  for (std::vector<Row>* rows : {&trail_, &beginning_}) {
+    for (Row& row : *rows) row = divided_row(row, shares);
+  }
   std::vector<bool> is_swept;
   for (std::size_t c = 0; c < shares.size(); ++c) {
     is_swept.insert(is_swept.end(), shares[c].size(), bool{is_swept_[c]});
@@ -500,9 +565,13 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnShe
   if (free.empty() || waits(free, row, sheet, flushes)) return {};
   if (!comes_by_front(free, row)) return leave_slit(row, sheet, touches, around);
   const Row to = number(wanted);
+  const bool is_full_turn = comes_to_beginning(to);
   const bool does_meet = meets(lay(front_, to), sheet) || comes_round(to, sheet);
+  next_over_ = is_full_turn ? 1 : 0;
   Move move = move_to(to, around);
+  note_beginning(to);
   move.starts_anew = does_meet;
+  move.is_full_turn = is_full_turn;
   return move;
 }
 

@@ -26,6 +26,7 @@ class BladeMotion {
   struct Move {
     std::unique_ptr<Strip> strip;  ///< null where the blade is held
     bool starts_anew = false;      ///< the strip is the first of a new sheet: the one so far must be finished
+    bool is_full_turn = false;     ///< the strip comes round to where the stroke began
   };
 
   /// Starts a stroke at a row of at least 2 points. `spacing`: the length of a typical edge, for all tolerances.
@@ -54,6 +55,11 @@ class BladeMotion {
   /// Whether no strip was laid yet.
   [[nodiscard]] bool is_at_start() const { return is_first_strip_; }
 
+  /// Where the last strip came round to the stroke's beginning: the next one of those over its first strips, once more,
+  /// as far as a sheet overlaps another one. Where the blade has turned at its beginning both walls end an element
+  /// before it. Null where there are none, or no more.
+  Move go_over_beginning(const Surroundings& around);
+
   /// The strip that is left over at the end: to the last row, as far as it was held for moving too little.
   Move end(const OwnSheet& sheet, const Touches& touches, const Surroundings& around);
   /// The last strip once more, as the first of a new sheet: for one that meets what was swept before. The sheet so far
@@ -72,8 +78,13 @@ class BladeMotion {
   [[nodiscard]] Row number(std::span<const Vec3> row);
   [[nodiscard]] bool goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const;
   [[nodiscard]] bool comes_round(const Row& to, const OwnSheet& sheet) const;
+  void note_beginning(const Row& to);
+  [[nodiscard]] bool comes_to_beginning(const Row& to) const;
   [[nodiscard]] bool is_on(const Vec3& point, const OwnSheet& sheet, double distance) const;
   [[nodiscard]] double distance2_to_front(const Vec3& point) const;
+  [[nodiscard]] double furthest_from(const OwnSheet& sheet, const Vec3& from, const Vec3& to) const;
+  [[nodiscard]] bool closes_ring(std::span<const std::size_t> points, std::span<const Vec3> row,
+                                 const OwnSheet& sheet) const;
   [[nodiscard]] bool waits(std::span<const std::size_t> points, std::span<const Vec3> row, const OwnSheet& sheet,
                            bool flushes) const;
   [[nodiscard]] bool comes_by_front(std::span<const std::size_t> points, std::span<const Vec3> to) const;
@@ -103,6 +114,8 @@ class BladeMotion {
   std::vector<Vec3> left_;            // by point: where it was last in its slit or at the front
   std::vector<Vec3> ways_;            // by point: how it moved last
   std::vector<Row> trail_;            // the last rows behind the front, oldest first
+  std::vector<Row> beginning_;        // the first rows of the stroke
+  std::size_t next_over_ = 0;         // of these, to go over next; 0: none
   FrontCourse course_;                // the way that the front has come
   std::array<SosPoint, 2> ends_;      // where the ends of the front reach on to, into an older cut
   std::array<bool, 2> reaches_on_{};  // whether they do

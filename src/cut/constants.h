@@ -12,6 +12,8 @@ inline constexpr double kCoincident = 1e-6;
 inline constexpr double kOwnSlit = 0.02;
 /// What a blade sweeps while it turns is made of triangles that lie within so many spacings of it.
 inline constexpr double kTwist = 0.1;
+/// A blade turns sharply where the cosine of the angle between two of its moves is below this: by more than 45°.
+inline constexpr double kSharpTurn = 0.70710678118654752440;
 
 }  // namespace v0
 }  // namespace incise

@@ -148,8 +148,20 @@ Status Cutter::move_at_rest(const CutContext& context, std::span<const Vec3> row
   divide_edge(row);
   stroke_.last_row = stroke_.edge.divided(row);
   if (goes_on_shortly(context.mesh, stroke_.last_row)) return {};
-  return follow(context, stroke_.motion.advance(stroke_.last_row, stroke_cut_.sheet(), touches(context.mesh),
-                                                surroundings(context), false));
+  return follow_round(context, stroke_.motion.advance(stroke_.last_row, stroke_cut_.sheet(), touches(context.mesh),
+                                                      surroundings(context), false));
+}
+
+/// Follows a move at rest, and on over the stroke's beginning where it has come round.
+Status Cutter::follow_round(const CutContext& context, BladeMotion::Move move) {
+  if (move.is_full_turn) move.starts_anew = true;
+  Status status = follow(context, std::move(move));
+  while (status) {
+    BladeMotion::Move next = stroke_.motion.go_over_beginning(surroundings(context));
+    if (next.strip == nullptr) break;
+    status = follow(context, std::move(next));
+  }
+  return status;
 }
 
 Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& times) {
@@ -171,7 +183,7 @@ Result<CutStatistics> Cutter::end(TetMesh& mesh, Journal& journal, StageTimes& t
 
 Status Cutter::end_at_rest(const CutContext& context) {
   if (goes_on_shortly(context.mesh, stroke_.last_row)) return end_shortly(context, stroke_.last_row);
-  return follow(context, stroke_.motion.end(stroke_cut_.sheet(), touches(context.mesh), surroundings(context)));
+  return follow_round(context, stroke_.motion.end(stroke_cut_.sheet(), touches(context.mesh), surroundings(context)));
 }
 
 Status Cutter::end_sheets(const CutContext& context) {
@@ -661,7 +673,9 @@ Status Cutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::
   const double spacing = stroke_.spacing = spacing_of(context.mesh, false);
   SweptSurface surface = sweep(with_divided_edge(stroke, kTwist * spacing), kOwnSlit * spacing);
   if (surface.triangles.empty()) return {};
-  if (meets_itself(surface, kCoincident * spacing)) return cut_in_steps(context, stroke, tag);
+  const double least = kCoincident * spacing;
+  const bool closes_at_corner = comes_round(stroke, least) && count_sharp_turns(stroke, least) > 0;
+  if (closes_at_corner || meets_itself(surface, least)) return cut_in_steps(context, stroke, tag);
   if (Status status = cut_strip(context, std::move(surface), tag); !status) return status;
   ++context.statistics.sheets;
   return {};

@@ -142,6 +142,7 @@ class Cutter {
                    std::uint32_t tag);
   void note_joint(std::span<const Vec3> row);
   Status follow(const CutContext& context, BladeMotion::Move move);
+  Status follow_round(const CutContext& context, BladeMotion::Move move);
   bool comes_back(const CutContext& context, const Strip& strip);
   void go_on_from_front(const CutContext& context);
   [[nodiscard]] FrontRules rules() const;

@@ -86,6 +86,17 @@ SheetCrossings find_crossings(const TetMesh& mesh, const Sheet& sheet, SideSigns
   return found;
 }
 
+std::uint32_t count_crossings(const Sheet& sheet, const SosPoint& from, const SosPoint& to) {
+  std::uint32_t count = 0;
+  const Box way{from.position.cwiseMin(to.position), from.position.cwiseMax(to.position)};
+  sheet.tree().for_each_overlap(way, [&](std::uint32_t triangle) {
+    const SosPoint &a = sheet.point(triangle, 0), &b = sheet.point(triangle, 1), &c = sheet.point(triangle, 2);
+    if (orient3d_sos(a, b, c, from) == orient3d_sos(a, b, c, to)) return;
+    count += passes_through(from, to, sheet, triangle) ? 1U : 0U;
+  });
+  return count;
+}
+
 namespace detail {
 
 bool is_graze(const Sheet& sheet, const Vec3& from, std::uint32_t first, const Vec3& to, std::uint32_t second) {

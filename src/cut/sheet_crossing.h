@@ -42,6 +42,10 @@ class SideSigns {
 /// Differs: the paper tests with a tolerance. Cost: O(1) for few triangles, else O(log triangles).
 SheetCrossings find_crossings(const TetMesh& mesh, const Sheet& sheet, SideSigns& sides, VertexId a, VertexId b);
 
+/// How often a sheet crosses the way between two points, whose keys are unlike those of the sheet's. By exact signs, as
+/// `find_crossings`. Cost: O(log triangles).
+std::uint32_t count_crossings(const Sheet& sheet, const SosPoint& from, const SosPoint& to);
+
 /// A place between two crossings of an edge more than `gap` of it apart: two parts of the sheet pass through it, and it
 /// must be bisected in between, or one crossing would hide the other. Halfway, from a to b; none where there is none.
 /// An end that coincides with the sheet counts as crossed there: `coincident(vertex, length)` names the triangle that a

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
@@ -366,6 +367,33 @@ void append(SweptSurface& surface, const SweptSurface& more) {
     for (std::uint32_t& p : triangle.points) p = index[p];
     surface.triangles.push_back(triangle);
   }
+}
+
+bool comes_round(const Stroke& stroke, double length) {
+  const std::vector<Vec3>&first = stroke.edges.front(), &last = stroke.edges.back();
+  for (std::size_t column = 0; column < first.size(); ++column) {
+    if ((last[column] - first[column]).norm() > length) return false;
+  }
+  return true;
+}
+
+std::size_t count_sharp_turns(const Stroke& stroke, double length) {
+  const std::size_t rows = stroke.edges.size();
+  const std::size_t moves = comes_round(stroke, length) ? rows : rows - 1;  // the first one follows on the last
+  std::size_t most = 0;
+  for (std::size_t column = 0; column < stroke.edges.front().size(); ++column) {
+    std::optional<Vec3> way;
+    std::size_t turns = 0;
+    for (std::size_t i = 0; i < moves; ++i) {
+      const std::size_t row = i % (rows - 1);
+      const Vec3 move = stroke.edges[row + 1][column] - stroke.edges[row][column];
+      if (move.norm() <= length) continue;
+      turns += way && move.normalized().dot(*way) < kSharpTurn ? 1U : 0U;
+      way = move.normalized();
+    }
+    most = std::max(most, turns);
+  }
+  return most;
 }
 
 Sheet::Sheet(const SweptSurface& surface) : Sheet(surface, all_triangles(surface)) {}

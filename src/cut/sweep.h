@@ -52,6 +52,13 @@ std::vector<std::vector<std::uint32_t>> split_at_self_crossings(const SweptSurfa
 /// within `slit`. Cost: O(n log n) triangle pairs whose boxes overlap.
 bool meets_itself(const SweptSurface& surface, double slit);
 
+/// Whether a blade ends, within a length, where it began. Cost: O(points of a row).
+bool comes_round(const Stroke& stroke, double length);
+/// How often a blade turns on its way by more than 45°: the point of its edge that does so most. Moves up to a length
+/// are left out; where it comes round, its first move follows on its last. What it sweeps lies in as many folds. Cost:
+/// O(points).
+std::size_t count_sharp_turns(const Stroke& stroke, double length);
+
 class Sheet;
 
 /// Whether a strip meets an earlier one, given with its sheet, otherwise than as its neighbour on one sheet: their

@@ -10,7 +10,7 @@ namespace lab {
 Status divide_minimally(const CutContext& context, const Sheet& sheet, std::uint32_t tag, unsigned threads) {
   IncisionFront front;
   SheetCut cut(threads);
-  Status status = cut.cut(context, sheet, tag, front);
+  Status status = cut.cut(context, SheetSoFar(sheet), tag, front);
   context.statistics.latent_faces += cut.latent_faces();
   return status;
 }

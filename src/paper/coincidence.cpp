@@ -20,19 +20,26 @@ bool coincides(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, double 
 
 }  // namespace
 
-void mark_coincident(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker) {
+void mark_coincident(const TetMesh& mesh, const SheetSoFar& sheet, Neighbourhood& near, StarWalker& walker) {
   double longest = 0;
   for (const CutEdge& edge : near.edges.edges()) {
     if (edge.is_flagged()) longest = std::max(longest, (mesh.rest(edge.b) - mesh.rest(edge.a)).norm());
   }
   near.coincidence = kCoincident * longest;
+  const auto mark = [&](const CutEdge& edge, const Sheet& crossed, unsigned asked) {
+    for (const VertexId v : {edge.a, edge.b}) {
+      std::uint32_t& memo = near.index_of_vertex[v.value];
+      if ((memo & asked) != 0 || near.is_on[v.value] != 0) continue;
+      memo |= asked;
+      if (coincides(mesh, crossed, v, longest, walker)) near.mark_on(v);
+    }
+  };
   for (const CutEdge& edge : near.edges.edges()) {
     if (!edge.is_flagged()) continue;
-    for (const VertexId v : {edge.a, edge.b}) {
-      std::uint32_t& asked = near.index_of_vertex[v.value];
-      if (asked != 0 || near.is_on[v.value] != 0) continue;
-      asked = 1;
-      if (coincides(mesh, sheet, v, longest, walker)) near.mark_on(v);
+    if (sheet.is_of_strip(edge.crossings.triangle)) {
+      mark(edge, sheet.strip(), 1U);
+    } else {
+      mark(edge, sheet.whole(), 2U);
     }
   }
   for (const CutEdge& edge : near.edges.edges()) {

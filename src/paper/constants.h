@@ -18,6 +18,13 @@ inline constexpr std::size_t kMostChildren = 16;
 /// An edge crossed twice is bisected at most so often; what is crossed twice then still is taken as crossed once.
 inline constexpr unsigned kMaxBisectionRounds = 8;
 
+/// A sweep that turns sharply more often is not cut as one sheet: an edge of the mesh might cross each of its folds.
+inline constexpr std::size_t kMostTurns = 4;
+
+/// Edges that bisection makes are asked about the strips that were laid within so many spacings of travel before: a tet
+/// that the front stands in is seldom longer.
+inline constexpr double kStripsReach = 2.0;
+
 /// A stroke goes on with an incision where a collision point at that one's front lies in the plane of its sheet within
 /// so many of its vertex's mean edges (`kFrontOffset`), and within so many of the longest ones of the sheet itself
 /// (`kFrontReach`), and the two sheets enclose less than 45° there (`kFrontCosine`: √½). Two strokes of one hand meet

@@ -57,6 +57,13 @@ void collect(const TetMesh& mesh, const std::vector<TetId>& near, Neighbourhood&
   }
 }
 
+void mark_by_parity(Neighbourhood& near) {
+  for (NearTet& tet : near.tets) {
+    tet.flagged = flags_of(tet, near.edges);
+    tet.is_complete = !has_odd_face(tet.flagged);
+  }
+}
+
 }  // namespace
 
 void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out,
@@ -70,10 +77,18 @@ void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<T
       edges[i].crossings = find_crossings(mesh, sheet, sides, edges[i].a, edges[i].b);
     }
   });
-  for (NearTet& tet : out.tets) {
-    tet.flagged = flags_of(tet, out.edges);
-    tet.is_complete = !has_odd_face(tet.flagged);
+  mark_by_parity(out);
+}
+
+void find_crossings_at(const TetMesh& mesh, const Sheet& sheet, const std::vector<VertexId>& vertices,
+                       Neighbourhood& near) {
+  const auto is_asked = [&](VertexId v) { return std::binary_search(vertices.begin(), vertices.end(), v); };
+  SideSigns sides;
+  sides.begin(mesh, sheet);
+  for (CutEdge& edge : near.edges.edges()) {
+    if (is_asked(edge.a) || is_asked(edge.b)) edge.crossings = find_crossings(mesh, sheet, sides, edge.a, edge.b);
   }
+  mark_by_parity(near);
 }
 
 std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet& sheet,
@@ -82,10 +97,7 @@ std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet&
   CoincidenceMemo coincidence(mesh, sheet);
   for (std::uint32_t i = 0; i < neighbourhood.edges.size(); ++i) {
     const CutEdge& edge = neighbourhood.edges[i];
-    const bool is_on = neighbourhood.is_on[edge.a.value] != 0 || neighbourhood.is_on[edge.b.value] != 0;
-    if (edge.crossings.count == 0 || is_on) {
-      continue;
-    }
+    if (edge.crossings.count == 0) continue;
     const auto coincident = [&](VertexId vertex, double length) { return coincidence.find(vertex, length); };
     const auto t = find_between(mesh, sheet, edge.a, edge.b, edge.crossings, gap, coincident);
     if (t.has_value()) found.push_back({i, *t});

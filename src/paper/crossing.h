@@ -18,6 +18,11 @@ inline namespace v0 {
 void find_crossings(const TetMesh& mesh, const Sheet& sheet, const std::vector<TetId>& near, Neighbourhood& out,
                     unsigned threads = 1);
 
+/// Counts anew how often a sheet crosses the near edges at some vertices (ascending), and marks their tets by parity.
+/// Cost: O(near edges · log vertices).
+void find_crossings_at(const TetMesh& mesh, const Sheet& sheet, const std::vector<VertexId>& vertices,
+                       Neighbourhood& near);
+
 /// An edge that two parts of a sheet pass through, and a point between them.
 struct DoublyCrossed {
   std::uint32_t edge;  ///< into `Neighbourhood::edges`
@@ -26,9 +31,10 @@ struct DoublyCrossed {
 
 /// The edges that two parts of the sheet pass through more than `gap` of the edge apart, ascending. They must be
 /// bisected in between, or one crossing would hide the other. An end that coincides with the sheet counts as crossed
-/// there; edges at vertices that are marked already are passed over: they are not split. A single smooth part that an
-/// edge leaves and enters again (a graze: the edge is nearly a chord) is left alone; the cut then follows the chord.
-/// Cost: O(edges), with a search of the sheet for ends of crossed edges.
+/// there. That is bisected, too, where the end is a collision point: beyond a corner of the blade's edge, an edge that
+/// starts on one part of the sheet crosses another. A single smooth part that an edge leaves and enters again (a graze:
+/// the edge is nearly a chord) is left alone; the cut then follows the chord. Cost: O(edges), with a search of the
+/// sheet for ends of crossed edges.
 std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet& sheet,
                                                const Neighbourhood& neighbourhood, double gap);
 

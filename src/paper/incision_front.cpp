@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "cut/constants.h"
 #include "incise/mesh/edge_length.h"
@@ -76,20 +77,48 @@ bool has_wall_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, St
   return false;
 }
 
-/// Whether tissue around a vertex lies on both sides of the sheet: on the wall of a cut it does not, and nothing is
-/// left to be taken apart there.
-bool has_both_sides(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
+/// Whether some tissue of a vertex's star lies above a plane, and some below.
+bool has_both_sides(const TetMesh& mesh, VertexId vertex, const Vec3& place, const Vec3& normal, StarWalker& walker) {
   const std::vector<TetId>& star = walker.star(mesh, vertex);
   const double least = kCoincident * mean_edge_length_at(mesh, vertex, star);
   bool is_above = false, is_below = false;
   for (const TetId tet : star) {
     for (const VertexId other : mesh.vertices(tet)) {
-      const double height = normal.dot(mesh.rest(other) - mesh.rest(vertex));
+      const double height = normal.dot(mesh.rest(other) - place);
       is_above = is_above || height > least;
       is_below = is_below || height < -least;
     }
   }
   return is_above && is_below;
+}
+
+/// Whether tissue around a vertex lies on both sides of the sheet there: on the wall of a cut it does not, and nothing
+/// is left to be taken apart.
+bool has_both_sides(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
+  return has_both_sides(mesh, vertex, mesh.rest(vertex), normal, walker);
+}
+
+/// Whether it lies on both sides of a part of the sheet that turns sharply from the one that the vertex is on: beyond a
+/// corner of the blade's edge.
+bool has_both_sides_beyond_corner(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point,
+                                  StarWalker& walker) {
+  Box reach;
+  for (const TetId tet : walker.star(mesh, point.vertex)) {
+    for (const VertexId v : mesh.vertices(tet)) reach.extend(mesh.rest(v));
+  }
+  bool has_both = false;
+  sheet.tree().for_each_overlap(reach, [&](std::uint32_t triangle) {
+    const Vec3 normal = sheet.normal(triangle).normalized();
+    has_both = has_both || (std::abs(normal.dot(point.normal)) < kFrontCosine &&
+                            has_both_sides(mesh, point.vertex, sheet.point(triangle, 0).position, normal, walker));
+  });
+  return has_both;
+}
+
+/// Whether tissue around a point lies on both sides of the sheet somewhere.
+bool has_both_sides(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, StarWalker& walker) {
+  return has_both_sides(mesh, point.vertex, point.normal, walker) ||
+         has_both_sides_beyond_corner(mesh, sheet, point, walker);
 }
 
 /// Adds the copies of points, which lie on the sheet as well. Returns the vertices that were copied and the copies,
@@ -173,14 +202,25 @@ void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbou
   make_set(own_);
 }
 
-void IncisionFront::follow(const TetMesh& mesh, const Step& step, StarWalker& walker) {
+void IncisionFront::follow(const TetMesh& mesh, const Sheet& sheet, const Step& step, StarWalker& walker) {
   for (Points* points : {&own_, &older_}) {
     const std::vector<VertexId> divided = add_copies(mesh, step.copied, *points);
     std::erase_if(*points, [&](const CollisionPoint& point) {
       const bool is_divided = std::binary_search(divided.begin(), divided.end(), point.vertex);
-      return !lives(mesh, point) || (is_divided && !has_both_sides(mesh, point.vertex, point.normal, walker));
+      return !lives(mesh, point) || (is_divided && !has_both_sides(mesh, sheet, point, walker));
     });
   }
+}
+
+void IncisionFront::add(const TetMesh& mesh, const Sheet& sheet, const std::vector<VertexId>& vertices,
+                        StarWalker& walker) {
+  for (const VertexId v : vertices) {
+    const auto hit = sheet.tree().closest(mesh.rest(v), longest_edge_at(mesh, v, walker.star(mesh, v)));
+    if (!hit.is_valid()) continue;
+    const CollisionPoint point{v, mesh.generation(v), sheet.normal(hit.triangle).normalized()};
+    if (has_both_sides(mesh, sheet, point, walker)) own_.push_back(point);
+  }
+  make_set(own_);
 }
 
 void IncisionFront::renew(const TetMesh& mesh) {

@@ -38,7 +38,9 @@ class IncisionFront {
   /// Drops the points that a step removed. Of those that it divided it keeps the parts, the copies among them, that
   /// still have tissue on both sides of the sheet: a vertex is divided in one place while the cut goes on in another.
   /// Cost: O(points + copies · (log points + copies + their stars)).
-  void follow(const TetMesh& mesh, const Step& step, StarWalker& walker);
+  void follow(const TetMesh& mesh, const Sheet& sheet, const Step& step, StarWalker& walker);
+  /// Adds vertices that lie on walls of the sheet, or on chords of them, where they have tissue on both sides.
+  void add(const TetMesh& mesh, const Sheet& sheet, const std::vector<VertexId>& vertices, StarWalker& walker);
   /// Has the points that live go by their slots' present generations, after undo or redo. Cost: O(points).
   void renew(const TetMesh& mesh);
   /// All incisions are complete.

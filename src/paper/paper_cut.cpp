@@ -70,15 +70,19 @@ Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const St
   });
 }
 
-/// As one frame, or, where the sweep meets itself, in as many as the stroke has.
+/// As one frame, or, where the sweep lies in many folds or meets itself, in as many as the stroke has.
 Status PaperCutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   const double spacing = typical_spacing(context.mesh);
   const Stroke divided = with_divided_edge(with_margin(stroke, kCoincident * spacing), kTwist * spacing);
   const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
   if (surface.triangles.empty()) return {};
-  if (meets_itself(surface, kCoincident * spacing)) return cut_in_frames(context, stroke, tag);
+  const double least = kCoincident * spacing;
+  if (count_sharp_turns(divided, least) > kMostTurns || meets_itself(surface, least)) {
+    return cut_in_frames(context, stroke, tag);
+  }
   front_.begin_sheet();
-  Status status = sheet_cut_.cut(context, Sheet(surface), tag, front_);
+  const Sheet sheet(surface);
+  Status status = sheet_cut_.cut(context, SheetSoFar(sheet), tag, front_);
   context.statistics.latent_faces += sheet_cut_.latent_faces();
   ++context.statistics.sheets;
   return status;
@@ -298,6 +302,14 @@ void PaperCutter::finish_sheet(const CutContext& context) {
   stroke_.course = Vec3::Zero();
 }
 
+/// The strips that the blade laid within `kStripsReach` elements before the next one.
+std::vector<std::shared_ptr<const Strip>> PaperCutter::strips_before() const {
+  const auto& strips = stroke_.sheet.strips();
+  const double from = stroke_.sheet.travel() - kStripsReach * stroke_.spacing;
+  const auto first = std::find_if(strips.begin(), strips.end(), [&](const auto& s) { return s->travel > from; });
+  return {first, strips.end()};
+}
+
 /// Cuts along what the blade's motion asks for.
 Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
   if (move.strip == nullptr) return {};
@@ -306,7 +318,7 @@ Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
     move.strip = stroke_.motion.lay_anew({});
   }
   const std::uint64_t cut_before = context.statistics.cut_tets;
-  Status status = sheet_cut_.cut(context, move.strip->sheet, stroke_.tag, front_);
+  Status status = sheet_cut_.cut(context, SheetSoFar(*move.strip, strips_before()), stroke_.tag, front_);
   context.statistics.cut_tets = cut_before + sheet_cut_.divided_tets();  // few are crossed wholly in one frame
   stroke_.has_cut = stroke_.has_cut || sheet_cut_.divided_tets() > 0;
   stroke_.sheet.add(std::move(move.strip));

@@ -12,11 +12,12 @@
 #include "paper/contact.h"
 #include "paper/crossing.h"
 #include "paper/dividable.h"
+#include "paper/sheet_sides.h"
 
 namespace incise {
 inline namespace v0 {
 
-Status SheetCut::cut(const CutContext& context, const Sheet& sheet, std::uint32_t tag, IncisionFront& front) {
+Status SheetCut::cut(const CutContext& context, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front) {
   CutStatistics& statistics = context.statistics;
   const std::size_t tets_before = context.mesh.tet_count();
   Transaction transaction(context.mesh);
@@ -24,20 +25,21 @@ Status SheetCut::cut(const CutContext& context, const Sheet& sheet, std::uint32_
   if (std::size_t{context.mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
     return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
   }
-  const Subdivision subdivision = divide(transaction, front, statistics, context.times);
-  front.take(context.mesh, sheet, near_, walker_);
+  Subdivision subdivision = divide(transaction, front, statistics, context.times);
+  front.take(context.mesh, sheet.whole(), near_, walker_);
+  keep_between_sides(context.mesh, front.own(), near_.coincidence, sheet, subdivision.incision);
   separate(transaction, subdivision, tag, statistics, context.times);
   statistics.new_vertices += growth(0, transaction.new_vertices().size());
   if (context.journal.append_if_changed(transaction.commit())) {
-    front.follow(context.mesh, context.journal.step(context.journal.position() - 1), walker_);
+    front.follow(context.mesh, sheet.strip(), context.journal.step(context.journal.position() - 1), walker_);
   }
-  part_edges(context, subdivision);
+  part_edges(context, sheet, subdivision, front);
   statistics.created_tets += growth(tets_before, context.mesh.tet_count());
   return {};
 }
 
 /// Returns how many vertices of the mesh lie on the sheet, those of the front not counted.
-std::size_t SheetCut::find_contact(Transaction& transaction, const Sheet& sheet, IncisionFront& front,
+std::size_t SheetCut::find_contact(Transaction& transaction, const SheetSoFar& sheet, IncisionFront& front,
                                    StageTimes& times) {
   const StageZone zone(times, Stage::kCollision);
   collide(transaction, sheet, front);
@@ -70,22 +72,40 @@ void SheetCut::separate(Transaction& transaction, const Subdivision& subdivision
   statistics.pinched_edges += separation.pinched_edges;
 }
 
-void SheetCut::part_edges(const CutContext& context, const Subdivision& subdivision) {
+void SheetCut::part_edges(const CutContext& context, const SheetSoFar& sheet, const Subdivision& subdivision,
+                          IncisionFront& front) {
   const StageZone zone(context.times, Stage::kSeparate);
   Transaction transaction(context.mesh);
   context.statistics.pinched_edges += part_pinched_edges(transaction, sides_of(subdivision.incision), walker_);
   context.statistics.new_vertices += growth(0, transaction.new_vertices().size());
+  front.add(context.mesh, sheet.whole(), transaction.new_vertices(), walker_);
   context.journal.append_if_changed(transaction.commit());
 }
 
+/// The tets near a sheet, and those around some vertices; ascending.
+std::vector<TetId> SheetCut::tets_near(const TetMesh& mesh, const Sheet& sheet, const std::vector<VertexId>& vertices) {
+  std::vector<TetId> tets = find_near_tets(mesh, sheet, threads_);
+  for (const VertexId v : vertices) {
+    const std::vector<TetId>& star = walker_.star(mesh, v);
+    tets.insert(tets.end(), star.begin(), star.end());
+  }
+  std::sort(tets.begin(), tets.end());
+  tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
+  return tets;
+}
+
 /// Finds the crossings of the mesh's edges with the sheet, and the points of the front that lie on it; edges crossed
-/// twice are bisected in between and retried.
-void SheetCut::collide(Transaction& transaction, const Sheet& sheet, IncisionFront& front) {
+/// twice are bisected in between and retried. Tets around a bend of a sheet of many frames are crossed by the strips on
+/// both sides of it: edges that bisection makes there may cross a strip that was cut before they were.
+void SheetCut::collide(Transaction& transaction, const SheetSoFar& sheet, IncisionFront& front) {
   const TetMesh& mesh = transaction.mesh();
   for (unsigned round = 0;; ++round) {
-    find_crossings(mesh, sheet, find_near_tets(mesh, sheet, threads_), near_, threads_);
-    front.mark(mesh, sheet, near_, walker_);
-    const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet, near_, kGrazeShare);
+    std::vector<VertexId> made = transaction.new_vertices();
+    std::sort(made.begin(), made.end());
+    find_crossings(mesh, sheet.strip(), tets_near(mesh, sheet.strip(), made), near_, threads_);
+    if (!made.empty()) find_crossings_at(mesh, sheet.whole(), made, near_);
+    front.mark(mesh, sheet.strip(), near_, walker_);
+    const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet.whole(), near_, kGrazeShare);
     if (twice.empty() || round == kMaxBisectionRounds) {
       return;
     }

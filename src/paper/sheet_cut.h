@@ -5,12 +5,12 @@
 
 #include "cut/cut_context.h"
 #include "cut/split_template.h"
-#include "cut/sweep.h"
 #include "incise/core/result.h"
 #include "incise/mesh/star.h"
 #include "incise/mesh/transaction.h"
 #include "paper/incision_front.h"
 #include "paper/neighbourhood.h"
+#include "paper/sheet_so_far.h"
 #include "paper/subdivide.h"
 
 namespace incise {
@@ -27,21 +27,23 @@ class SheetCut {
   /// points of this sheet and those of `front`, which is brought up to date. Walls get `tag`. Appends up to two journal
   /// steps: the cut, and the repair of edges that two fans of tets share. Errors: kOutOfMemory where ids would run out;
   /// the mesh is then as before. Cost: one pass over the mesh, then O(cut tets · rounds).
-  Status cut(const CutContext& context, const Sheet& sheet, std::uint32_t tag, IncisionFront& front);
+  Status cut(const CutContext& context, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front);
   /// The tets that the last cut divided, crossed wholly or in part.
   [[nodiscard]] std::uint64_t divided_tets() const { return divided_tets_; }
   /// The incision faces that the last cut left joined: a later frame may open them.
   [[nodiscard]] std::uint64_t latent_faces() const { return latent_faces_; }
 
  private:
-  std::size_t find_contact(Transaction& transaction, const Sheet& sheet, IncisionFront& front, StageTimes& times);
-  void collide(Transaction& transaction, const Sheet& sheet, IncisionFront& front);
+  std::size_t find_contact(Transaction& transaction, const SheetSoFar& sheet, IncisionFront& front, StageTimes& times);
+  std::vector<TetId> tets_near(const TetMesh& mesh, const Sheet& sheet, const std::vector<VertexId>& vertices);
+  void collide(Transaction& transaction, const SheetSoFar& sheet, IncisionFront& front);
   void bisect(Transaction& transaction, const CutEdge& edge, double t);
   Subdivision divide(Transaction& transaction, const IncisionFront& front, CutStatistics& statistics,
                      StageTimes& times);
   void separate(Transaction& transaction, const Subdivision& subdivision, std::uint32_t tag, CutStatistics& statistics,
                 StageTimes& times);
-  void part_edges(const CutContext& context, const Subdivision& subdivision);
+  void part_edges(const CutContext& context, const SheetSoFar& sheet, const Subdivision& subdivision,
+                  IncisionFront& front);
 
   unsigned threads_;
   std::uint64_t latent_faces_ = 0, divided_tets_ = 0;

@@ -47,6 +47,7 @@ class Motion {
     sheet_.clear();
     sheet_.add(std::move(strip));
   }
+  BladeMotion::Move go_over_beginning() { return keep(motion_.go_over_beginning(around_)); }
   BladeMotion::Move reach_on() { return keep(motion_.reach_on(around_)); }
   [[nodiscard]] const OwnSheet& sheet() const { return sheet_; }
   [[nodiscard]] const Strip& last() const { return *sheet_.strips().back(); }
@@ -424,6 +425,45 @@ TEST(BladeMotion, ends_where_all_that_it_swept_does) {
       EXPECT_EQ(keys_of(blade.sheet().border()), blade.whole_border()) << step;
     }
   }
+}
+
+/// An upright blade at a place of the plane.
+Row upright(double x, double y) {
+  return {Vec3(x, y, 0), Vec3(x, y, 1)};
+}
+
+TEST(BladeMotion, lays_the_last_side_of_a_ring_that_comes_to_its_beginning_in_one_step) {
+  Motion blade(upright(0, 0), 0.5);
+  blade.advance(upright(1, 0));
+  blade.advance(upright(0.5, 0.8));
+  ASSERT_TRUE(blade.has_strip());
+  EXPECT_TRUE(blade.advance(upright(0, 0)).is_full_turn);
+  ASSERT_TRUE(blade.has_strip()) << "it goes back against its course, and ends on its sheet";
+  EXPECT_NEAR(blade.last().sheet.bounds().hi.y(), 0.8, 1e-12);
+}
+
+TEST(BladeMotion, waits_beside_its_slit_where_it_has_not_left_it) {
+  Motion blade(upright(0, 0), 0.5);
+  blade.advance(upright(1, 0));
+  blade.advance(upright(2, 0));
+  EXPECT_FALSE(blade.advance(upright(1.2, 0.2)).is_full_turn);
+  EXPECT_FALSE(blade.has_strip());
+}
+
+TEST(BladeMotion, goes_over_its_first_strips_once_more_where_it_has_come_round) {
+  Motion blade(upright(0, 0), 0.5);
+  EXPECT_EQ(blade.go_over_beginning().strip, nullptr);
+  for (const double x : {0.3, 0.6, 0.9, 1.2}) EXPECT_FALSE(blade.advance(upright(x, 0)).is_full_turn);
+  blade.advance(upright(1.2, 1.2));
+  blade.advance(upright(0, 1.2));
+  EXPECT_TRUE(blade.advance(upright(0, 0)).is_full_turn);
+  for (const double x : {0.3, 0.6}) {  // more than a spacing
+    blade.go_over_beginning();
+    ASSERT_TRUE(blade.has_strip());
+    EXPECT_EQ(blade.last().row.front().position, Vec3(x, 0, 0));
+  }
+  blade.go_over_beginning();
+  EXPECT_FALSE(blade.has_strip());
 }
 
 }  // namespace

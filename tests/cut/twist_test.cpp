@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "cut/sheet_crossing.h"
 #include "cut/sweep.h"
 #include "support/strokes.h"
 
@@ -140,6 +141,52 @@ TEST(WithDividedEdge, keeps_the_point_that_an_edge_turns_about) {
 TEST(MeetsItself, sees_a_cone_that_was_swept_twice_through_its_tip) {
   EXPECT_FALSE(meets_itself(sweep(with_divided_edge(about_its_middle(0.8, 0.9, 16), 0.1)), 1e-6));
   EXPECT_TRUE(meets_itself(sweep(with_divided_edge(about_its_middle(0.8, 1.3, 16), 0.1)), 1e-6));
+}
+
+/// A blade of two points that goes from place to place.
+Stroke through(const std::vector<Vec3>& places) {
+  std::vector<Row> edges;
+  for (const Vec3& place : places) edges.push_back({place, place + Vec3(0, 0, 1)});
+  return stroke_of(std::move(edges));
+}
+
+TEST(SharpTurns, are_turns_of_more_than_half_a_right_angle) {
+  const Vec3 start(0, 0, 0), then(1, 0, 0);
+  EXPECT_EQ(count_sharp_turns(through({start, then, {2, 0.9, 0}}), 1e-6), 0U);
+  EXPECT_EQ(count_sharp_turns(through({start, then, {2, 1.1, 0}}), 1e-6), 1U);
+  EXPECT_EQ(count_sharp_turns(through({start, then, {0.5, 0.1, 0}}), 1e-6), 1U) << "back";
+}
+
+TEST(SharpTurns, pass_over_moves_that_are_too_short_and_count_the_place_where_it_comes_round) {
+  const Vec3 start(0, 0, 0), then(1, 0, 0), there(2, 0, 0);
+  EXPECT_EQ(count_sharp_turns(through({start, then, {1, 1e-7, 0}, there}), 1e-6), 0U);
+  std::vector<Vec3> half_round;
+  for (int i = 0; i <= 16; ++i) {
+    const auto [x, y] = on_circle(-0.25 + 0.5 * i / 16.0);
+    half_round.emplace_back(x, 0.5 * y, 0);
+  }
+  EXPECT_EQ(count_sharp_turns(through(half_round), 1e-6), 0U);
+  half_round.push_back(half_round.front());
+  EXPECT_EQ(count_sharp_turns(through(half_round), 1e-6), 2U) << "at both ends of its arc";
+}
+
+TEST(ComesRound, asks_all_points_of_the_edge) {
+  Stroke stroke = through({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}});
+  EXPECT_TRUE(comes_round(stroke, 1e-6));
+  stroke.edges.back()[1].x() += 1e-3;
+  EXPECT_FALSE(comes_round(stroke, 1e-6));
+  EXPECT_TRUE(comes_round(stroke, 1e-2));
+}
+
+TEST(CountCrossings, counts_the_walls_between_two_places) {
+  const SweptSurface surface = sweep(through({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}}));
+  const Sheet sheet(surface);
+  const auto between = [&](const Vec3& a, const Vec3& b) { return count_crossings(sheet, {a, 1}, {b, 2}); };
+  EXPECT_EQ(between({1, 1, 0.5}, {2, 2, 0.5}), 0U);
+  EXPECT_EQ(between({1, 1, 0.5}, {4, 1, 0.5}), 1U);
+  EXPECT_EQ(between({1, -1, 0.5}, {1, 4, 0.5}), 2U);
+  EXPECT_EQ(between({1, 1, 0.5}, {-1, 1, 0.5}), 0U) << "where the sheet is open";
+  EXPECT_EQ(between({1, 0, 0.5}, {1, 1, 0.5}) + between({1, 0, 0.5}, {1, -1, 0.5}), 1U) << "from a place on a wall";
 }
 
 }  // namespace

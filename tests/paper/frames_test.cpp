@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "support/bodies.h"
 #include "support/engines.h"
@@ -55,6 +56,18 @@ Blade curved() {
   return [](double t) {
     const double z = -0.2 + 1.4 * t, x = 0.4 + 0.8 * (t - t * t);
     return std::vector<Vec3>{Vec3(x, -0.2, z), Vec3(x, 1.2, z)};
+  };
+}
+
+/// A ring with as many corners, around the middle of the cube, pushed through it from below.
+Blade ring(unsigned corners, double radius, double turned) {
+  return [=](double t) {
+    std::vector<Vec3> edge;
+    for (unsigned k = 0; k <= corners; ++k) {
+      const double angle = turned + 2 * std::numbers::pi * (k % corners) / corners;
+      edge.emplace_back(0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle), -0.2 + 1.4 * t);
+    }
+    return edge;
   };
 }
 
@@ -172,6 +185,24 @@ TEST(PaperFrames, give_the_same_pieces_in_a_body_that_moves) {
       }
     }
   }
+}
+
+TEST(PaperFrames, take_out_the_core_that_an_edge_with_corners_is_pushed_round) {
+  unsigned crumbs = 0;
+  for (unsigned corners = 3; corners <= 6; ++corners) {
+    for (const double radius : {0.25, 0.37}) {
+      const double core = 0.5 * corners * radius * radius * std::sin(2 * std::numbers::pi / corners);
+      for (const unsigned frames : {1U, 4U, 10U, 28U}) {
+        SCOPED_TRACE(testing::Message() << corners << " corners, radius " << radius << ", frames " << frames);
+        const Engine engine = cut_in_frames(jittered_cube(5, 1), ring(corners, radius, 0.7), at_rest, frames, 1, false);
+        const std::vector<double> pieces = piece_volumes(engine.mesh());  // ascending
+        ASSERT_GE(pieces.size(), 2U);
+        EXPECT_NEAR(pieces[pieces.size() - 2], core, 0.08 * core);
+        crumbs += static_cast<unsigned>(pieces.size() - 2);
+      }
+    }
+  }
+  EXPECT_LE(crumbs, 1U) << "at the tips of acute corners";
 }
 
 }  // namespace

@@ -89,14 +89,16 @@ TEST_F(IncisionFrontTest, keeps_what_is_divided_in_one_place_and_joined_in_anoth
   IncisionFront front = front_at_centre();
   ASSERT_EQ(front.vertices(mesh_), std::vector{centre_});
   divide(/*quarter_gets_copy=*/true);
-  front.follow(mesh_, step_, walker_);
+  const SweptSurface surface = swept_up_to(0.6);
+  front.follow(mesh_, whole(surface), step_, walker_);
   EXPECT_EQ(front.vertices(mesh_), std::vector{centre_}) << "below y = 0.5 its tets meet across the plane";
 }
 
 TEST_F(IncisionFrontTest, keeps_the_copy_where_that_is_joined) {
   IncisionFront front = front_at_centre();
   const VertexId copy = divide(/*quarter_gets_copy=*/false);
-  front.follow(mesh_, step_, walker_);
+  const SweptSurface surface = swept_up_to(0.6);
+  front.follow(mesh_, whole(surface), step_, walker_);
   EXPECT_EQ(front.vertices(mesh_), std::vector{copy});
 }
 

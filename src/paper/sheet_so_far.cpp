@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "paper/sheet_so_far.h"
+
+namespace incise {
+inline namespace v0 {
+
+SheetSoFar::SheetSoFar(const Strip& strip, std::span<const std::shared_ptr<const Strip>> before)
+    : strip_(strip.sheet), whole_(&strip.sheet) {
+  if (before.empty()) return;
+  together_ = strip.surface;
+  for (const auto& earlier : before) append(together_, earlier->surface);
+  whole_ = &together_sheet_.emplace(together_);
+}
+
+}  // namespace v0
+}  // namespace incise
