@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random planes against convex clipping, and random strokes against the validity contract.
-// INCISE_FUZZ_RUNS is the number of runs per case: 10 unless told, 100 for the whole campaign.
+// INCISE_FUZZ_RUNS is the number of runs per case: 5 by day and 10 at night unless told, 100 for the whole campaign.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "incise/mesh/defects.h"
 #include "oracle/convex_arrangement.h"
 #include "support/bodies.h"
+#include "support/campaign.h"
 #include "support/engines.h"
 #include "support/random_strokes.h"
 
@@ -21,7 +22,7 @@ namespace {
 
 unsigned runs() {
   const char* text = std::getenv("INCISE_FUZZ_RUNS");
-  return text == nullptr ? 10U : static_cast<unsigned>(std::atoi(text));
+  return text == nullptr ? of_campaign(5U, 10U) : static_cast<unsigned>(std::atoi(text));
 }
 
 /// The bunny takes longer; the whole campaign gives it as many.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slice of incise_leaks: all motions through moving bodies.
+// A slice of incise_leaks: all motions through moving bodies, and more of each at night.
 #include <gtest/gtest.h>
 
 #include <initializer_list>
+#include <vector>
 
 #include "deforming/leak_run.h"
+#include "support/campaign.h"
 
 namespace incise::test::leak_test {
 namespace {
@@ -39,7 +41,7 @@ LeakSettings in_body(BodyKind body) {
 }
 
 TEST(Leaks, none_in_a_beam_under_a_solver) {
-  for (const unsigned steps : {30U, 120U}) {
+  for (const unsigned steps : of_campaign<std::vector<unsigned>>({30}, {30, 120})) {
     LeakSettings settings;
     settings.steps = steps;
     settings.check_every = 4;
@@ -60,7 +62,7 @@ TEST(Leaks, none_in_other_bodies_under_strong_tremor) {
 }
 
 TEST(Leaks, none_in_a_body_that_sways_with_its_wound_open) {
-  for (const double amplitude : {0.1, 0.25, 0.4, 0.6}) {
+  for (const double amplitude : of_campaign<std::vector<double>>({0.25, 0.6}, {0.1, 0.25, 0.4, 0.6})) {
     LeakSettings settings;
     settings.mover = Mover::kField;
     settings.amplitude = amplitude;

@@ -14,6 +14,7 @@
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/validate.h"
 #include "support/bodies.h"
+#include "support/campaign.h"
 #include "support/mirror_checks.h"
 #include "support/random.h"
 
@@ -63,7 +64,7 @@ void cut_through(Engine& engine, const RandomPlane& plane, double length) {
 
 TEST(Continuation, of_short_strokes_makes_the_cut_of_one_stroke) {
   for (const double share : {0.1, 0.3, 0.48, 0.65}) {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= of_campaign(3U, 8U); ++seed) {
       SCOPED_TRACE(testing::Message() << share << " elements, seed " << seed);
       const RandomPlane plane(seed);
       Engine engine = engine_of_cube();

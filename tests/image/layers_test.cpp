@@ -12,6 +12,7 @@
 #include "incise/geom/triangle_tree.h"
 #include "incise/image/mesh_labels.h"
 #include "incise/io/mesh_export.h"
+#include "support/campaign.h"
 
 namespace incise::layers_test {
 namespace {
@@ -138,6 +139,7 @@ void expect_thickness(double skin, double size) {
 }
 
 TEST(Layers, of_three_voxels_have_their_thickness_in_the_mesh) {
+  if (!test::is_whole_campaign()) GTEST_SKIP() << "thinner ones are meshed by day; at night (INCISE_CAMPAIGNS_ALL=1) these, too";
   expect_thickness(3, 5);
 }
 

@@ -2,8 +2,11 @@
 // Swapping edges and faces away: the best triangulation of a ring, flat boundaries, and fronts.
 #include "improve/edge_removal.h"
 
+#include <vector>
+
 #include "improve/maintainer_cases.h"
 #include "incise/geom/quality.h"
+#include "support/campaign.h"
 #include "support/random_strokes.h"
 
 namespace incise::test::edge_removal_test {
@@ -254,7 +257,7 @@ TEST(SwapsAtFronts, make_no_edge_or_face_of_the_other_lip) {
 
 /// Seeds 2, 4 and 5 are where a swap once made a face of the other lip: a later cut had split the front's edges.
 TEST(SwapsAtFronts, of_random_patches_leave_a_valid_mesh_after_every_stroke) {
-  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
+  for (const std::uint64_t seed : of_campaign<std::vector<std::uint64_t>>({2, 4, 5}, {1, 2, 3, 4, 5})) {
     for (const double snap : {0.0, 0.2}) {
       SCOPED_TRACE(seed);
       Random random(seed);

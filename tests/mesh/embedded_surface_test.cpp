@@ -15,6 +15,7 @@
 #include "incise/mesh/components.h"
 #include "incise/mesh/edge_length.h"
 #include "support/bodies.h"
+#include "support/campaign.h"
 #include "support/engines.h"
 #include "support/fine_surfaces.h"
 #include "support/random.h"
@@ -439,7 +440,8 @@ TEST(EmbeddedSurface, seams_of_the_texture_stay_shut) {
 }
 
 TEST(EmbeddedSurface, random_strokes_leave_no_bridge_and_lose_no_area) {
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  // Of three by day one: balls and cubes, maintained and not, undone and not.
+  for (std::uint64_t seed = of_campaign(3U, 1U); seed <= 24; seed += of_campaign(3U, 1U)) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const bool is_ball = seed % 2 == 0, is_maintained = seed > 12;

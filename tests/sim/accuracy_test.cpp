@@ -12,6 +12,7 @@
 #include "incise/sim/body.h"
 #include "incise/sim/reference.h"
 #include "support/beam.h"
+#include "support/campaign.h"
 
 namespace incise::test::accuracy_test {
 namespace {
@@ -74,33 +75,31 @@ double true_sag(const TetMesh& mesh, const Beam& beam, const Materials& material
 
 // --- statics
 
-/// Share by which the sag after 2 s is off, with damping 5/s in which the swing dies and without, where it may not
-/// have.
-struct SagError {
-  double damped = 0, plain = 0;
-};
-
-SagError sag_error(const TetMesh& mesh, double young) {
+/// Share by which the sag after 2 s is off, with damping 5/s in which the swing dies.
+double sag_error(const TetMesh& mesh, double young) {
   const Beam beam;
   const Materials materials = tissue(young);
   const double sag = true_sag(mesh, beam, materials);
-  const SagError error = {sag_after(2, mesh, beam, materials, in_real_time(5)) / sag - 1,
-                          sag_after(2, mesh, beam, materials, in_real_time(0)) / sag - 1};
-  std::printf("  %3.0f kPa, worst L/r %7.2g, %zu tets: sag %8.4f mm, after 2 s %+.2f %% (undamped %+.2f %%)\n",
-              1e-3 * young, worst_aspect(mesh), mesh.tet_count(), 1e3 * sag, 100 * error.damped, 100 * error.plain);
-  return error;
+  const double damped = sag_after(2, mesh, beam, materials, in_real_time(5)) / sag - 1;
+  std::printf("  %3.0f kPa, worst L/r %7.2g, %zu tets: sag %8.4f mm, after 2 s %+.2f %%", 1e-3 * young, worst_aspect(mesh),
+              mesh.tet_count(), 1e3 * sag, 100 * damped);
+  if (is_whole_campaign()) {  // nothing is asked of it
+    std::printf(" (undamped %+.2f %%)", 100 * (sag_after(2, mesh, beam, materials, in_real_time(0)) / sag - 1));
+  }
+  std::printf("\n");
+  return damped;
 }
 
 TEST(Accuracy, SagOfAWholeBeamIsWithinAPercentOfTheReference) {
   const TetMesh mesh = make_beam({});
-  for (const double young : {3e3, 30e3, 300e3}) EXPECT_LT(std::abs(sag_error(mesh, young).damped), 0.01) << young;
+  for (const double young : {3e3, 30e3, 300e3}) EXPECT_LT(std::abs(sag_error(mesh, young)), 0.01) << young;
 }
 
 TEST(Accuracy, SagOfAnIncisedBeamIsWithinThreePercentWhateverItsSlivers) {
   for (const double eps : {1e-1, 1e-2, 1e-3, 1e-4}) {
     const TetMesh mesh = cut_beam({}, eps).mesh;
     for (const double young : {3e3, 30e3, 300e3}) {
-      EXPECT_LT(std::abs(sag_error(mesh, young).damped), 0.03) << young << " Pa, " << eps;
+      EXPECT_LT(std::abs(sag_error(mesh, young)), 0.03) << young << " Pa, " << eps;
     }
   }
 }
