@@ -139,7 +139,8 @@ void expect_thickness(double skin, double size) {
 }
 
 TEST(Layers, of_three_voxels_have_their_thickness_in_the_mesh) {
-  if (!test::is_whole_campaign()) GTEST_SKIP() << "thinner ones are meshed by day; at night (INCISE_CAMPAIGNS_ALL=1) these, too";
+  if (!test::is_whole_campaign())
+    GTEST_SKIP() << "thinner ones are meshed by day; at night (INCISE_CAMPAIGNS_ALL=1) these, too";
   expect_thickness(3, 5);
 }
 

@@ -81,8 +81,8 @@ double sag_error(const TetMesh& mesh, double young) {
   const Materials materials = tissue(young);
   const double sag = true_sag(mesh, beam, materials);
   const double damped = sag_after(2, mesh, beam, materials, in_real_time(5)) / sag - 1;
-  std::printf("  %3.0f kPa, worst L/r %7.2g, %zu tets: sag %8.4f mm, after 2 s %+.2f %%", 1e-3 * young, worst_aspect(mesh),
-              mesh.tet_count(), 1e3 * sag, 100 * damped);
+  std::printf("  %3.0f kPa, worst L/r %7.2g, %zu tets: sag %8.4f mm, after 2 s %+.2f %%", 1e-3 * young,
+              worst_aspect(mesh), mesh.tet_count(), 1e3 * sag, 100 * damped);
   if (is_whole_campaign()) {  // nothing is asked of it
     std::printf(" (undamped %+.2f %%)", 100 * (sag_after(2, mesh, beam, materials, in_real_time(0)) / sag - 1));
   }
