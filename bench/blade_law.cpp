@@ -229,7 +229,8 @@ class Runner {
   void run_floor() {
     const std::size_t before = floor_.journal_bytes();
     for (const auto& [from, to] : steady_) {
-      out_.floor_us.push_back(time_us([&] { floor_.write(engine_.journal(), from, to, engine_.mesh()); }));
+      out_.floor_us.push_back(
+          time_us([&, from = from, to = to] { floor_.write(engine_.journal(), from, to, engine_.mesh()); }));
     }
     out_.journal_bytes += floor_.journal_bytes() - before;
     floor_.forget();
