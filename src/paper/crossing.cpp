@@ -97,7 +97,8 @@ std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet&
   CoincidenceMemo coincidence(mesh, sheet);
   for (std::uint32_t i = 0; i < neighbourhood.edges.size(); ++i) {
     const CutEdge& edge = neighbourhood.edges[i];
-    if (edge.crossings.count == 0) continue;
+    const bool lies_on_sheet = neighbourhood.is_on[edge.a.value] != 0 && neighbourhood.is_on[edge.b.value] != 0;
+    if (edge.crossings.count == 0 || lies_on_sheet) continue;
     const auto coincident = [&](VertexId vertex, double length) { return coincidence.find(vertex, length); };
     const auto t = find_between(mesh, sheet, edge.a, edge.b, edge.crossings, gap, coincident);
     if (t.has_value()) found.push_back({i, *t});

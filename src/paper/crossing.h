@@ -31,10 +31,10 @@ struct DoublyCrossed {
 
 /// The edges that two parts of the sheet pass through more than `gap` of the edge apart, ascending. They must be
 /// bisected in between, or one crossing would hide the other. An end that coincides with the sheet counts as crossed
-/// there. That is bisected, too, where the end is a collision point: beyond a corner of the blade's edge, an edge that
-/// starts on one part of the sheet crosses another. A single smooth part that an edge leaves and enters again (a graze:
-/// the edge is nearly a chord) is left alone; the cut then follows the chord. Cost: O(edges), with a search of the
-/// sheet for ends of crossed edges.
+/// there. That is bisected, too, where one end, not both, is a collision point: beyond a corner of the blade's edge, an
+/// edge that starts on one part of the sheet crosses another. A single smooth part that an edge leaves and enters again
+/// (a graze: the edge is nearly a chord) is left alone; the cut then follows the chord. Cost: O(edges), with a search
+/// of the sheet for ends of crossed edges.
 std::vector<DoublyCrossed> find_doubly_crossed(const TetMesh& mesh, const Sheet& sheet,
                                                const Neighbourhood& neighbourhood, double gap);
 

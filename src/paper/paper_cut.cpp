@@ -302,11 +302,18 @@ void PaperCutter::finish_sheet(const CutContext& context) {
   stroke_.course = Vec3::Zero();
 }
 
-/// The strips that the blade laid within `kStripsReach` elements before the next one.
-std::vector<std::shared_ptr<const Strip>> PaperCutter::strips_before() const {
+/// The strips that the blade laid within `kStripsReach` elements before a strip, if that goes on from them as on one
+/// sheet. None where it meets some of them otherwise, or is as long as that itself.
+std::vector<std::shared_ptr<const Strip>> PaperCutter::strips_before(const Strip& strip) const {
+  const double reach = kStripsReach * stroke_.spacing;
+  if (travel_of(strip.surface) > reach) return {};
   const auto& strips = stroke_.sheet.strips();
-  const double from = stroke_.sheet.travel() - kStripsReach * stroke_.spacing;
+  const double from = stroke_.sheet.travel() - reach;
   const auto first = std::find_if(strips.begin(), strips.end(), [&](const auto& s) { return s->travel > from; });
+  const bool do_meet = std::any_of(first, strips.end(), [&](const auto& earlier) {
+    return strips_meet(strip.surface, earlier->surface, earlier->sheet, kCoincident * stroke_.spacing);
+  });
+  if (do_meet) return {};
   return {first, strips.end()};
 }
 
@@ -318,7 +325,7 @@ Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
     move.strip = stroke_.motion.lay_anew({});
   }
   const std::uint64_t cut_before = context.statistics.cut_tets;
-  Status status = sheet_cut_.cut(context, SheetSoFar(*move.strip, strips_before()), stroke_.tag, front_);
+  Status status = sheet_cut_.cut(context, SheetSoFar(*move.strip, strips_before(*move.strip)), stroke_.tag, front_);
   context.statistics.cut_tets = cut_before + sheet_cut_.divided_tets();  // few are crossed wholly in one frame
   stroke_.has_cut = stroke_.has_cut || sheet_cut_.divided_tets() > 0;
   stroke_.sheet.add(std::move(move.strip));

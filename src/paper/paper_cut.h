@@ -95,7 +95,7 @@ class PaperCutter {
   void note_course(std::span<const SosPoint> row);
   void leave_body(const CutContext& context, const std::vector<Vec3>& row);
   Status follow(const CutContext& context, BladeMotion::Move move);
-  [[nodiscard]] std::vector<std::shared_ptr<const Strip>> strips_before() const;
+  [[nodiscard]] std::vector<std::shared_ptr<const Strip>> strips_before(const Strip& strip) const;
   void finish_sheet(const CutContext& context);
   void find_surface(const CutContext& context);
   [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const;

@@ -2,6 +2,7 @@
 #include "paper/sheet_sides.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cut/sheet_crossing.h"
 #include "paper/constants.h"
@@ -29,7 +30,7 @@ class SheetSides {
                                        [](const CollisionPoint& point, VertexId w) { return point.vertex < w; });
       if (at == points_.end() || at->vertex != v) continue;
       for (const Vec3& normal : normals) {
-        if (normal.dot(at->normal) < kFrontCosine) return true;
+        if (std::abs(normal.dot(at->normal)) < kFrontCosine) return true;
       }
       normals.push_back(at->normal);
     }
