@@ -667,7 +667,7 @@ FrontRules Cutter::rules() const {
   return rules;
 }
 
-/// At once, or, where the sweep meets itself, as if its blade had come in steps.
+/// At once, or, where the sweep meets itself or closes at a corner, as if its blade had come in steps.
 Status Cutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   stroke_.is_in_material = false;
   const double spacing = stroke_.spacing = spacing_of(context.mesh, false);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <utility>
 
 #include "cut/constants.h"
 #include "incise/mesh/edge_length.h"

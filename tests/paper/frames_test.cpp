@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "support/bodies.h"
 #include "support/engines.h"
@@ -203,6 +204,21 @@ TEST(PaperFrames, take_out_the_core_that_an_edge_with_corners_is_pushed_round) {
     }
   }
   EXPECT_LE(crumbs, 1U) << "at the tips of acute corners";
+}
+
+TEST(PaperFrames, make_no_slivers_without_end_where_a_leaning_blade_jumps_across_its_own_way) {
+  const std::vector<std::vector<Vec3>> rows = {{{1.098, 0.24, -0.195}, {1.127, 0.235, 1.232}},
+                                               {{0.036, 0.031, -0.197}, {0.069, 0.012, 1.237}},
+                                               {{0.733, 0.14, -0.203}, {0.778, 0.151, 1.164}},
+                                               {{0.571, 0.701, -0.183}, {0.615, 0.695, 1.173}},
+                                               {{0.343, 0.192, -0.204}, {0.322, 0.219, 1.217}}};
+  const Blade jumps = [&](double t) { return rows[static_cast<std::size_t>(std::lround(4 * t))]; };
+  for (const std::uint32_t n : {8U, 12U}) {
+    TetSoup soup = jittered_cube(n, 1);
+    const std::size_t before = soup.tets.size();
+    const Engine engine = cut_in_frames(std::move(soup), jumps, at_rest, 4, 1, false);
+    EXPECT_LT(engine.mesh().tet_count(), 2 * before);
+  }
 }
 
 }  // namespace
