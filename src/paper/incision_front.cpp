@@ -62,18 +62,36 @@ bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& poin
   return normal && std::abs(normal->dot(point.normal)) > kFrontCosine;
 }
 
-/// Whether some wall of a cut at a vertex goes along a plane.
-bool has_wall_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
+/// The walls of cuts at a vertex that go along a plane.
+struct WallsAlong {
+  std::vector<VertexId> corners;            ///< ascending
+  std::vector<Vec3> normals;                ///< unit, away from their tets
+  bool is_above = false, is_below = false;  ///< some of their tets are, of the plane
+};
+
+WallsAlong find_walls_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
+  WallsAlong walls;
   for (const TetId tet : walker.star(mesh, vertex)) {
     for (unsigned s = 0; s < 4; ++s) {
       const Link link = mesh.links(tet)[s];
       if (mesh.vertices(tet)[s] == vertex || !link.is_boundary() || link.tag() == 0) continue;
       const auto face = mesh.vertices(Side(tet, s));
       const Vec3 &a = mesh.rest(face[0]), &b = mesh.rest(face[1]), &c = mesh.rest(face[2]);
-      if (std::abs((b - a).cross(c - a).normalized().dot(normal)) > kFrontCosine) return true;
+      const Vec3 outward = (b - a).cross(c - a).normalized();
+      const double cosine = outward.dot(normal);
+      if (std::abs(cosine) <= kFrontCosine) continue;
+      (cosine < 0 ? walls.is_above : walls.is_below) = true;
+      walls.corners.insert(walls.corners.end(), face.begin(), face.end());
+      walls.normals.push_back(outward);
     }
   }
-  return false;
+  std::sort(walls.corners.begin(), walls.corners.end());
+  return walls;
+}
+
+bool has_wall_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
+  const WallsAlong walls = find_walls_along(mesh, vertex, normal, walker);
+  return walls.is_above || walls.is_below;
 }
 
 /// Whether some tissue of a vertex's star lies above a plane, and some below.
@@ -118,6 +136,26 @@ bool has_both_sides_beyond_corner(const TetMesh& mesh, const Sheet& sheet, const
 bool has_both_sides(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, StarWalker& walker) {
   return has_both_sides(mesh, point.vertex, point.normal, walker) ||
          has_both_sides_beyond_corner(mesh, sheet, point, walker);
+}
+
+/// Whether tissue joins both sides of the sheet at a point: no lip of the incision is there, or both are, as at its
+/// border, or tissue besides the one that is lies well behind all of it. The lips of a curved sheet leave its planes,
+/// and so does what lies close behind them.
+bool is_joined(const TetMesh& mesh, const CollisionPoint& point, StarWalker& walker) {
+  const WallsAlong walls = find_walls_along(mesh, point.vertex, point.normal, walker);
+  if (walls.is_above == walls.is_below) return true;
+  const Vec3& place = mesh.rest(point.vertex);
+  const std::vector<TetId>& star = walker.star(mesh, point.vertex);
+  const double least = kFrontOffset * mean_edge_length_at(mesh, point.vertex, star);
+  const auto is_behind = [&](VertexId corner) {
+    const Vec3 way = mesh.rest(corner) - place;
+    return !std::binary_search(walls.corners.begin(), walls.corners.end(), corner) &&
+           std::all_of(walls.normals.begin(), walls.normals.end(), [&](const Vec3& n) { return n.dot(way) > least; });
+  };
+  return std::any_of(star.begin(), star.end(), [&](TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
+    return std::any_of(v.begin(), v.end(), is_behind);
+  });
 }
 
 /// Adds the copies of points, which lie on the sheet as well. Returns the vertices that were copied and the copies,
@@ -232,6 +270,13 @@ void IncisionFront::renew(const TetMesh& mesh) {
 void IncisionFront::clear() {
   own_.clear();
   older_.clear();
+}
+
+void IncisionFront::leave_lips(const TetMesh& mesh, StarWalker& walker) {
+  for (Points* points : {&own_, &older_}) {
+    std::erase_if(*points,
+                  [&](const CollisionPoint& point) { return !lives(mesh, point) || !is_joined(mesh, point, walker); });
+  }
 }
 
 std::vector<VertexId> IncisionFront::vertices(const TetMesh& mesh) const {

@@ -43,6 +43,10 @@ class IncisionFront {
   void add(const TetMesh& mesh, const Sheet& sheet, const std::vector<VertexId>& vertices, StarWalker& walker);
   /// Has the points that live go by their slots' present generations, after undo or redo. Cost: O(points).
   void renew(const TetMesh& mesh);
+  /// Drops the points at which no tissue joins both sides any more, when a stroke has ended: maintenance moves lips. In
+  /// a curved sheet, as all are in a body that moves, lips leave its planes, and `follow` keeps them. Cost: O(points ·
+  /// their stars).
+  void leave_lips(const TetMesh& mesh, StarWalker& walker);
   /// All incisions are complete.
   void clear();
 

@@ -66,6 +66,7 @@ Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const St
     context.statistics.steps = stroke.times.size() - 1;
     stroke_.may_go_on = false;
     Status status = cut_stroke(context, stroke, tag);
+    front_.leave_lips(context.mesh, walker_);
     return status;
   });
 }
@@ -186,6 +187,7 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
       status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
     }
     count_last_sheet(context.statistics);
+    front_.leave_lips(context.mesh, walker_);
     stroke_.may_go_on = status.ok();
     return status;
   });
@@ -306,7 +308,7 @@ void PaperCutter::finish_sheet(const CutContext& context) {
 /// sheet. None where it meets some of them otherwise, or is as long as that itself.
 std::vector<std::shared_ptr<const Strip>> PaperCutter::strips_before(const Strip& strip) const {
   const double reach = kStripsReach * stroke_.spacing;
-  if (travel_of(strip.surface) > reach) return {};
+  if (stroke_.is_in_material || travel_of(strip.surface) > reach) return {};
   const auto& strips = stroke_.sheet.strips();
   const double from = stroke_.sheet.travel() - reach;
   const auto first = std::find_if(strips.begin(), strips.end(), [&](const auto& s) { return s->travel > from; });

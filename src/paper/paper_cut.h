@@ -106,6 +106,7 @@ class PaperCutter {
   SplitTemplates templates_;
   ClosedComplex complex_;  // of whole tets: those that hold the blade's front
   SurfaceIndex surface_;
+  StarWalker walker_;
 };
 
 /// Cuts a mesh along one whole stroke, at rest, with no incision to go on from: `PaperCutter::cut`.

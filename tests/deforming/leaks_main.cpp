@@ -3,7 +3,7 @@
 // steps, and each run that did not come out as it should with what brings it back. Exits with 1 if there was one.
 // usage: incise_leaks [--runs N] [--steps 30,120,240] [--seed S] [--stretch 0.25] [--mover solver|field]
 //                     [--amplitude 0.1,0.3] [--body beam|cube|ball|shuffled|all] [--motion 0..7] [--snap 0.2]
-//                     [--maintain] [--check-every 1] [--verbose]
+//                     [--profile incise|paper] [--maintain] [--check-every 1] [--verbose]
 // Run i has motion i mod 8 and seed S + i div 8; over `all` bodies and amplitudes they alternate with the seed.
 #include <algorithm>
 #include <cstdio>
@@ -65,6 +65,8 @@ bool take(const std::string& name, const char* value, Arguments& a) {
     a.motion = static_cast<int>(number);
   else if (name == "--snap")
     a.settings.cut.snap = number;
+  else if (name == "--profile")
+    a.settings.cut.profile = std::string(value) == "paper" ? Profile::kPaper : Profile::kIncise;
   else if (name == "--check-every")
     a.settings.check_every = static_cast<unsigned>(number);
   else

@@ -37,5 +37,19 @@ TEST(PaperLeaks, none_in_twenty_scenes_of_moving_bodies) {
   }
 }
 
+TEST(PaperLeaks, make_no_slivers_without_end_where_a_body_sways) {
+  LeakSettings settings;
+  settings.body = BodyKind::kShuffled;
+  settings.motion = Motion::kStrongTremor;
+  settings.mover = Mover::kField;
+  settings.amplitude = 0.6;
+  settings.seed = 12;
+  settings.steps = 240;
+  settings.check_every = 16;
+  const LeakResult paper = run(settings, Profile::kPaper);
+  EXPECT_EQ(paper.failure, "");
+  EXPECT_LT(paper.tets, 5000U) << "the strips of a frame lie beside those before it, at rest";
+}
+
 }  // namespace
 }  // namespace incise::test::paper_leak_test

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "incise/mesh/transaction.h"
+#include "paper/paper_cut.h"
 #include "paper_support.h"
 
 namespace incise::test::incision_front_test {
@@ -92,6 +93,8 @@ TEST_F(IncisionFrontTest, keeps_what_is_divided_in_one_place_and_joined_in_anoth
   const SweptSurface surface = swept_up_to(0.6);
   front.follow(mesh_, whole(surface), step_, walker_);
   EXPECT_EQ(front.vertices(mesh_), std::vector{centre_}) << "below y = 0.5 its tets meet across the plane";
+  front.leave_lips(mesh_, walker_);
+  EXPECT_EQ(front.vertices(mesh_), std::vector{centre_});
 }
 
 TEST_F(IncisionFrontTest, keeps_the_copy_where_that_is_joined) {
@@ -100,6 +103,23 @@ TEST_F(IncisionFrontTest, keeps_the_copy_where_that_is_joined) {
   const SweptSurface surface = swept_up_to(0.6);
   front.follow(mesh_, whole(surface), step_, walker_);
   EXPECT_EQ(front.vertices(mesh_), std::vector{copy});
+  front.leave_lips(mesh_, walker_);
+  EXPECT_EQ(front.vertices(mesh_), std::vector{copy});
+}
+
+TEST_F(IncisionFrontTest, leaves_the_lips_of_a_bent_sheet_once_its_stroke_has_ended) {
+  Journal journal;
+  StageTimes times;
+  PaperCutter cutter(1);
+  const auto bent = [](double z) { return 0.4 + 0.8 * (z - z * z); };
+  Stroke stroke;
+  for (double z = -0.2; z < 1.3; z += 0.1) {
+    stroke.times.push_back(z);
+    stroke.edges.push_back({{bent(z), -0.2, z}, {bent(z), 1.2, z}});
+  }
+  ASSERT_TRUE(cutter.cut(mesh_, journal, stroke, 1, times).ok());
+  ASSERT_EQ(piece_volumes(mesh_).size(), 2U);
+  EXPECT_TRUE(cutter.front().is_empty()) << "neighbours on a bent lip lie on both sides of each other's planes";
 }
 
 TEST_F(IncisionFrontTest, goes_on_at_points_of_an_earlier_sheet_that_are_no_walls_yet) {
