@@ -9,6 +9,7 @@
 #include "improve/constants.h"
 #include "improve/inradius_ratio.h"
 #include "improve/reference.h"
+#include "improve/standing.h"
 #include "improve/surfaces.h"
 #include "incise/improve/options.h"
 #include "incise/mesh/star.h"
@@ -71,9 +72,6 @@ inline double worst_of(Care& care, const std::vector<TetId>& tets) {
   care.spend(tets.size());
   return worst;
 }
-
-/// Whether a tet stands deformed without being inverted; true at rest.
-bool is_sound_now(const TetMesh& mesh, const TetVertices& vertices);
 
 }  // namespace v0
 }  // namespace incise

@@ -70,20 +70,6 @@ class Smoother {
   Piece before_, after_;
 };
 
-/// A rest point in the barycentric coordinates of a tet.
-struct MaterialPoint {
-  TetVertices basis;
-  std::array<double, 4> weights{};
-};
-
-/// The tet that holds a rest point, or is nearest to that, with the point's coordinates there.
-MaterialPoint locate(const TetMesh& mesh, const Vec3& place, const std::vector<TetId>& tets);
-/// Where a material point is as the mesh stands.
-Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point);
-
-/// Whether a vertex may move: no tet of `star`, its star, would stand inverted that does not now.
-bool may_move(const TetMesh& mesh, VertexId vertex, const Vec3& place, const std::vector<TetId>& star);
-
 /// Moves a vertex and samples what followers carry at the new place; `star` is its star. Returns false, and does
 /// nothing, where a tet would stand inverted that does not now.
 bool move_vertex(Care& care, VertexId vertex, const Vec3& place, const std::vector<TetId>& star);

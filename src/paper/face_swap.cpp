@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "improve/standing.h"
 #include "incise/geom/predicates.h"
 #include "incise/mesh/remesh.h"
 #include "incise/mesh/star.h"
@@ -119,11 +120,18 @@ class FaceSwapper : private PaperStage {
   bool swap(const RemeshPlan& plan) {
     const bool is_held =
         std::any_of(plan.consumed.begin(), plan.consumed.end(), [&](TetId tet) { return held_.holds(mesh_, tet); });
-    if (is_held || !(worst_after(plan) < worst_before(plan))) {
+    if (is_held || !(worst_after(plan) < worst_before(plan)) || !keeps_standing(plan)) {
       return false;
     }
     apply(transaction_, plan, produced_);
     return true;
+  }
+  /// Whether no tet would stand inside out where none does now.
+  [[nodiscard]] bool keeps_standing(const RemeshPlan& plan) const {
+    return std::all_of(plan.produced.begin(), plan.produced.end(),
+                       [&](const NewTet& tet) { return is_sound_now(mesh_, tet.vertices); }) ||
+           !std::all_of(plan.consumed.begin(), plan.consumed.end(),
+                        [&](TetId tet) { return is_sound_now(mesh_, mesh_.vertices(tet)); });
   }
   double worst_before(const RemeshPlan& plan) {
     double worst = 0;

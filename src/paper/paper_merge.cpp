@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cut/spacing.h"
+#include "improve/standing.h"
 #include "incise/geom/quality.h"
 #include "incise/mesh/collapse.h"
 #include "paper/constants.h"
@@ -184,7 +185,7 @@ class EdgeMerger : private PaperStage {
   }
   bool merge_at(const Vec3& place) {
     return stays_positive(mesh_, plan_, place) && keeps_surface(place) && keeps_skin(place) && keeps_quality(place) &&
-           carry_out(place);
+           keeps_standing(place) && carry_out(place);
   }
   /// What the class of a vertex allows. Whether an edge between surface vertices lies on the surface, the link
   /// condition tells.
@@ -277,6 +278,20 @@ class EdgeMerger : private PaperStage {
       after = std::max(after, meter_.of_moved(tet, moved, place));
     });
     return after <= before;
+  }
+  /// Whether tets that stand upright now stay so, with the merged vertex where it will stand.
+  [[nodiscard]] bool keeps_standing(const Vec3& place) const {
+    const MaterialPoint point = locate(mesh_, place, plan_.around);
+    const Vec3 merged = place == mesh_.rest(plan_.into)
+                            ? mesh_.current(plan_.into)
+                            : current_after_move(mesh_, plan_.into, place, point.basis, point.weights);
+    bool keeps = true;
+    for_each_changed(place, [&](TetId tet, VertexId moved) {
+      const TetVertices& v = mesh_.vertices(tet);
+      const auto at = [&](unsigned c) -> const Vec3& { return v[c] == moved ? merged : mesh_.current(v[c]); };
+      keeps = keeps && (signed_volume6(at(0), at(1), at(2), at(3)) > 0 || !is_sound_now(mesh_, v));
+    });
+    return keeps;
   }
   bool carry_out(const Vec3& place) {
     if (place != mesh_.rest(plan_.into)) {

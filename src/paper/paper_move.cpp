@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "improve/standing.h"
 #include "incise/mesh/verbs.h"
 
 namespace incise {
@@ -35,7 +36,8 @@ bool move_towards(Transaction& transaction, VertexId vertex, const Vec3& target,
     if (!(worst_with(meter, star, vertex, place) <= limit)) {
       continue;
     }
-    if (const MoveVertexPlan plan = plan_move_vertex(mesh, vertex, place)) {
+    const MoveVertexPlan plan = plan_move_vertex(mesh, vertex, place);
+    if (plan && may_move(mesh, vertex, place, star)) {
       apply(transaction, plan);
       return true;
     }

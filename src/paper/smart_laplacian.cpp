@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paper/smart_laplacian.h"
 
+#include "improve/standing.h"
 #include "incise/mesh/verbs.h"
 #include "paper/paper_classes.h"
 #include "paper/paper_region.h"
@@ -35,10 +36,9 @@ class InsideSmoother : private PaperStage {
       return false;
     }
     const MoveVertexPlan plan = plan_move_vertex(mesh_, v, centre);
-    if (plan) {
-      apply(transaction_, plan);
-    }
-    return static_cast<bool>(plan);
+    if (!plan || !may_move(mesh_, v, centre, star_)) return false;
+    apply(transaction_, plan);
+    return true;
   }
   /// Equation 1.
   [[nodiscard]] Vec3 centre_of_neighbours(VertexId v) const {

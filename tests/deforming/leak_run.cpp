@@ -11,6 +11,7 @@
 
 #include "deforming/swaying_field.h"
 #include "incise/geom/closest.h"
+#include "incise/geom/quality.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/remesh.h"
@@ -171,7 +172,7 @@ class Run {
     if (note(engine_.begin_stroke(motion_.pose(0)))) {
       for (unsigned i = 1; i <= settings_.steps && result_.failure.empty(); ++i) step(i);
     }
-    if (result_.failure.empty() && note(engine_.end_stroke())) follow();
+    if (result_.failure.empty() && watched([&] { return note(engine_.end_stroke()); })) follow();
     finish();
     return std::move(result_);
   }
@@ -198,12 +199,29 @@ class Run {
     const double time = static_cast<double>(index) / settings_.steps;
     const BladePose pose = motion_.pose(time);
     const auto start = Clock::now();
-    if (!note(engine_.step(pose))) return;
+    if (!watched([&] { return note(engine_.step(pose)); })) return;
     result_.engine_ms += ms_since(start);
     if (settings_.check_every > 0 && index % settings_.check_every == 0) check();
     front_.add(engine_.mesh(), stroke_, pose.edge, result_);
     follow();
     move(time);
+  }
+  /// A call of the engine; what stands inside out after it and did not before is noted.
+  template <class Call>
+  bool watched(Call&& call) {
+    const double before = turned_volume();
+    const bool is_fine = call();
+    result_.turned_over = std::max(result_.turned_over, (turned_volume() - before) / volume_);
+    return is_fine;
+  }
+  [[nodiscard]] double turned_volume() const {
+    const TetMesh& mesh = engine_.mesh();
+    double sum = 0;
+    mesh.for_each_tet([&](TetId tet) {
+      const auto [a, b, c, d] = mesh.vertices(tet);
+      sum += std::max(0.0, -signed_volume6(mesh.current(a), mesh.current(b), mesh.current(c), mesh.current(d)) / 6);
+    });
+    return sum;
   }
   void follow() {
     if (!solver_) return;
@@ -233,8 +251,9 @@ class Run {
   void check() {
     ValidateOptions options;
     options.expected_volume = volume_;
-    if (settings_.maintains) options.volume_tolerance = 1e-9;
+    if (settings_.maintains) options.volume_tolerance = is_paper() ? kPaperVolume : 1e-9;
     const ValidityReport report = validate(engine_.mesh(), ValidateLevel::kGeometry, options);
+    result_.volume_change = std::abs(report.volume - volume_) / volume_;
     if (report.ok) return;
     ++result_.invalid;
     const ViolationKind kind = report.first.empty() ? ViolationKind::kVolumeDrift : report.first[0].kind;
@@ -252,6 +271,8 @@ class Run {
     result_.tets = engine_.mesh().tet_count();
     if (result_.failure.empty()) result_.failure = first_fault_;
   }
+
+  [[nodiscard]] bool is_paper() const { return settings_.cut.profile == Profile::kPaper; }
 
   template <class T>
   bool note(const Result<T>& result) {

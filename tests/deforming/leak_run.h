@@ -43,11 +43,13 @@ struct LeakSettings {
 struct LeakResult {
   std::size_t expected = 2, pieces = 0, crumbs = 0;  ///< crumbs: pieces below 0.02 spacings³, not among `pieces`
   std::size_t invalid = 0;                           ///< checks that found the mesh broken, its volume included
-  std::size_t inverted = 0;                          ///< most tets inside out as the body stood, right after a cut
-  double energy_up = 0;                  ///< greatest rise at a step of the journal, the fresh vertices relaxed
-  double energy_up_raw = 0;              ///< the same before that
-  double energy_down = 0;                ///< greatest fall, relaxed
-  double speed = 0;                      ///< greatest of a vertex, length / s
+  double volume_change = 0;                          ///< of the body at rest by the end, as a share
+  double turned_over = 0;    ///< most volume that the engine turned inside out as the body stood, as a share
+  std::size_t inverted = 0;  ///< most tets inside out as the body stood, right after a cut
+  double energy_up = 0;      ///< greatest rise at a step of the journal, the fresh vertices relaxed
+  double energy_up_raw = 0;  ///< the same before that
+  double energy_down = 0;    ///< greatest fall, relaxed
+  double speed = 0;          ///< greatest of a vertex, length / s
   double front_mean = 0, front_max = 0;  ///< from points of the blade in uncut tissue to the nearest lip
   std::size_t front_points = 0;          ///< how many such points
   std::size_t tets = 0;                  ///< at the end
@@ -58,6 +60,9 @@ struct LeakResult {
 
 /// The rise of elastic energy at one step of the journal that a run may show, of its peak.
 inline constexpr double kEnergyRise = 0.03;
+
+/// What the paper's smoothing and merging may change of a body's volume: its walls and its skin are curved.
+inline constexpr double kPaperVolume = 3e-3;
 
 /// The body at rest; `spacing` becomes the length of its usual edge.
 TetSoup make_body(BodyKind kind, std::uint64_t seed, double& spacing);

@@ -105,13 +105,15 @@ LeakSettings settings_of(const Arguments& a, unsigned run, double steps) {
 struct Row {
   unsigned exact = 0, crumbs = 0, joined = 0, extra = 0, invalid = 0, failed = 0;
   std::size_t inverted = 0;
-  std::vector<double> up, up_raw, down, speed, front_mean, front_max, engine_ms, solver_ms;
+  std::vector<double> volume, turned, up, up_raw, down, speed, front_mean, front_max, engine_ms, solver_ms;
 
   void add(const LeakResult& r) {
     ++(r.is_exact() ? exact : r.pieces < r.expected ? joined : r.pieces > r.expected ? extra : crumbs);
     invalid += r.invalid > 0 ? 1U : 0U;
     failed += !r.failure.empty() && r.invalid == 0 ? 1U : 0U;
     inverted = std::max(inverted, r.inverted);
+    volume.push_back(r.volume_change);
+    turned.push_back(r.turned_over);
     up.push_back(100 * r.energy_up);
     up_raw.push_back(100 * r.energy_up_raw);
     down.push_back(100 * r.energy_down);
@@ -140,17 +142,20 @@ double median(std::vector<double> v) {
 void print_head() {
   std::puts(
       "| steps | exact / crumb / joined / extra | invalid | failed | energy up % median / max (raw max) | down % max | "
-      "v max median / max | inverted | front error mean / max (h) | engine ms, solver ms per run |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|");
+      "v max median / max | inverted | volume, turned over % max | front error mean / max (h) | engine ms, solver ms "
+      "per run |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|");
 }
 
 void print(double steps, const Row& r) {
   std::printf(
-      "| %.0f | %u / %u / %u / %u | %u | %u | %.2f / %.2f (%.2f) | %.1f | %.1f / %.1f | %zu | %.3f / %.2f | %.0f, %.0f "
+      "| %.0f | %u / %u / %u / %u | %u | %u | %.2f / %.2f (%.2f) | %.1f | %.1f / %.1f | %zu | %.2g, %.2g | %.3f / %.2f "
+      "| %.0f, "
+      "%.0f "
       "|\n",
       steps, r.exact, r.crumbs, r.joined, r.extra, r.invalid, r.failed, median(r.up), greatest(r.up),
-      greatest(r.up_raw), greatest(r.down), median(r.speed), greatest(r.speed), r.inverted, mean(r.front_mean),
-      greatest(r.front_max), mean(r.engine_ms), mean(r.solver_ms));
+      greatest(r.up_raw), greatest(r.down), median(r.speed), greatest(r.speed), r.inverted, 100 * greatest(r.volume),
+      100 * greatest(r.turned), mean(r.front_mean), greatest(r.front_max), mean(r.engine_ms), mean(r.solver_ms));
   std::fflush(stdout);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The profile paper in 20 scenes of bodies that move under a solver: the pieces of the profile incise, and nothing
-// else. By day every other scene: each body, and each motion.
+// else, maintained or not. By day every other scene: each body, and each motion.
 #include <gtest/gtest.h>
+
+#include <cstdio>
 
 #include "deforming/leak_run.h"
 #include "support/campaign.h"
@@ -27,12 +29,22 @@ TEST(PaperLeaks, none_in_twenty_scenes_of_moving_bodies) {
       settings.seed = 11;
       settings.check_every = 4;
       SCOPED_TRACE(testing::Message() << name_of(body) << ", motion " << static_cast<unsigned>(motion));
-      const LeakResult paper = run(settings, Profile::kPaper), incise = run(settings, Profile::kIncise);
-      EXPECT_EQ(paper.failure, "");
-      EXPECT_EQ(paper.invalid, 0U);
-      EXPECT_EQ(paper.crumbs, 0U);
-      EXPECT_EQ(paper.pieces, paper.expected);
-      EXPECT_EQ(paper.pieces, incise.pieces);
+      const LeakResult incise = run(settings, Profile::kIncise);
+      for (const bool maintains : {false, true}) {
+        settings.maintains = maintains;
+        const LeakResult paper = run(settings, Profile::kPaper);
+        EXPECT_EQ(paper.failure, "");
+        EXPECT_EQ(paper.invalid, 0U);
+        EXPECT_EQ(paper.crumbs, 0U);
+        EXPECT_EQ(paper.pieces, paper.expected);
+        EXPECT_EQ(paper.pieces, incise.pieces);
+        EXPECT_LT(paper.turned_over, 1e-6) << "inside out as the body stood";
+        EXPECT_LE(paper.volume_change, maintains ? 5e-4 : 1e-12);
+        if (maintains) {
+          std::printf("%s, motion %u: maintenance changed the volume by %.1e\n", name_of(body),
+                      static_cast<unsigned>(motion), paper.volume_change);
+        }
+      }
     }
   }
 }

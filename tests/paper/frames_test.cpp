@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "incise/mesh/quality_stats.h"
 #include "support/bodies.h"
 #include "support/engines.h"
 #include "support/strokes.h"
