@@ -70,8 +70,7 @@ void Photographer::aim(const app::Session& session) {
   has_aimed_ = true;
   // What has fallen off would leave the rest small in an empty picture; pieces that are spread are all to be seen.
   const Box all = bounds_of(picture_.surface);
-  const Box main = app::bounds_of_main_pieces(session.mesh(), find_components(session.mesh()));
-  const Box body = arguments_.spread > 0 || arguments_.clip || main.is_empty() ? all : main;
+  const Box body = arguments_.spread > 0 ? all : app::main_part(all, session.mesh(), find_components(session.mesh()));
   picture_.options = app::view_options_of(session.scene());
   if (arguments_.has_view) picture_.options = arguments_.view;
   picture_.options.look = app::view_options_of(session.scene()).look;

@@ -28,6 +28,12 @@ Box bounds_of_main_pieces(const TetMesh& mesh, const Components& pieces) {
   return all;
 }
 
+Box main_part(const Box& drawn, const TetMesh& mesh, const Components& pieces) {
+  const Box main = bounds_of_main_pieces(mesh, pieces);
+  const Box both{drawn.lo.cwiseMax(main.lo), drawn.hi.cwiseMin(main.hi)};
+  return both.is_empty() ? drawn : both;
+}
+
 }  // namespace app
 }  // namespace v0
 }  // namespace incise
