@@ -43,12 +43,19 @@ def add_web_flags(root, flags):
     return set()
 
 
+def matters(words):
+    """Of a compiler's arguments those that change what is read: macros, folders and the language, not levels and warnings."""
+    return [word for at, word in enumerate(words)
+            if word.startswith(("-D", "-U", "-I", "-std=", "-isystem", "-include", "-x")) or
+            words[at - 1] in ("-isystem", "-include", "-x")]
+
+
 def groups_of(paths, flags, most):
-    """Lists of at most `most` files that compile alike, the longest first."""
+    """Lists of at most `most` files that are read alike, the longest first."""
     alike = {}
     for path in sorted(paths):
         # What is compiled in several ways, or not at all, clang-tidy looks up best by itself.
-        alike.setdefault(tuple(sorted(flags.get(path) or [path])), []).append(path)
+        alike.setdefault(tuple(sorted(matters(flags.get(path) or []))) or (path,), []).append(path)
     groups = []
     for files in alike.values():
         count = -(-len(files) // most)
