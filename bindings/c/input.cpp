@@ -172,5 +172,5 @@ void fill(incise_report& report, const StageTimes& times) {
 }  // namespace incise::c
 
 incise_status incise_default_engine_options(incise_engine_options* options, uint32_t size) {
-  return incise::c::give_default(incise::c::to_c({}), options, size, "incise_engine_options");
+  return incise::c::give_default(incise::c::to_c(incise::EngineOptions{}), options, size, "incise_engine_options");
 }

@@ -148,7 +148,7 @@ Result<Made> make(Result<app::Scene> scene, std::uint32_t threads) {
 }
 
 /// Of an argument that has to be there.
-Result<Made> null(const char* what) {
+Result<Made> nothing(const char* what) {
   return Error{ErrorCode::kBadArgument, what, {}};
 }
 
@@ -281,7 +281,7 @@ incise_status settle_scene(incise_simulation& handle, const ShouldStop& should_s
   return settle(handle, how.frames, how.speed, should_stop, frames);
 }
 
-ShouldStop ask(incise_should_stop should_stop, void* user) {
+ShouldStop ask_while_settling(incise_should_stop should_stop, void* user) {
   if (should_stop == nullptr) return {};
   return [should_stop, user] { return should_stop(user) != 0; };  // settling ends at the first yes
 }
@@ -343,13 +343,13 @@ incise_status incise_simulation_create(const incise_mesh_arrays* mesh, const inc
 incise_status incise_simulation_read(const char* path, const incise_simulation_options* options,
                                      incise_simulation** simulation) {
   return c::create(simulation, [&] {
-    return path == nullptr ? c::null("the name of the file is null") : c::make(io::load_mesh(path), options);
+    return path == nullptr ? c::nothing("the name of the file is null") : c::make(io::load_mesh(path), options);
   });
 }
 
 incise_status incise_simulation_read_scene(const char* path, uint32_t threads, incise_simulation** simulation) {
   return c::create(simulation, [&] {
-    return path == nullptr ? c::null("the name of the scene is null") : c::make(app::read_scene(path), threads);
+    return path == nullptr ? c::nothing("the name of the scene is null") : c::make(app::read_scene(path), threads);
   });
 }
 
@@ -357,7 +357,7 @@ incise_status incise_simulation_parse_scene(const char* json, const char* folder
                                             incise_simulation** simulation) {
   return c::create(simulation, [&] {
     const std::filesystem::path seen_from = folder == nullptr ? "" : folder;
-    return json == nullptr ? c::null("the scene is null")
+    return json == nullptr ? c::nothing("the scene is null")
                            : c::make(app::parse_scene(json, "scene", seen_from), threads);
   });
 }
@@ -425,14 +425,15 @@ incise_status incise_simulation_settle_scene(incise_simulation* simulation, uint
 incise_status incise_simulation_settle_until(incise_simulation* simulation, uint32_t max_frames, double speed,
                                              incise_should_stop should_stop, void* user, uint32_t* frames) {
   return c::change(simulation, [&](Simulation&) {
-    return c::settle(*simulation, max_frames, speed, c::ask(should_stop, user), frames);
+    return c::settle(*simulation, max_frames, speed, c::ask_while_settling(should_stop, user), frames);
   });
 }
 
 incise_status incise_simulation_settle_scene_until(incise_simulation* simulation, incise_should_stop should_stop,
                                                    void* user, uint32_t* frames) {
-  return c::change(simulation,
-                   [&](Simulation&) { return c::settle_scene(*simulation, c::ask(should_stop, user), frames); });
+  return c::change(simulation, [&](Simulation&) {
+    return c::settle_scene(*simulation, c::ask_while_settling(should_stop, user), frames);
+  });
 }
 
 incise_status incise_simulation_look(const incise_simulation* simulation, incise_simulation_state* state) {

@@ -43,17 +43,61 @@ def add_web_flags(root, flags):
     return set()
 
 
+def matters(words):
+    """Of a compiler's arguments those that change what is read: macros, folders and the language, not levels and warnings."""
+    return [word for at, word in enumerate(words)
+            if word.startswith(("-D", "-U", "-I", "-std=", "-isystem", "-include", "-x")) or
+            words[at - 1] in ("-isystem", "-include", "-x")]
+
+
 def groups_of(paths, flags, most):
-    """Lists of at most `most` files that compile alike, the longest first."""
+    """Lists of at most `most` files that are read alike, the longest first."""
     alike = {}
     for path in sorted(paths):
         # What is compiled in several ways, or not at all, clang-tidy looks up best by itself.
-        alike.setdefault(tuple(sorted(flags.get(path) or [path])), []).append(path)
+        alike.setdefault(tuple(sorted(matters(flags.get(path) or []))) or (path,), []).append(path)
     groups = []
     for files in alike.values():
         count = -(-len(files) // most)
         groups += [files[len(files) * i // count:len(files) * (i + 1) // count] for i in range(count)]
-    return sorted(groups, key=len, reverse=True)
+    return sorted(together(groups, flags, most), key=len, reverse=True)
+
+
+def macros(words):
+    """What each macro is defined as."""
+    return dict(word[2:].partition("=")[::2] for word in words if word.startswith("-D"))
+
+
+def together(groups, flags, most):
+    """Puts small groups into one where no macro of theirs is defined in two ways: a source looks at its own alone."""
+    merged = []  # [files, macros, the language]
+    for files in groups:
+        words = flags.get(files[0])
+        if words is None or "/bindings/web/" in files[0]:
+            merged.append([files, None, None])
+            continue
+        own, language = macros(words), [word for word in words if word.startswith("-std=")]
+        for other in merged:
+            if (other[1] is not None and other[2] == language and len(other[0]) + len(files) <= most and
+                    all(other[1].get(name, value) == value for name, value in own.items())):
+                other[0] = other[0] + files
+                other[1].update(own)
+                break
+        else:
+            merged.append([files, own, language])
+    return [files for files, _, _ in merged]
+
+
+def words_of(group, flags):
+    """The arguments of the first, and the folders and macros that others have besides."""
+    words = list(flags[group[0]])
+    for path in group[1:]:
+        for at, word in enumerate(flags[path]):
+            if word == "-isystem" and flags[path][at + 1] not in words:
+                words += ["-isystem", flags[path][at + 1]]
+            elif word.startswith(("-D", "-I")) and word not in words:
+                words.append(word)
+    return words
 
 
 def read(root, build, group, flags):
@@ -64,10 +108,10 @@ def read(root, build, group, flags):
     elif len(group) == 1:
         command += ["-p", build, group[0]]
     else:
-        together = os.path.join(build, "lint_%s.cpp" % os.path.relpath(group[0], root).replace("/", "_"))
-        with open(together, "w", encoding="utf-8") as source:
+        source_of_all = os.path.join(build, "lint_%s.cpp" % os.path.relpath(group[0], root).replace("/", "_"))
+        with open(source_of_all, "w", encoding="utf-8") as source:
             source.writelines('#include "%s"\n' % path for path in group)
-        command += ["--extra-arg=-ferror-limit=0", together, "--", *flags[group[0]]]
+        command += ["--extra-arg=-ferror-limit=0", source_of_all, "--", *words_of(group, flags)]
     # Its exit status says too little: what counts is a complaint about a line of ours. (clang-tidy 14 also names a
     # parameter 'expr-type' that no file has, from generic lambdas, with no place.)
     output = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False).stdout

@@ -11,7 +11,7 @@ inline namespace v0 {
 namespace image {
 namespace {
 
-constexpr int kRounds = 80;
+constexpr int kMendRounds = 80;
 /// From the first round on what is in pieces goes to the label that most of the star has; from the second on all of the
 /// star does.
 constexpr int kStrictRound = 12, kStrictestRound = 24;
@@ -23,7 +23,7 @@ class ManifoldMender {
   ManifoldRepair run() {
     ManifoldRepair repair;
     std::vector<char> is_suspect(stars_.size(), 1), next(stars_.size(), 0);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kMendRounds; ++round) {
       std::uint64_t changed = 0;
       repair.left = 0;
       for (std::size_t p = 0; p < stars_.size(); ++p) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint32_t kLeaf = 8;
 /// Distance in radii from which on triangles count as one dipole.
-constexpr double kFar = 2.5;
+constexpr double kFarRadii = 2.5;
 
 /// Of t in [0, 1]: t = tan(2a) is brought down twice to tan(a / 2) < 0.2, where the series ends soon.
 double arc_tangent(double t) {
@@ -92,7 +92,7 @@ double WindingNumber::operator()(const Vec3& p) const {
     const Node& node = nodes_[n];
     const Vec3 away = node.middle - p;
     const double distance2 = away.squaredNorm();
-    if (distance2 > kFar * kFar * node.radius2) {
+    if (distance2 > kFarRadii * kFarRadii * node.radius2) {
       if (distance2 > 0) angle += 0.5 * node.area.dot(away) / (distance2 * std::sqrt(distance2));
     } else if (node.second != 0) {
       stack[depth++] = node.second;

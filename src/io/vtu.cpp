@@ -21,22 +21,22 @@ inline namespace v0 {
 namespace io {
 namespace {
 
-struct ScalarType {
+struct VtuType {
   std::string_view name;
   std::size_t bytes;
   char kind;  // i: signed, u: unsigned, f: real
 };
 
-constexpr std::array<ScalarType, 10> kScalarTypes = {{{"Int8", 1, 'i'},
-                                                      {"UInt8", 1, 'u'},
-                                                      {"Int16", 2, 'i'},
-                                                      {"UInt16", 2, 'u'},
-                                                      {"Int32", 4, 'i'},
-                                                      {"UInt32", 4, 'u'},
-                                                      {"Int64", 8, 'i'},
-                                                      {"UInt64", 8, 'u'},
-                                                      {"Float32", 4, 'f'},
-                                                      {"Float64", 8, 'f'}}};
+constexpr std::array<VtuType, 10> kVtuTypes = {{{"Int8", 1, 'i'},
+                                                {"UInt8", 1, 'u'},
+                                                {"Int16", 2, 'i'},
+                                                {"UInt16", 2, 'u'},
+                                                {"Int32", 4, 'i'},
+                                                {"UInt32", 4, 'u'},
+                                                {"Int64", 8, 'i'},
+                                                {"UInt64", 8, 'u'},
+                                                {"Float32", 4, 'f'},
+                                                {"Float64", 8, 'f'}}};
 
 std::uint64_t load_bits(const char* p, std::size_t n, bool big) {
   std::uint64_t bits = 0;
@@ -47,7 +47,7 @@ std::uint64_t load_bits(const char* p, std::size_t n, bool big) {
 }
 
 template <class T>
-T decode(const char* p, const ScalarType& type, bool big) {
+T decode(const char* p, const VtuType& type, bool big) {
   const std::uint64_t bits = load_bits(p, type.bytes, big);
   if (type.kind == 'f' && type.bytes == 4) {
     const auto half = static_cast<std::uint32_t>(bits);
@@ -228,11 +228,11 @@ class VtuReader {
     return true;
   }
 
-  const ScalarType* scalar_type(const pugi::xml_node& array) {
+  const VtuType* scalar_type(const pugi::xml_node& array) {
     const std::string_view name = array.attribute("type").value();
     const auto found =
-        std::find_if(kScalarTypes.begin(), kScalarTypes.end(), [name](const ScalarType& t) { return t.name == name; });
-    if (found != kScalarTypes.end()) return &*found;
+        std::find_if(kVtuTypes.begin(), kVtuTypes.end(), [name](const VtuType& t) { return t.name == name; });
+    if (found != kVtuTypes.end()) return &*found;
     fail(array, "type " + in_quotes(name) + " of a DataArray is unknown");
     return nullptr;
   }
@@ -240,7 +240,7 @@ class VtuReader {
   // Exactly `n` numbers.
   template <class T>
   bool read_array(const pugi::xml_node& array, std::size_t n, std::vector<T>& out) {
-    const ScalarType* type = scalar_type(array);
+    const VtuType* type = scalar_type(array);
     if (type == nullptr) return false;
     if (std::is_integral_v<T> && type->kind == 'f') return fail(array, "numbers of cells must be integers");
     const std::string_view format = array.attribute("format").value();
@@ -298,7 +298,7 @@ class VtuReader {
 
   // `is_alone`: the text is this array's and nothing else's.
   template <class T>
-  bool read_binary(const pugi::xml_node& array, ByteSource source, bool is_alone, std::size_t n, const ScalarType& type,
+  bool read_binary(const pugi::xml_node& array, ByteSource source, bool is_alone, std::size_t n, const VtuType& type,
                    std::vector<T>& out) {
     std::string raw;
     const std::size_t bytes = n * type.bytes;

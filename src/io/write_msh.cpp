@@ -14,7 +14,7 @@ inline namespace v0 {
 namespace io {
 namespace {
 
-constexpr int kTriangle = 2, kTet = 4;
+constexpr int kTriangleType = 2, kTetType = 4;
 constexpr int kSurfaceDimension = 2, kVolumeDimension = 3;
 
 // One code path for ASCII and binary: numbers of a row, and its end.
@@ -124,9 +124,9 @@ std::string write_msh_22(const MeshData& data) {
     for (const std::uint32_t v : vertices) out.size(v + std::size_t{1});
     out.end_row();
   };
-  for (std::size_t i = 0; i < soup.tets.size(); ++i) add(i + 1, kTet, label(soup.regions, i), soup.tets[i]);
+  for (std::size_t i = 0; i < soup.tets.size(); ++i) add(i + 1, kTetType, label(soup.regions, i), soup.tets[i]);
   for (std::size_t i = 0; i < data.triangles.size(); ++i) {
-    add(soup.tets.size() + i + 1, kTriangle, label(data.triangle_stroke, i), data.triangles[i]);
+    add(soup.tets.size() + i + 1, kTriangleType, label(data.triangle_stroke, i), data.triangles[i]);
   }
   out.text("$EndElements\n");
   add_all_data(out, data, true);
@@ -248,8 +248,8 @@ class Msh41Writer {
     order_.reserve(n);
     out_.begin_section("Elements");
     out_.size(surfaces_.size() + volumes_.size()).size(n).size(1).size(n).end_row();
-    add_blocks(volumes_, kVolumeDimension, kTet, 0, data_.soup.tets);
-    add_blocks(surfaces_, kSurfaceDimension, kTriangle, n_tets, data_.triangles);
+    add_blocks(volumes_, kVolumeDimension, kTetType, 0, data_.soup.tets);
+    add_blocks(surfaces_, kSurfaceDimension, kTriangleType, n_tets, data_.triangles);
     out_.end_section("Elements");
   }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "incise/geom/predicates.h"
+#include "mesh/packed_pair.h"
 
 namespace incise {
 inline namespace v0 {
@@ -17,7 +18,7 @@ namespace {
 
 using Tet = std::array<std::uint32_t, 4>;
 
-constexpr std::array<std::string_view, kDefectKinds> kNames = {
+constexpr std::array<std::string_view, kDefectKinds> kDefectNames = {
     "inverted",       "zero_volume",      "unreferenced_vertices", "duplicate_vertices",
     "duplicate_tets", "overshared_faces", "nonmanifold_edges",     "singleton_vertices"};
 
@@ -73,10 +74,6 @@ struct KeyedTet {
   bool operator<(const KeyedTet& o) const { return std::tie(low, high, id) < std::tie(o.low, o.high, o.id); }
   [[nodiscard]] bool same_set(const KeyedTet& o) const { return low == o.low && high == o.high; }
 };
-
-std::uint64_t pack(std::uint32_t a, std::uint32_t b) {
-  return (std::uint64_t{a} << 32U) | b;
-}
 
 // Tets whose vertex set an earlier tet has, rising.
 std::vector<std::uint32_t> find_repeated_tets(const std::vector<Tet>& tets) {
@@ -312,7 +309,7 @@ std::vector<std::uint32_t> find_duplicate_tets(const TetSoup& soup) {
 std::vector<NamedDefect> list_defects(const Defects& defects) {
   const auto counts = counts_of(defects);
   std::vector<NamedDefect> list(kDefectKinds);
-  for (std::size_t i = 0; i < kDefectKinds; ++i) list[i] = {kNames[i], counts[i], defects.examples[i]};
+  for (std::size_t i = 0; i < kDefectKinds; ++i) list[i] = {kDefectNames[i], counts[i], defects.examples[i]};
   return list;
 }
 

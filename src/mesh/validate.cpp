@@ -8,32 +8,29 @@
 
 #include "incise/geom/predicates.h"
 #include "incise/mesh/star.h"
+#include "mesh/packed_pair.h"
 #include "mesh/sum_internal.h"
 
 namespace incise {
 inline namespace v0 {
 namespace {
 
-constexpr std::array<std::string_view, kViolationKinds> kNames = {"count",
-                                                                  "not_finite",
-                                                                  "bad_corner",
-                                                                  "bad_link",
-                                                                  "face_mismatch",
-                                                                  "bad_tet_of",
-                                                                  "orphan_vertex",
-                                                                  "duplicate_tet",
-                                                                  "overshared_face",
-                                                                  "unseparated_face",
-                                                                  "nonmanifold_edge",
-                                                                  "nonmanifold_cut_edge",
-                                                                  "singleton_vertex",
-                                                                  "singleton_cut_vertex",
-                                                                  "not_positive",
-                                                                  "volume_drift"};
-
-std::uint64_t pack(std::uint32_t a, std::uint32_t b) {
-  return (std::uint64_t{a} << 32U) | b;
-}
+constexpr std::array<std::string_view, kViolationKinds> kViolationNames = {"count",
+                                                                           "not_finite",
+                                                                           "bad_corner",
+                                                                           "bad_link",
+                                                                           "face_mismatch",
+                                                                           "bad_tet_of",
+                                                                           "orphan_vertex",
+                                                                           "duplicate_tet",
+                                                                           "overshared_face",
+                                                                           "unseparated_face",
+                                                                           "nonmanifold_edge",
+                                                                           "nonmanifold_cut_edge",
+                                                                           "singleton_vertex",
+                                                                           "singleton_cut_vertex",
+                                                                           "not_positive",
+                                                                           "volume_drift"};
 
 std::array<std::uint32_t, 3> sorted_face(const TetMesh& mesh, Side side) {
   const auto v = mesh.vertices(side);
@@ -304,7 +301,7 @@ class Validator {
 }  // namespace
 
 std::string_view name_of(ViolationKind kind) {
-  return kNames[static_cast<std::size_t>(kind)];
+  return kViolationNames[static_cast<std::size_t>(kind)];
 }
 
 ValidityReport validate(const TetMesh& mesh, ValidateLevel level, const ValidateOptions& options) {

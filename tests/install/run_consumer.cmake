@@ -17,9 +17,13 @@ foreach(header IN LISTS installed)
   endif()
 endforeach()
 
+set(changed)
+if(DEFINED ENV{INCISE_CHANGED_HEADERS})  # their paths in include/, with blanks between them
+  set(changed "-DCHANGED_HEADERS=$ENV{INCISE_CHANGED_HEADERS}")
+endif()
 run_step("Configure the consumer" ${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${consumer_build} -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
-  -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DINCLUDE_FOLDER=${prefix}/include -DWANTED_VERSION=${VERSION} -DEXAMPLE=${EXAMPLE})
+  -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DINCLUDE_FOLDER=${prefix}/include -DWANTED_VERSION=${VERSION} -DEXAMPLE=${EXAMPLE} ${changed})
 # ccache keeps what a header compiled in advance has a part in only where it is told that dates and macros do not matter.
 run_step("Build the consumer" ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
   ${CMAKE_COMMAND} --build ${consumer_build})

@@ -4,8 +4,9 @@
 # passed over.
 set_tests_properties(install.packages_are_made_and_used PROPERTIES COST 368)
 set_tests_properties(install.consumer_builds_and_runs PROPERTIES COST 45)
-set_tests_properties(soak.cuts PROPERTIES COST 44)
-set_tests_properties(soak.stability PROPERTIES COST 31)
+set_tests_properties(soak.cuts PROPERTIES COST 22)
+set_tests_properties(view.window PROPERTIES COST 34)
+set_tests_properties(soak.stability PROPERTIES COST 16)
 set_tests_properties(Leaks.none_in_other_bodies_under_a_solver PROPERTIES COST 25)
 set_tests_properties(SelfContact.ThePositionBasedRelaxationGoesOnWithoutIt PROPERTIES COST 21)
 set_tests_properties(SelfContact.TheSameBitsOnOneThreadAndTwo PROPERTIES COST 17)

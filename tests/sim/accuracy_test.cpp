@@ -96,9 +96,10 @@ TEST(Accuracy, SagOfAWholeBeamIsWithinAPercentOfTheReference) {
 }
 
 TEST(Accuracy, SagOfAnIncisedBeamIsWithinThreePercentWhateverItsSlivers) {
-  for (const double eps : {1e-1, 1e-2, 1e-3, 1e-4}) {
+  using Values = std::vector<double>;
+  for (const double eps : of_campaign<Values>({1e-1, 1e-4}, {1e-1, 1e-2, 1e-3, 1e-4})) {
     const TetMesh mesh = cut_beam({}, eps).mesh;
-    for (const double young : {3e3, 30e3, 300e3}) {
+    for (const double young : of_campaign<Values>({3e3, 300e3}, {3e3, 30e3, 300e3})) {
       EXPECT_LT(std::abs(sag_error(mesh, young)), 0.03) << young << " Pa, " << eps;
     }
   }

@@ -10,6 +10,7 @@
 #include "sim/body/contact_grid.h"
 #include "sim/body/contact_surface.h"
 #include "sim/body/contact_terms.h"
+#include "support/campaign.h"
 
 namespace incise::test::self_contact_test {
 namespace {
@@ -347,7 +348,9 @@ std::uint64_t cut_and_undo(unsigned threads, Relaxation relaxation = Relaxation:
 TEST(SelfContact, TheSameBitsOnOneThreadAndTwo) {
   const std::uint64_t hash = cut_and_undo(2);
   EXPECT_EQ(cut_and_undo(1), hash);
-  EXPECT_EQ(cut_and_undo(2), hash);
+  if (is_whole_campaign()) {
+    EXPECT_EQ(cut_and_undo(2), hash);
+  }
 }
 
 /// Undo takes slots of tets back: what was in contact with their faces must not look at them any more.

@@ -17,7 +17,7 @@ namespace incise::test {
 namespace {
 
 /// The results of many cases.
-class Tally {
+class MotionTally {
  public:
   void run(std::uint64_t seed, const std::vector<std::filesystem::path>& models) {
     const MotionCase motion = random_case(seed, models);
@@ -49,7 +49,7 @@ class Tally {
   std::map<std::string, std::uint64_t> policies_;
 };
 
-bool is_over(const Tally& tally, const MotionLimits& limits) {
+bool is_over(const MotionTally& tally, const MotionLimits& limits) {
   const bool is_limited = limits.cases > 0 || limits.strokes > 0 || limits.seconds > 0;
   const std::uint64_t cases = is_limited ? limits.cases : 100;
   return (cases > 0 && tally.cases() >= cases) || (limits.strokes > 0 && tally.strokes() >= limits.strokes) ||
@@ -69,7 +69,7 @@ std::vector<std::filesystem::path> sound_models() {
 }
 
 int soak_motions(const MotionLimits& limits, const std::vector<std::filesystem::path>& models) {
-  Tally tally;
+  MotionTally tally;
   for (std::uint64_t seed = limits.first_seed; !is_over(tally, limits); ++seed) tally.run(seed, models);
   return tally.print(models.empty() ? "strokes" : "models");
 }
@@ -80,7 +80,7 @@ int soak_seeds(const std::string& file) {
     std::fprintf(stderr, "cannot read %s\n", file.c_str());
     return 2;
   }
-  Tally tally;
+  MotionTally tally;
   for (std::string line; std::getline(lines, line);) {
     const std::string number = line.substr(0, line.find('#'));
     if (number.find_first_of("0123456789") != std::string::npos) tally.run(std::stoull(number), {});

@@ -23,9 +23,9 @@ unsigned frames_in(Random& random, unsigned low, unsigned high) {
 }
 
 BodyPlan random_plan(Random& random) {
-  using Kind = BodyPlan::Kind;
+  using Body = BodyPlan::Kind;
   BodyPlan plan;
-  plan.kind = one_of(random, std::array{Kind::kKuhn, Kind::kJittered, Kind::kRenumbered, Kind::kBall, Kind::kPlate});
+  plan.kind = one_of(random, std::array{Body::kKuhn, Body::kJittered, Body::kRenumbered, Body::kBall, Body::kPlate});
   plan.n = static_cast<std::uint32_t>(random.integer(3, 6));
   plan.seed = static_cast<std::uint64_t>(random.integer(1, 1000));
   return plan;

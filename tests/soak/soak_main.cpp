@@ -60,7 +60,7 @@ constexpr int kSkipped = 77;
 constexpr unsigned kStrokesInARow = 4;
 /// The paper's quality figure counts tets above this L/r as bad. A few stay where walls of several strokes run close
 /// together in a coarse body; more than this, and than this share of the tets at cuts, are a failure.
-constexpr double kBadLr = 200;
+constexpr double kBadTetLr = 200;
 constexpr std::size_t kFewBadTets = 10;
 constexpr double kBadShare = 0.05;
 
@@ -167,7 +167,7 @@ std::string what_grew(const State& before, const State& after, const CutOptions&
 
 bool is_bad(const TetMesh& mesh, TetId tet) {
   const TetVertices& v = mesh.vertices(tet);
-  return !(longest_edge_over_inradius(mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])) <= kBadLr);
+  return !(longest_edge_over_inradius(mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2]), mesh.rest(v[3])) <= kBadTetLr);
 }
 
 /// Knows where the input has bad tets, and counts those that maintenance left elsewhere at the cut.
@@ -226,14 +226,14 @@ bool is_needle(const TetMesh& mesh) {
 // --- one body
 // --------------------------------------------------------------------------------------------------------------------
 
-struct Tally {
+struct StrokeTally {
   std::uint64_t bodies = 0, strokes = 0, bad_tets = 0, failures = 0;
 };
 
 /// A body that is cut in one course.
 class Soak {
  public:
-  Soak(const TetMesh& mesh, std::string name, const CutCourse& course, std::uint64_t seed, Tally& tally)
+  Soak(const TetMesh& mesh, std::string name, const CutCourse& course, std::uint64_t seed, StrokeTally& tally)
       : name_(std::move(name)),
         course_(course),
         seed_(seed),
@@ -340,7 +340,7 @@ class Soak {
   std::string name_;
   CutCourse course_;
   std::uint64_t seed_;
-  Tally& tally_;
+  StrokeTally& tally_;
   Random strokes_, budget_;
   Engine engine_;
   State before_;
@@ -377,7 +377,7 @@ CutCourse random_course(Random& random) {
   return course;
 }
 
-void print_tally(const char* what, std::uint64_t bodies, const Tally& tally, const Clock& clock) {
+void print_tally(const char* what, std::uint64_t bodies, const StrokeTally& tally, const Clock& clock) {
   std::printf("%s: %llu bodies, %llu strokes, %llu bad tets left at cuts, %llu failures, %.0f s\n", what,
               static_cast<unsigned long long>(bodies), static_cast<unsigned long long>(tally.strokes),
               static_cast<unsigned long long>(tally.bad_tets), static_cast<unsigned long long>(tally.failures),
@@ -386,7 +386,7 @@ void print_tally(const char* what, std::uint64_t bodies, const Tally& tally, con
 
 int soak_made_meshes(const Settings& settings) {
   const Clock clock(settings.seconds);
-  Tally tally;
+  StrokeTally tally;
   const unsigned rounds = settings.rounds > 0 ? settings.rounds : (settings.seconds > 0 ? UINT32_MAX : 100);
   for (unsigned round = 0; round < rounds && !clock.is_over(); ++round) {
     const std::uint64_t seed = settings.seed + round;
@@ -403,7 +403,7 @@ int soak_made_meshes(const Settings& settings) {
 
 /// Every course of one real mesh.
 void soak_real_mesh(const TetMesh& mesh, const std::string& name, const Settings& settings, std::uint64_t seed,
-                    const Clock& clock, Tally& tally) {
+                    const Clock& clock, StrokeTally& tally) {
   for (const CutCourse& course : kCourses) {
     // Cuts of the paper profile make bodies that touch themselves worse, maintained or not.
     if (course.is_paper() && mesh.touched_itself_at_load()) continue;
@@ -422,7 +422,7 @@ int soak_corpus(const Settings& settings) {
   const std::vector<fs::path> files = corpus_files();
   if (files.empty()) return skip_without_corpus();
   const Clock clock(settings.seconds);
-  Tally tally;
+  StrokeTally tally;
   std::uint64_t seed = settings.seed;
   do {
     for (const fs::path& path : files) {

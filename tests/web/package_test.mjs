@@ -50,7 +50,7 @@ async function written(site, page) {
     tab.on('pageerror', (error) => complaints.push(String(error)));
     tab.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
     await tab.goto(server.url + page);
-    await tab.waitForFunction(() => /hash/.test(document.querySelector('output')?.textContent ?? ''), null, { timeout: 30_000 }).catch(() => {});
+    await tab.waitForFunction(() => /hash/.test(document.querySelector('output')?.textContent ?? ''), null, { timeout: 60_000 }).catch(() => {});
     assert.deepEqual(complaints, []);
     return await tab.locator('output').textContent();
   } finally {

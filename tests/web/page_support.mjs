@@ -65,11 +65,11 @@ export class Visit {
   /** One of the page's workers: 'worker_thread' computes, 'drawing_thread' draws. */
   workerOf = (name) => this.page.workers().find((worker) => worker.url().includes(name));
 
-  isReady = () => this.page.waitForFunction(() => window.incise?.state === 'ready', null, { timeout: 30_000 });
+  isReady = () => this.page.waitForFunction(() => window.incise?.state === 'ready', null, { timeout: 60_000 });
   figures = () => this.page.evaluate(() => window.incise.figures);
   ask = (what) => this.page.evaluate((name) => window.incise.engine.ask(name), what);
   hint = () => this.page.locator('#hint').textContent();
-  until = (what, argument) => this.page.waitForFunction(what, argument, { timeout: 20_000 });
+  until = (what, argument) => this.page.waitForFunction(what, argument, { timeout: 60_000 });
   press = (keys) => this.page.keyboard.press(keys);
   isAtRest = () => this.until(() => window.incise.isAwake === false);
 

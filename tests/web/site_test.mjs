@@ -61,7 +61,7 @@ describe('the site', { skip: missing }, () => {
   test('leads from its first page to a body that can be cut', async () => {
     await open('');
     await page.click('text=Cut one here');
-    await page.waitForFunction(() => window.incise?.state === 'ready', null, { timeout: 30_000 });
+    await page.waitForFunction(() => window.incise?.state === 'ready', null, { timeout: 60_000 });
   });
 
   test('finds words in the documents', async () => {

@@ -14,6 +14,7 @@
 #include "app/scene/exercise_score.h"
 #include "app/scene/scene_simulation.h"
 #include "app/view/exercise_marks.h"
+#include "support/campaign.h"
 #include "support/scene_cases.h"
 
 namespace exercise_goals_test {
@@ -129,6 +130,10 @@ TEST(ExcisionExercise, a_cut_through_the_lesion_fails) {
 // --- the ideal of each, looked at closely
 
 TEST(ExcisionExercise, the_ideal_has_the_margin_that_is_asked_for) {
+  if (!test::is_whole_campaign()) {
+    GTEST_SKIP()
+        << "by day ShippedExercise makes this attempt and asks for its points; INCISE_CAMPAIGNS_ALL=1 for its margin";
+  }
   const app::Scene scene = shipped("train_excision");
   const app::ExerciseScore score = attempt("train_excision", [](auto&) {});
   EXPECT_TRUE(score.is_passed) << to_text(score);
