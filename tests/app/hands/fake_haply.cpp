@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/hands/fake_haply.h"
 
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <cstdlib>
-#include <exception>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
-
-#include "app/hands/web_socket_server.h"
 
 namespace incise::test {
 namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using asio::ip::tcp;
+using Code = boost::system::error_code;
 
 constexpr double kMass = 0.3, kStiffness = 150, kDamping = 12;  // of the hand: kg, N/m, N·s/m
 constexpr double kLongestStep = 5e-3;                           // s
@@ -28,11 +37,15 @@ nlohmann::json xyz(const Vec3& v) {
 }  // namespace
 
 struct FakeHaply::Socket {
-  WebSocketServer server;
+  asio::io_context io;
+  tcp::acceptor acceptor{io, tcp::endpoint(asio::ip::address_v4::loopback(), 0)};
+  std::optional<beast::websocket::stream<tcp::socket>> peer;  // the thread's own
+  int line = -1;                                              // the same connection, for whoever breaks it off
 
   /// A message as frames of a few bytes, each of which arrives in two pieces: the first within its header, or just
   /// behind.
   void send_in_pieces(const std::string& text) {
+    tcp::socket& raw = peer->next_layer();
     for (std::size_t at = 0; at < text.size(); at += kFragment) {
       const std::string part = text.substr(at, kFragment);
       const bool is_last = at + part.size() == text.size();
@@ -41,9 +54,9 @@ struct FakeHaply::Socket {
       frame += static_cast<char>(part.size());
       frame += part;
       const std::size_t cut = 1 + at / kFragment % 3;
-      server.write_raw(frame.data(), cut);
+      asio::write(raw, asio::buffer(frame.data(), cut));
       if (at < 3 * kFragment) std::this_thread::sleep_for(std::chrono::microseconds(100));
-      server.write_raw(frame.data() + cut, frame.size() - cut);
+      asio::write(raw, asio::buffer(frame.data() + cut, frame.size() - cut));
     }
   }
 };
@@ -54,21 +67,39 @@ struct FakeHaply::Thread {
 
 FakeHaply::FakeHaply(std::function<Vec3(double)> wants)
     : wants_(std::move(wants)), socket_(std::make_unique<Socket>()), thread_(std::make_unique<Thread>()) {
-  port_ = socket_->server.port();
+  socket_->acceptor.set_option(tcp::socket::receive_buffer_size(4096));  // full of forces that are not heard in no time
+  port_ = socket_->acceptor.local_endpoint().port();
   position_ = wants_(0);
   thread_->thread = std::thread([this] { run(); });
 }
 
 FakeHaply::~FakeHaply() {
   quits_ = true;
-  socket_->server.stop();
+  {
+    // Wakes the thread wherever it waits.
+    Code ignored;
+    asio::io_context io;
+    tcp::socket waker(io);
+    waker.connect({asio::ip::address_v4::loopback(), port_}, ignored);
+    const std::lock_guard lock(mutex_);
+    if (socket_->line >= 0) ::shutdown(socket_->line, SHUT_RDWR);
+  }
   thread_->thread.join();
 }
 
 void FakeHaply::run() {
   while (!quits_) {
+    Code error;
+    tcp::socket accepted(socket_->io);
+    socket_->acceptor.accept(accepted, error);
+    if (error || quits_) continue;
+    accepted.set_option(tcp::no_delay(true));
+    {
+      const std::lock_guard lock(mutex_);
+      socket_->line = ::dup(accepted.native_handle());
+    }
+    socket_->peer.emplace(std::move(accepted));
     try {
-      socket_->server.accept();
       serve(*socket_);
     } catch (const std::exception&) {  // the client went away
     }
@@ -76,28 +107,35 @@ void FakeHaply::run() {
     const std::lock_guard lock(mutex_);
     parting_force_ = force_;
     force_ = Vec3::Zero();  // as the service does for a client that is gone
-    socket_->server.drop();
+    socket_->peer.reset();
+    ::close(socket_->line);
+    socket_->line = -1;
   }
 }
 
 void FakeHaply::serve(Socket& socket) {
+  socket.peer->accept();
+  socket.peer->text(true);
   ++sessions_;
   is_connected_ = true;
   began_ = moved_ = heard_ = seconds();
-  socket.server.write(fault_ == Fault::kNoArm ? std::string(R"({"inverse3":[]})") : state(true));
+  socket.peer->write(asio::buffer(fault_ == Fault::kNoArm ? std::string(R"({"inverse3":[]})") : state(true)));
+  beast::flat_buffer heard;
   while (!quits_) {
-    hear(socket.server.read());
+    socket.peer->read(heard);
+    hear(beast::buffers_to_string(heard.data()));
+    heard.consume(heard.size());
     move_hand();
     const std::string answer = state(false);
     switch (fault_.load()) {
       case Fault::kNone:
-        socket.server.write(answer);
+        socket.peer->write(asio::buffer(answer));
         break;
       case Fault::kBadJson:
-        socket.server.write(answer.substr(0, answer.find("cursor_position") + 22));
+        socket.peer->write(asio::buffer(answer.substr(0, answer.find("cursor_position") + 22)));
         break;
       case Fault::kNoArm:
-        socket.server.write(std::string(R"({"inverse3":[],"wireless_verse_grip":[]})"));
+        socket.peer->write(asio::buffer(std::string(R"({"inverse3":[],"wireless_verse_grip":[]})")));
         break;
       case Fault::kSilence:
         break;
@@ -107,30 +145,31 @@ void FakeHaply::serve(Socket& socket) {
       case Fault::kSpeed: {
         nlohmann::json fast = nlohmann::json::parse(answer);
         fast["inverse3"][0]["state"]["cursor_velocity"] = xyz(Vec3(0, 50, 0));
-        socket.server.write(fast.dump());
+        socket.peer->write(asio::buffer(fast.dump()));
         break;
       }
       case Fault::kHuge:
-        socket.server.write(answer + std::string(1U << 21U, ' '));
+        socket.peer->write(asio::buffer(answer + std::string(1U << 21U, ' ')));
         break;
       case Fault::kNoText:
-        socket.server.write(std::string(64, '\xff'));
+        socket.peer->write(asio::buffer(std::string(64, '\xff')));
         break;
       case Fault::kDeaf:
         while (fault_ == Fault::kDeaf && !quits_) {
-          socket.server.write(state(false));
+          socket.peer->write(asio::buffer(state(false)));
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         break;
       case Fault::kDeep:
-        socket.server.write(std::string(100'000, '['));
+        socket.peer->write(asio::buffer(std::string(100'000, '[')));
         break;
       case Fault::kClose:
         fault_ = Fault::kNone;
-        socket.server.close();
+        socket.peer->close(beast::websocket::close_code::going_away);
         return;
       case Fault::kDrop:
         fault_ = Fault::kNone;
+        socket.peer->next_layer().close();
         return;
     }
   }
