@@ -103,7 +103,7 @@ State examine(const TetMesh& mesh) {
 // --- courses
 // --------------------------------------------------------------------------------------------------------------------
 
-enum class Upkeep { kNone, kWhole, kPortions };
+enum class Upkeep { kNone, kAtOnce, kPortions };
 
 /// How a body is cut.
 struct CutCourse {
@@ -118,10 +118,10 @@ struct CutCourse {
 constexpr CutOptions kSnapped{Profile::kIncise, 0.2}, kUnsnapped{Profile::kIncise, 0}, kAsPaper{Profile::kPaper, 0};
 constexpr std::array<CutCourse, 6> kCourses = {{{"cut", kSnapped, Upkeep::kNone},
                                                 {"cut, no snap", kUnsnapped, Upkeep::kNone, 4},
-                                                {"maintained", kSnapped, Upkeep::kWhole},
-                                                {"maintained, no snap", kUnsnapped, Upkeep::kWhole, 2},
+                                                {"maintained", kSnapped, Upkeep::kAtOnce},
+                                                {"maintained, no snap", kUnsnapped, Upkeep::kAtOnce, 2},
                                                 {"in portions", kSnapped, Upkeep::kPortions, 2},
-                                                {"paper", kAsPaper, Upkeep::kWhole, 4}}};
+                                                {"paper", kAsPaper, Upkeep::kAtOnce, 4}}};
 
 EngineOptions options_of(const CutCourse& course, Random& budget) {
   constexpr std::array<std::uint64_t, 4> kBudgets = {0, 100, 2000, 50000};
@@ -409,7 +409,7 @@ void soak_real_mesh(const TetMesh& mesh, const std::string& name, const Settings
     if (course.is_paper() && mesh.touched_itself_at_load()) continue;
     Soak soak(mesh, name, course, seed, tally);
     soak.run(std::max(1U, settings.strokes / course.share), clock);
-    if (course.upkeep == Upkeep::kWhole && !mesh.folds_over_at_load()) soak.improve();
+    if (course.upkeep == Upkeep::kAtOnce && !mesh.folds_over_at_load()) soak.improve();
   }
 }
 
