@@ -13,7 +13,7 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-double size_of(const Box& body) {
+double reach_of(const Box& body) {
   const double size = body.is_empty() ? 0 : (body.hi - body.lo).norm();
   return size > 0 && std::isfinite(size) ? size : 1;
 }
@@ -53,7 +53,7 @@ class ScalpelTool final : public HandTool {
     scalpel_.press(moment.place_on(aimed_at_), moment.settings);
   }
   void move(const DragMoment& moment) override {
-    scalpel_.move(moment.place_on(aimed_at_), moment.settings, size_of(moment.context.body));
+    scalpel_.move(moment.place_on(aimed_at_), moment.settings, reach_of(moment.context.body));
   }
   void release(bool is_click, const ToolSettings& /*settings*/, std::uint32_t& /*next_hook*/,
                DragResults& results) override {

@@ -12,12 +12,12 @@ namespace {
 constexpr double kLeastPixels = 8;
 constexpr double kMargin = 0.1;  // of the body's extent
 
-struct Range {
+struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
 /// What a box covers along a unit direction, from a point, with a margin.
-Range extent_of(const Box& box, const Vec3& from, const Vec3& direction) {
+Extent extent_of(const Box& box, const Vec3& from, const Vec3& direction) {
   const Vec3 middle = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
   const double centre = (middle - from).dot(direction);
   // Of the diagonal, so that flat boxes keep a distance too.
@@ -38,7 +38,7 @@ std::optional<PlaneCut> plane_cut_between(const Camera& camera, const Viewport& 
   const Vec3 eye = cut.from.origin, normal = cut.from.direction.cross(cut.to.direction);
   const Vec3 inwards = (cut.from.direction + cut.to.direction).normalized();
   const Vec3 along = normal.cross(inwards).normalized();
-  const Range depth = extent_of(body, eye, inwards), width = extent_of(body, eye, along);
+  const Extent depth = extent_of(body, eye, inwards), width = extent_of(body, eye, along);
   cut.corners = {eye + depth.low * inwards + width.low * along, eye + depth.high * inwards + width.low * along,
                  eye + depth.low * inwards + width.high * along, eye + depth.high * inwards + width.high * along};
   return cut;
