@@ -437,6 +437,18 @@ TEST_P(ShippedScene, makes_its_first_cut) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()),
                          [](const auto& scene) { return scene.param; });
 
+/// The paper's Table 2 in a body that moves: eight pieces, merged and smoothed after each of three strokes.
+TEST(ShippedSceneAsPaper, is_merged_and_smoothed_at_the_end_of_each_stroke) {
+  Result<app::Scene> scene = app::read_scene(INCISE_SCENES "/sim_cube_complex.json");
+  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  scene->options.engine.cut.profile = Profile::kPaper;
+  const app::JobReport report = run(*scene).report.job;
+  EXPECT_EQ(report.pieces.size(), 8U);
+  EXPECT_LT(report.after.tets, 2418U) << "what Table 2 prints; without maintenance 3935";
+  EXPECT_LT(report.quality_after.lr_mean, 15);
+  EXPECT_NEAR(report.volume_after / report.volume_before, 1, 2e-3);
+}
+
 }  // namespace
 
 }  // namespace simulate_test
