@@ -74,9 +74,9 @@ Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point) {
 }
 
 bool may_move(const TetMesh& mesh, VertexId vertex, const Vec3& place, const std::vector<TetId>& star) {
+  if (!is_deformed(mesh, star)) return true;
   const MaterialPoint point = locate(mesh, place, star);
-  return !is_deformed(mesh, star) ||
-         stays_sound(mesh, vertex, current_after_move(mesh, vertex, place, point.basis, point.weights), star);
+  return stays_sound(mesh, vertex, current_after_move(mesh, vertex, place, point.basis, point.weights), star);
 }
 
 }  // namespace v0

@@ -18,12 +18,13 @@ struct MaterialPoint {
   std::array<double, 4> weights{};
 };
 
-/// The tet that holds a rest point, or is nearest to that, with the point's coordinates there.
+/// The tet that holds a rest point, or is nearest to that, with the point's coordinates there. Cost: O(tets).
 MaterialPoint locate(const TetMesh& mesh, const Vec3& place, const std::vector<TetId>& tets);
 /// Where a material point is as the mesh stands.
 Vec3 current_at(const TetMesh& mesh, const MaterialPoint& point);
 
-/// Whether a vertex may move: no tet of `star`, its star, would stand inverted that does not now.
+/// Whether a vertex may move: no tet of `star`, its star, would stand inverted that does not now. Cost:
+/// O(star).
 bool may_move(const TetMesh& mesh, VertexId vertex, const Vec3& place, const std::vector<TetId>& star);
 
 }  // namespace v0

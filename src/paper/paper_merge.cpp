@@ -281,10 +281,11 @@ class EdgeMerger : private PaperStage {
   }
   /// Whether tets that stand upright now stay so, with the merged vertex where it will stand.
   [[nodiscard]] bool keeps_standing(const Vec3& place) const {
-    const MaterialPoint point = locate(mesh_, place, plan_.around);
-    const Vec3 merged = place == mesh_.rest(plan_.into)
-                            ? mesh_.current(plan_.into)
-                            : current_after_move(mesh_, plan_.into, place, point.basis, point.weights);
+    Vec3 merged = mesh_.current(plan_.into);
+    if (place != mesh_.rest(plan_.into)) {
+      const MaterialPoint point = locate(mesh_, place, plan_.around);
+      merged = current_after_move(mesh_, plan_.into, place, point.basis, point.weights);
+    }
     bool keeps = true;
     for_each_changed(place, [&](TetId tet, VertexId moved) {
       const TetVertices& v = mesh_.vertices(tet);
