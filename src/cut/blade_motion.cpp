@@ -65,9 +65,13 @@ double length_of(const std::vector<std::vector<SosPoint>>& rows) {
 }  // namespace
 
 void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
-  spacing_ = spacing;
   next_key_ = kFirstBladeKey;
   front_.clear();
+  go_on(row, spacing);
+}
+
+void BladeMotion::go_on(std::span<const Vec3> row, double spacing) {
+  spacing_ = spacing;
   is_closed_ = row.size() > 2 && row.front() == row.back();
   front_ = number(row);
   is_swept_.assign(row.size() - 1, false);

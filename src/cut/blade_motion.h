@@ -31,6 +31,9 @@ class BladeMotion {
 
   /// Starts a stroke at a row of at least 2 points. `spacing`: the length of a typical edge, for all tolerances.
   void begin(std::span<const Vec3> row, double spacing);
+  /// Starts a stroke where the one before ended: its points that stand where that one's front does keep their keys, so
+  /// that the sheets of both have no seam.
+  void go_on(std::span<const Vec3> row, double spacing);
   /// Whether a surface meets the body.
   using Touches = std::function<bool(const SweptSurface&)>;
   /// The strip to the next row, with as many points. Ends that pass an older wall by very little draw back to just

@@ -34,8 +34,22 @@ inline constexpr double kFrontReach = 2.0;
 inline constexpr double kFrontOffset = 0.1;
 inline constexpr double kFrontCosine = 0.70710678118654752440;
 
+/// The wall of an older cut goes along a sheet, as the same cut, where it encloses less than 20° with it: its cosine.
+/// With more, walls that cross in a star of ten pieces pass for one beside their axis; with less, the facets of a bent
+/// wall that was smoothed do not count.
+inline constexpr double kAlongCosine = 0.94;
+/// A stroke crosses an older wall where it encloses more than 8° with it: its cosine. With more, planes that cross at
+/// small angles come out joined beside their axis; with less, crumbs come off where a bent sheet goes over its own
+/// wall.
+inline constexpr double kCrossingCosine = 0.99;
+/// A sheet goes on beyond its border within a cone of this slope, as far as is known: a corner of a tet that lies
+/// there, on an older wall, may lie on its next strip.
+inline constexpr double kMostBend = 0.5;
+
 /// A stroke goes on from the one before where its blade stands within so many spacings of where that would.
 inline constexpr double kStandsWithin = 0.05;
+/// The ends of so many strokes are remembered: more than a hand leaves open at once.
+inline constexpr std::size_t kEndsKept = 16;
 /// In a body that moves the blade takes its way in parts of an element, or of the body's size over this where elements
 /// are smaller; and is near the body within so many of its diagonals.
 inline constexpr double kMostParts = 64;

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 #include "cut/constants.h"
+#include "incise/geom/closest.h"
 #include "incise/mesh/edge_length.h"
+#include "paper/beside_sheet.h"
 #include "paper/constants.h"
+#include "paper/paper_classes.h"
 
 namespace incise {
 inline namespace v0 {
@@ -58,8 +62,13 @@ std::optional<Vec3> plane_at(const TetMesh& mesh, const Sheet& sheet, VertexId v
 
 /// Whether an earlier sheet's point lies on a sheet, as if the two were one.
 bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, StarWalker& walker) {
-  const auto normal = plane_at(mesh, sheet, point.vertex, kFrontOffset, walker);
-  return normal && std::abs(normal->dot(point.normal)) > kFrontCosine;
+  const auto is_along = [&](const std::optional<Vec3>& normal) {
+    return normal && std::abs(normal->dot(point.normal)) > kFrontCosine;
+  };
+  if (is_along(plane_at(mesh, sheet, point.vertex, kFrontOffset, walker))) return true;
+  const double reach = kFrontReach * longest_edge_at(mesh, point.vertex, walker.star(mesh, point.vertex));
+  return (point.rim - mesh.rest(point.vertex)).norm() <= reach &&
+         is_along(passing_normal(mesh, sheet, point.rim, point.vertex, walker));
 }
 
 /// The walls of cuts at a vertex that go along a plane.
@@ -92,6 +101,28 @@ WallsAlong find_walls_along(const TetMesh& mesh, VertexId vertex, const Vec3& no
 bool has_wall_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
   const WallsAlong walls = find_walls_along(mesh, vertex, normal, walker);
   return walls.is_above || walls.is_below;
+}
+
+/// Whether a wall of an older stroke passes a vertex along a sheet: one of its faces there lies on the sheet, as far as
+/// is known, and the stroke itself has opened none there.
+bool has_older_wall_on(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, std::uint32_t tag,
+                       StarWalker& walker) {
+  const auto normal = passing_normal(mesh, sheet, mesh.rest(vertex), vertex, walker);
+  if (!normal) return false;
+  std::vector<Side> along;
+  for (const TetId tet : walker.star(mesh, vertex)) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Link link = mesh.links(tet)[s];
+      if (mesh.vertices(tet)[s] == vertex || !link.is_boundary() || link.tag() == 0) continue;
+      if (link.tag() == tag) return false;
+      if (std::abs(paper::area_vector(mesh, {tet, s}).normalized().dot(*normal)) > kAlongCosine)
+        along.emplace_back(tet, s);
+    }
+  }
+  return !along.empty() && std::all_of(along.begin(), along.end(), [&](Side side) {
+    const auto v = mesh.vertices(side);
+    return std::all_of(v.begin(), v.end(), [&](VertexId w) { return may_lie_on(mesh, sheet, w, walker); });
+  });
 }
 
 /// Whether some tissue of a vertex's star lies above a plane, and some below.
@@ -171,7 +202,7 @@ std::vector<VertexId> add_copies(const TetMesh& mesh, const std::vector<CopiedVe
       from = std::find_if(copies.begin(), copies.end(), is_source);
       if (from == copies.end()) continue;
     }
-    copies.push_back({copy.id, mesh.generation(copy.id), from->normal});
+    copies.push_back({copy.id, mesh.generation(copy.id), from->normal, from->rim, from->is_split});
     divided.insert(divided.end(), {copy.source, copy.id});
   }
   std::sort(divided.begin(), divided.end());
@@ -188,29 +219,48 @@ void IncisionFront::begin_sheet() {
   make_set(older_);
 }
 
-void IncisionFront::mark(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker) {
+void IncisionFront::end_sheet(const TetMesh& mesh, std::span<const Strip::Segment> border) {
+  for (CollisionPoint& point : own_) {
+    point.is_split = false;
+    if (!lives(mesh, point)) continue;
+    const Vec3& place = mesh.rest(point.vertex);
+    double nearest2 = std::numeric_limits<double>::infinity();
+    for (const auto& [from, to] : border) {
+      const ClosestPoint closest = closest_on_triangle(place, from.position, to.position, to.position);
+      if (closest.distance2 < nearest2) {
+        nearest2 = closest.distance2;
+        point.rim = closest.point;
+      }
+    }
+  }
+}
+
+void IncisionFront::mark(const TetMesh& mesh, const Sheet& sheet, std::uint32_t tag, Neighbourhood& near,
+                         StarWalker& walker) {
   const auto met = std::stable_partition(older_.begin(), older_.end(), [&](const CollisionPoint& point) {
     return !lives(mesh, point) || !lies_on(mesh, sheet, point, walker);
   });
   own_.insert(own_.end(), met, older_.end());
   older_.erase(met, older_.end());
-  adopt_walls(mesh, sheet, near, walker);
+  adopt_walls(mesh, sheet, tag, near, walker);
   make_set(own_);
   for (const CollisionPoint& point : own_) {
     if (lives(mesh, point)) near.mark_on(point.vertex);
   }
 }
 
-void IncisionFront::adopt_walls(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker) {
+void IncisionFront::adopt_walls(const TetMesh& mesh, const Sheet& sheet, std::uint32_t tag, Neighbourhood& near,
+                                StarWalker& walker) {
   std::vector<VertexId> asked;
   for (const NearTet& tet : near.tets) {
     for (const VertexId v : mesh.vertices(tet.id)) {
       if ((mesh.shape_of(v) & shape::kWall) == 0 || near.index_of_vertex[v.value] != 0) continue;
       near.index_of_vertex[v.value] = 1;
       asked.push_back(v);
+      if (has_older_wall_on(mesh, sheet, v, tag, walker)) near.mark_on(v);
       const auto normal = plane_at(mesh, sheet, v, kCoincident, walker);
       if (normal && has_wall_along(mesh, v, *normal, walker) && has_both_sides(mesh, v, *normal, walker)) {
-        own_.push_back({v, mesh.generation(v), *normal});
+        own_.push_back({v, mesh.generation(v), *normal, mesh.rest(v)});
       }
     }
   }
@@ -218,11 +268,11 @@ void IncisionFront::adopt_walls(const TetMesh& mesh, const Sheet& sheet, Neighbo
 }
 
 void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, StarWalker& walker) {
-  const auto add = [&](VertexId vertex, std::uint32_t triangle) {
-    own_.push_back({vertex, mesh.generation(vertex), sheet.normal(triangle).normalized()});
+  const auto add = [&](VertexId vertex, std::uint32_t triangle, bool is_split) {
+    own_.push_back({vertex, mesh.generation(vertex), sheet.normal(triangle).normalized(), mesh.rest(vertex), is_split});
   };
   for (const CutEdge& edge : near.edges.edges()) {
-    if (edge.split.is_valid()) add(edge.split, edge.crossings.triangle);
+    if (edge.split.is_valid()) add(edge.split, edge.crossings.triangle, true);
   }
   make_set(own_);
   const std::size_t known = own_.size();
@@ -233,7 +283,7 @@ void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbou
     }
     const auto hit = sheet.tree().closest(mesh.rest(v), near.coincidence);
     if (hit.is_valid() && has_both_sides(mesh, v, sheet.normal(hit.triangle).normalized(), walker)) {
-      add(v, hit.triangle);
+      add(v, hit.triangle, false);
     }
   }
   make_set(own_);
@@ -254,7 +304,7 @@ void IncisionFront::add(const TetMesh& mesh, const Sheet& sheet, const std::vect
   for (const VertexId v : vertices) {
     const auto hit = sheet.tree().closest(mesh.rest(v), longest_edge_at(mesh, v, walker.star(mesh, v)));
     if (!hit.is_valid()) continue;
-    const CollisionPoint point{v, mesh.generation(v), sheet.normal(hit.triangle).normalized()};
+    const CollisionPoint point{v, mesh.generation(v), sheet.normal(hit.triangle).normalized(), mesh.rest(v)};
     if (has_both_sides(mesh, sheet, point, walker)) own_.push_back(point);
   }
   make_set(own_);

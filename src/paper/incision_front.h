@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "cut/sweep.h"
+#include "cut/strip.h"
 #include "incise/mesh/journal.h"
 #include "incise/mesh/star.h"
 #include "paper/neighbourhood.h"
@@ -16,6 +17,8 @@ struct CollisionPoint {
   VertexId vertex = {};
   std::uint32_t generation = 0;  ///< of the vertex's slot
   Vec3 normal = Vec3::Zero();    ///< unit, of the sheet there; zero where it had none
+  Vec3 rim = Vec3::Zero();       ///< where the sheet ended next to it, once that has ended; else its place
+  bool is_split = false;         ///< the stroke under way has made it where it crosses tissue
 };
 
 /// The collision points at the front of incisions, kept from frame to frame and from stroke to stroke.
@@ -23,15 +26,19 @@ struct CollisionPoint {
 /// A frame crosses some edges of a tet, the next one others: a face between collision points of both is an incision
 /// face, too. So every frame is cut with the points that those before have left joined. Points of the sheet under way
 /// count as they are. Those of an earlier sheet count where they lie on the present one: in its plane, and within an
-/// edge of it; an incision whose front a stroke meets like that goes on, whatever was cut in between. Source: paper
+/// edge of it; or where that passes the rim of theirs beside them: curved sheets leave each other's planes. An incision
+/// whose front a stroke meets like that goes on, whatever was cut in between. Source: paper
 /// §2.2 and §2.3, which speak of one incision, and §4.2, in which it takes many frames; docs/decisions/0050.
 class IncisionFront {
  public:
   /// Those of the sheet so far become those of an earlier one. Cost: O(points).
   void begin_sheet();
-  /// Marks the points that take part in the cut along a sheet, near or not, and makes them the sheet's own.
+  /// Notes for the points of the sheet where that ends beside them. `border`: of the sheet. Cost: O(points · segments).
+  void end_sheet(const TetMesh& mesh, std::span<const Strip::Segment> border);
+  /// Marks the points that take part in the cut along a sheet, near or not, and makes them the sheet's own; and the
+  /// vertices nearby of walls that strokes with other tags have opened along it, which maintenance may have moved.
   /// Cost: O(points of the sheet), and a search of the sheet for each earlier point and each vertex of a wall nearby.
-  void mark(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker);
+  void mark(const TetMesh& mesh, const Sheet& sheet, std::uint32_t tag, Neighbourhood& near, StarWalker& walker);
   /// Takes the collision points of a sheet besides: the vertices that split edges, and those of the mesh that lie on it
   /// with tissue on both sides. `near` as `subdivide` left it. Cost: O(near edges + marked vertices · their stars).
   void take(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, StarWalker& walker);
@@ -58,9 +65,10 @@ class IncisionFront {
   [[nodiscard]] std::vector<VertexId> vertices(const TetMesh& mesh) const;
 
  private:
-  /// Vertices on the wall of an earlier cut in the plane of the sheet, with tissue on both sides. Where the blade has
-  /// left the body, a lip is no front; but merging may tie it to tissue that the blade meets next.
-  void adopt_walls(const TetMesh& mesh, const Sheet& sheet, Neighbourhood& near, StarWalker& walker);
+  /// Vertices on walls of older cuts that go along the sheet, within `kFrontOffset` of it: it is the same cut. Those in
+  /// its plane that have tissue on both sides are points of the front. Where the blade has left the body, a lip is no
+  /// front; but merging may tie it to tissue that the blade meets next.
+  void adopt_walls(const TetMesh& mesh, const Sheet& sheet, std::uint32_t tag, Neighbourhood& near, StarWalker& walker);
 
   std::vector<CollisionPoint> own_, older_;  // ascending
 };

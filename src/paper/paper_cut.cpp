@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -53,8 +54,24 @@ Result<CutStatistics> PaperCutter::guarded(TetMesh& mesh, Journal& journal, Stag
 void PaperCutter::restore(IncisionFront front) {
   front_ = std::move(front);
   stroke_.may_go_on = false;
+  ended_.clear();
   complex_.clear();
   surface_.forget();
+}
+
+/// The strips that the blade laid last, within `kStripsReach` elements of travel, those of a stroke that this one goes
+/// on from among them; oldest first.
+std::vector<std::shared_ptr<const Strip>> PaperCutter::OpenStroke::last_strips() const {
+  const double from = sheet.travel() - kStripsReach * spacing;
+  std::vector<std::shared_ptr<const Strip>> last;
+  if (!gone_on_from.empty()) {
+    const double before = gone_on_from.back()->travel;
+    std::copy_if(gone_on_from.begin(), gone_on_from.end(), std::back_inserter(last),
+                 [&](const auto& strip) { return strip->travel - before > from; });
+  }
+  std::copy_if(sheet.strips().begin(), sheet.strips().end(), std::back_inserter(last),
+               [&](const auto& strip) { return strip->travel > from; });
+  return last;
 }
 
 // --- a stroke as a whole
@@ -82,8 +99,9 @@ Status PaperCutter::cut_stroke(const CutContext& context, const Stroke& stroke, 
     return cut_in_frames(context, stroke, tag);
   }
   front_.begin_sheet();
-  const Sheet sheet(surface);
-  Status status = sheet_cut_.cut(context, SheetSoFar(sheet), tag, front_);
+  const Strip whole(surface, {});
+  Status status = sheet_cut_.cut(context, SheetSoFar(whole.sheet), tag, front_);
+  front_.end_sheet(context.mesh, whole.border);
   context.statistics.latent_faces += sheet_cut_.latent_faces();
   ++context.statistics.sheets;
   return status;
@@ -97,6 +115,7 @@ Status PaperCutter::cut_in_frames(const CutContext& context, const Stroke& strok
   }
   if (status) status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
   count_last_sheet(context.statistics);
+  front_.end_sheet(context.mesh, stroke_.sheet.border());
   stroke_ = OpenStroke();
   return status;
 }
@@ -108,41 +127,45 @@ void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<c
   const double spacing = typical_spacing(mesh);
   const std::vector<Vec3> row = with_margin(given, kCoincident * spacing);
   surface_.follow(mesh, journal);
-  stroke_.tag = tag;
-  stroke_.has_cut = false;
-  const bool stands = stroke_.may_go_on && stands_at_end(mesh, row, has_moved);
-  if (stands && has_moved) return;
-  const std::vector<Vec3> start = stands ? stroke_.last_row : row;
-  const EdgeDivision edge = stands ? stroke_.edge : EdgeDivision(row.size());
-  if (!stands) front_.begin_sheet();
+  if (has_moved && stands_in_material(mesh, row)) {
+    stroke_.tag = tag;
+    stroke_.has_cut = false;
+    return;
+  }
+  const EndedStroke* ended = has_moved ? nullptr : ended_.find(row, kStandsWithin * spacing);
+  const bool goes_on = ended != nullptr && ended_.is_last(*ended) && stroke_.may_go_on;
+  if (!goes_on) front_.begin_sheet();
   stroke_ = OpenStroke();
-  stroke_.edge = edge;
   stroke_.tag = tag;
   stroke_.spacing = spacing;
-  stroke_.last_row = start;
-  stroke_.is_in_material = has_moved;
+  stroke_.last_row = row;
+  stroke_.edge = EdgeDivision(row.size());
   if (has_moved) {
-    put_in_place(mesh, start);
+    stroke_.is_in_material = true;
+    put_in_place(mesh, row);
+  } else if (ended != nullptr) {
+    go_on_from(*ended);
+    stroke_.goes_over = !goes_on;
   } else {
-    stroke_.motion.begin(start, stroke_.spacing);
+    stroke_.motion.begin(row, spacing);
   }
 }
 
-/// Whether a blade stands where that of the stroke that has ended would.
-bool PaperCutter::stands_at_end(const TetMesh& mesh, std::span<const Vec3> given, bool has_moved) {
-  if (given.size() != stroke_.edge.points()) return false;
-  const std::vector<Vec3> row = stroke_.edge.divided(given);
-  if (has_moved && stroke_.is_in_material) {
-    complex_.clear();
-    stroke_.material.find_masters(mesh, surface_, complex_);
-    return stroke_.material.stands_at(mesh, complex_, row, kStandsWithin * stroke_.spacing);
-  }
-  if (has_moved || stroke_.is_in_material) return false;
-  bool stands = true;
-  for (std::size_t c = 0; c < row.size(); ++c) {
-    stands = stands && (row[c] - stroke_.last_row[c]).norm() <= kStandsWithin * stroke_.spacing;
-  }
-  return stands;
+/// Goes on at rest from where another stroke ended.
+void PaperCutter::go_on_from(const EndedStroke& ended) {
+  stroke_.edge = ended.edge;
+  stroke_.last_row = ended.row;
+  stroke_.gone_on_from = ended.strips;
+  stroke_.motion = ended.motion;
+  stroke_.motion.go_on(ended.motion.front(), stroke_.spacing);
+}
+
+/// Whether a blade stands, in a body that moves, where that of the stroke that has ended there would.
+bool PaperCutter::stands_in_material(const TetMesh& mesh, std::span<const Vec3> given) {
+  if (!stroke_.may_go_on || !stroke_.is_in_material || given.size() != stroke_.edge.points()) return false;
+  complex_.clear();
+  stroke_.material.find_masters(mesh, surface_, complex_);
+  return stroke_.material.stands_at(mesh, complex_, stroke_.edge.divided(given), kStandsWithin * stroke_.spacing);
 }
 
 Result<CutStatistics> PaperCutter::step(TetMesh& mesh, Journal& journal, std::span<const Vec3> row,
@@ -185,12 +208,32 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
       stroke_.material.find_tips(context.mesh, complex_);
     } else {
       status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
+      if (status) status = end_at_rest(context);
     }
     count_last_sheet(context.statistics);
+    front_.end_sheet(context.mesh, stroke_.sheet.border());
     front_.leave_lips(context.mesh, walker_);
     stroke_.may_go_on = status.ok();
     return status;
   });
+}
+
+/// Goes over the last strips of a stroke that has ended where this one does, if others have cut in between.
+Status PaperCutter::end_at_rest(const CutContext& context) {
+  const EndedStroke* met = ended_.find(stroke_.last_row, kStandsWithin * stroke_.spacing);
+  Status status;
+  if (met != nullptr && !ended_.is_last(*met)) status = go_over(context, met->strips);
+  ended_.add({stroke_.motion, stroke_.edge, stroke_.last_row, stroke_.last_strips()});
+  return status;
+}
+
+/// Cuts along strips once more. Edges that other strokes have made since may cross them.
+Status PaperCutter::go_over(const CutContext& context, std::span<const std::shared_ptr<const Strip>> strips) {
+  SweptSurface surface;
+  for (const auto& strip : strips) append(surface, strip->surface);
+  if (surface.triangles.empty()) return {};
+  const Sheet sheet(surface);
+  return sheet_cut_.cut(context, SheetSoFar(sheet), stroke_.tag, front_);
 }
 
 void PaperCutter::count_last_sheet(CutStatistics& statistics) const {
@@ -299,6 +342,7 @@ void PaperCutter::leave_body(const CutContext& context, const std::vector<Vec3>&
 void PaperCutter::finish_sheet(const CutContext& context) {
   context.statistics.latent_faces += sheet_cut_.latent_faces();
   ++context.statistics.sheets;
+  front_.end_sheet(context.mesh, stroke_.sheet.border());
   front_.begin_sheet();
   stroke_.sheet.clear();
   stroke_.course = Vec3::Zero();
@@ -307,24 +351,30 @@ void PaperCutter::finish_sheet(const CutContext& context) {
 /// The strips that the blade laid within `kStripsReach` elements before a strip, if that goes on from them as on one
 /// sheet. None where it meets some of them otherwise, or is as long as that itself.
 std::vector<std::shared_ptr<const Strip>> PaperCutter::strips_before(const Strip& strip) const {
-  const double reach = kStripsReach * stroke_.spacing;
-  if (stroke_.is_in_material || travel_of(strip.surface) > reach) return {};
-  const auto& strips = stroke_.sheet.strips();
-  const double from = stroke_.sheet.travel() - reach;
-  const auto first = std::find_if(strips.begin(), strips.end(), [&](const auto& s) { return s->travel > from; });
-  const bool do_meet = std::any_of(first, strips.end(), [&](const auto& earlier) {
+  if (stroke_.is_in_material || travel_of(strip.surface) > kStripsReach * stroke_.spacing) return {};
+  std::vector<std::shared_ptr<const Strip>> strips = stroke_.last_strips();
+  return meets_any(strip, strips) ? std::vector<std::shared_ptr<const Strip>>() : strips;
+}
+
+/// Whether a strip meets some earlier ones otherwise than as their neighbour on one sheet.
+bool PaperCutter::meets_any(const Strip& strip, std::span<const std::shared_ptr<const Strip>> strips) const {
+  return std::any_of(strips.begin(), strips.end(), [&](const auto& earlier) {
     return strips_meet(strip.surface, earlier->surface, earlier->sheet, kCoincident * stroke_.spacing);
   });
-  if (do_meet) return {};
-  return {first, strips.end()};
 }
 
 /// Cuts along what the blade's motion asks for.
 Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
   if (move.strip == nullptr) return {};
+  if (std::exchange(stroke_.goes_over, false)) {
+    if (Status status = go_over(context, stroke_.gone_on_from); !status) return status;
+  }
   if (move.starts_anew) {
     finish_sheet(context);
     move.strip = stroke_.motion.lay_anew({});
+  } else if (meets_any(*move.strip, stroke_.gone_on_from)) {
+    front_.begin_sheet();
+    stroke_.gone_on_from.clear();
   }
   const std::uint64_t cut_before = context.statistics.cut_tets;
   Status status = sheet_cut_.cut(context, SheetSoFar(*move.strip, strips_before(*move.strip)), stroke_.tag, front_);

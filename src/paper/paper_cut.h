@@ -16,6 +16,8 @@
 #include "incise/cut/options.h"
 #include "incise/cut/stroke.h"
 #include "incise/mesh/journal.h"
+#include "paper/ended_strokes.h"
+#include "paper/incision_front.h"
 #include "paper/sheet_cut.h"
 
 namespace incise {
@@ -45,8 +47,9 @@ class PaperCutter {
 
   /// Puts the blade in place for a stroke that is cut frame by frame; nothing is cut yet. `row`: its edge as the body
   /// stands, at least two finite points; `has_moved`: whether the body stands otherwise than at rest. A blade that
-  /// stands where the last stroke ended, its points within 0.05 spacings of a typical edge, goes on with that one.
-  /// Cost: one pass over the mesh at first, to find its surface.
+  /// stands where the last stroke ended, its points within 0.05 spacings of a typical edge, goes on with that one; at
+  /// rest also where one of the 16 before ended, whose last strips are then cut once more first. Cost: one pass over
+  /// the mesh at first, to find its surface.
   void begin(const TetMesh& mesh, const Journal& journal, std::span<const Vec3> row, bool has_moved, std::uint32_t tag);
   /// Cuts on to where the blade is now; `row` has as many points as the first. `direction`: where the edge cuts, unit;
   /// zero: where it has cut so far. Appends to the journal what changed. Errors: kOutOfMemory; the mesh is then as
@@ -68,6 +71,7 @@ class PaperCutter {
     BladeMotion motion;
     MaterialBlade material;
     OwnSheet sheet;
+    std::vector<std::shared_ptr<const Strip>> gone_on_from;  // the last of the stroke before, if this one goes on
     EdgeDivision edge;
     std::vector<Vec3> last_row;  // divided
     double spacing = 1.0;
@@ -76,7 +80,10 @@ class PaperCutter {
     bool is_in_material = false, is_last = false;
     bool has_cut = false;
     bool may_go_on = false;  // it has ended, and nothing else has happened since
+    bool goes_over = false;  // the strips that it goes on from, before it cuts
     std::uint32_t tag = 1;
+
+    [[nodiscard]] std::vector<std::shared_ptr<const Strip>> last_strips() const;
   };
 
   template <class Work>
@@ -86,7 +93,10 @@ class PaperCutter {
   Status move_at_rest(const CutContext& context, std::span<const Vec3> row);
   void divide_edge(std::span<const Vec3> row);
   void count_last_sheet(CutStatistics& statistics) const;
-  [[nodiscard]] bool stands_at_end(const TetMesh& mesh, std::span<const Vec3> row, bool has_moved);
+  void go_on_from(const EndedStroke& ended);
+  [[nodiscard]] bool stands_in_material(const TetMesh& mesh, std::span<const Vec3> row);
+  Status end_at_rest(const CutContext& context);
+  Status go_over(const CutContext& context, std::span<const std::shared_ptr<const Strip>> strips);
   void enter_material(const TetMesh& mesh);
   Status step_in_material(const CutContext& context, const std::vector<Vec3>& before);
   void put_in_place(const TetMesh& mesh, const std::vector<Vec3>& row);
@@ -96,6 +106,7 @@ class PaperCutter {
   void leave_body(const CutContext& context, const std::vector<Vec3>& row);
   Status follow(const CutContext& context, BladeMotion::Move move);
   [[nodiscard]] std::vector<std::shared_ptr<const Strip>> strips_before(const Strip& strip) const;
+  [[nodiscard]] bool meets_any(const Strip& strip, std::span<const std::shared_ptr<const Strip>> strips) const;
   void finish_sheet(const CutContext& context);
   void find_surface(const CutContext& context);
   [[nodiscard]] BladeMotion::Touches touches(const TetMesh& mesh) const;
@@ -103,6 +114,7 @@ class PaperCutter {
   SheetCut sheet_cut_;
   IncisionFront front_;
   OpenStroke stroke_;
+  EndedStrokes ended_;
   SplitTemplates templates_;
   ClosedComplex complex_;  // of whole tets: those that hold the blade's front
   SurfaceIndex surface_;

@@ -12,6 +12,7 @@
 #include "paper/contact.h"
 #include "paper/crossing.h"
 #include "paper/dividable.h"
+#include "paper/flat_tets.h"
 #include "paper/sheet_sides.h"
 
 namespace incise {
@@ -21,13 +22,14 @@ Status SheetCut::cut(const CutContext& context, const SheetSoFar& sheet, std::ui
   CutStatistics& statistics = context.statistics;
   const std::size_t tets_before = context.mesh.tet_count();
   Transaction transaction(context.mesh);
-  statistics.snapped_vertices += find_contact(transaction, sheet, front, context.times);
+  statistics.snapped_vertices += find_contact(transaction, sheet, tag, front, context.times);
   if (std::size_t{context.mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
     return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
   }
   Subdivision subdivision = divide(transaction, front, statistics, context.times);
   front.take(context.mesh, sheet.whole(), near_, walker_);
   keep_between_sides(context.mesh, front.own(), near_.coincidence, sheet, subdivision.incision);
+  keep_flat_tets_joined(context.mesh, near_, front.own(), sheet.whole(), tag, walker_, subdivision.incision);
   separate(transaction, subdivision, tag, statistics, context.times);
   statistics.new_vertices += growth(0, transaction.new_vertices().size());
   if (context.journal.append_if_changed(transaction.commit())) {
@@ -39,10 +41,10 @@ Status SheetCut::cut(const CutContext& context, const SheetSoFar& sheet, std::ui
 }
 
 /// Returns how many vertices of the mesh lie on the sheet, those of the front not counted.
-std::size_t SheetCut::find_contact(Transaction& transaction, const SheetSoFar& sheet, IncisionFront& front,
-                                   StageTimes& times) {
+std::size_t SheetCut::find_contact(Transaction& transaction, const SheetSoFar& sheet, std::uint32_t tag,
+                                   IncisionFront& front, StageTimes& times) {
   const StageZone zone(times, Stage::kCollision);
-  collide(transaction, sheet, front);
+  collide(transaction, sheet, tag, front);
   const std::size_t marked = near_.on.size();
   mark_coincident(transaction.mesh(), sheet, near_, walker_);
   return near_.on.size() - marked;
@@ -97,14 +99,14 @@ std::vector<TetId> SheetCut::tets_near(const TetMesh& mesh, const Sheet& sheet, 
 /// Finds the crossings of the mesh's edges with the sheet, and the points of the front that lie on it; edges crossed
 /// twice are bisected in between and retried. Tets around a bend of a sheet of many frames are crossed by the strips on
 /// both sides of it: edges that bisection makes there may cross a strip that was cut before they were.
-void SheetCut::collide(Transaction& transaction, const SheetSoFar& sheet, IncisionFront& front) {
+void SheetCut::collide(Transaction& transaction, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front) {
   const TetMesh& mesh = transaction.mesh();
   for (unsigned round = 0;; ++round) {
     std::vector<VertexId> made = transaction.new_vertices();
     std::sort(made.begin(), made.end());
     find_crossings(mesh, sheet.strip(), tets_near(mesh, sheet.strip(), made), near_, threads_);
     if (!made.empty()) find_crossings_at(mesh, sheet.whole(), made, near_);
-    front.mark(mesh, sheet.strip(), near_, walker_);
+    front.mark(mesh, sheet.strip(), tag, near_, walker_);
     const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet.whole(), near_, kGrazeShare);
     if (twice.empty() || round == kMaxBisectionRounds) {
       return;

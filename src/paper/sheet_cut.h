@@ -34,9 +34,10 @@ class SheetCut {
   [[nodiscard]] std::uint64_t latent_faces() const { return latent_faces_; }
 
  private:
-  std::size_t find_contact(Transaction& transaction, const SheetSoFar& sheet, IncisionFront& front, StageTimes& times);
+  std::size_t find_contact(Transaction& transaction, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front,
+                           StageTimes& times);
   std::vector<TetId> tets_near(const TetMesh& mesh, const Sheet& sheet, const std::vector<VertexId>& vertices);
-  void collide(Transaction& transaction, const SheetSoFar& sheet, IncisionFront& front);
+  void collide(Transaction& transaction, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front);
   void bisect(Transaction& transaction, const CutEdge& edge, double t);
   Subdivision divide(Transaction& transaction, const IncisionFront& front, CutStatistics& statistics,
                      StageTimes& times);

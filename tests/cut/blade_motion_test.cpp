@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -24,6 +25,11 @@ class Motion {
   BladeMotion::Move end() {
     return keep(motion_.end(
         sheet_, [](const SweptSurface&) { return true; }, around_));
+  }
+  /// Another stroke, which goes on from this one.
+  void go_on(const Row& row) {
+    motion_.go_on(row, 1.0);
+    sheet_.clear();
   }
   /// From now on there is an older cut wherever `reach` says so; nothing is outside the body.
   void meet_older_cuts(std::function<double(const Vec3& place, const Vec3& outwards)> reach) {
@@ -92,6 +98,22 @@ TEST(BladeMotion, lays_a_strip_from_row_to_row_that_shares_their_points) {
   blade.advance(at(2));
   EXPECT_EQ(blade.last().border.size(), 4U);  // not along the front between
   EXPECT_EQ(keys_of(blade.sheet().border()), blade.whole_border());
+}
+
+TEST(BladeMotion, goes_on_without_a_seam_where_another_stroke_ended) {
+  Motion blade(at(0));
+  blade.advance(at(1));
+  const auto front = blade.last().row;
+  blade.go_on(at(1));
+  blade.advance(at(2));
+  EXPECT_EQ(blade.last().border.size(), 6U) << "a sheet of its own";
+  for (const SosPoint& point : front) {
+    const auto& points = blade.last().surface.points;
+    EXPECT_TRUE(std::any_of(points.begin(), points.end(), [&](const SosPoint& p) { return p.key == point.key; }));
+  }
+  for (const SosPoint& point : blade.last().row) {
+    EXPECT_TRUE(std::none_of(front.begin(), front.end(), [&](const SosPoint& p) { return p.key == point.key; }));
+  }
 }
 
 TEST(BladeMotion, holds_a_blade_that_hardly_moves_until_it_has_gone_far_enough) {

@@ -69,14 +69,14 @@ class IncisionFrontTest : public ::testing::Test {
   }
 
   /// The vertices that take part in a cut along the plane up to a height.
-  std::vector<VertexId> met_by(const SweptSurface& surface, IncisionFront front = {}) {
+  std::vector<VertexId> met_by(const SweptSurface& surface, IncisionFront front = {}, std::uint32_t tag = 1) {
     Neighbourhood near;
     near.clear(mesh_);
     mesh_.for_each_tet([&](TetId tet) {
       near.tets.emplace_back();
       near.tets.back().id = tet;
     });
-    front.mark(mesh_, whole(surface), near, walker_);
+    front.mark(mesh_, whole(surface), tag, near, walker_);
     return near.on;
   }
 
@@ -129,6 +129,30 @@ TEST_F(IncisionFrontTest, goes_on_at_points_of_an_earlier_sheet_that_are_no_wall
   const SweptSurface oblique =
       sweep(quad_stroke({0.45, -0.2, -0.2}, {0.45, 1.2, -0.2}, {0.5, 1.2, 0.45}, {0.5, -0.2, 0.45}));
   EXPECT_EQ(met_by(oblique, front), std::vector{centre_}) << "by a hand that does not come back to the plane itself";
+}
+
+TEST_F(IncisionFrontTest, goes_on_where_a_sheet_passes_the_rim_of_an_earlier_one) {
+  const SweptSurface surface = swept_up_to(0.6);
+  const Strip earlier(surface, {});
+  IncisionFront front = front_at_centre();
+  front.end_sheet(mesh_, earlier.border);
+  front.begin_sheet();
+  // From the rim at z = 0.6 on, leaning by 40 degrees: the point below it does not lie in the plane of that sheet.
+  const SweptSurface bent = sweep(quad_stroke({0.5, -0.2, 0.6}, {0.5, 1.2, 0.6}, {0.92, 1.2, 1.1}, {0.92, -0.2, 1.1}));
+  EXPECT_EQ(met_by(bent, front), std::vector{centre_});
+  const SweptSurface elsewhere =
+      sweep(quad_stroke({0.45, -0.2, 0.6}, {0.45, 1.2, 0.6}, {0.87, 1.2, 1.1}, {0.87, -0.2, 1.1}));
+  EXPECT_TRUE(met_by(elsewhere, front).empty());
+}
+
+TEST_F(IncisionFrontTest, takes_the_wall_of_an_older_stroke_beside_the_sheet_for_its_own) {
+  divide(/*quarter_gets_copy=*/true);
+  const auto beside = [](double x) {
+    return sweep(quad_stroke({x, -0.2, -0.2}, {x, 1.2, -0.2}, {x, 1.2, 0.6}, {x, -0.2, 0.6}));
+  };
+  EXPECT_EQ(met_by(beside(0.49), {}, 2).size(), 2U) << "maintenance has moved it: the vertex and its copy";
+  EXPECT_TRUE(met_by(beside(0.49), {}, 1).empty()) << "one of its own is no older one";
+  EXPECT_TRUE(met_by(beside(0.45), {}, 2).empty());
 }
 
 TEST_F(IncisionFrontTest, goes_on_at_a_wall_in_the_plane_that_tissue_joins) {

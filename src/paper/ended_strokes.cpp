@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "paper/ended_strokes.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "paper/constants.h"
+
+namespace incise {
+inline namespace v0 {
+
+void EndedStrokes::add(EndedStroke stroke) {
+  ended_.push_back(std::move(stroke));
+  if (ended_.size() > kEndsKept) ended_.pop_front();
+}
+
+const EndedStroke* EndedStrokes::find(std::span<const Vec3> given, double within) const {
+  const auto stands_at = [&](const EndedStroke& ended) {
+    if (given.size() != ended.edge.points()) return false;
+    const std::vector<Vec3> row = ended.edge.divided(given);
+    return std::equal(row.begin(), row.end(), ended.row.begin(), ended.row.end(),
+                      [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= within; });
+  };
+  const auto at = std::find_if(ended_.rbegin(), ended_.rend(), stands_at);
+  return at == ended_.rend() ? nullptr : &*at;
+}
+
+}  // namespace v0
+}  // namespace incise

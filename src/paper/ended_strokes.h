@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cut/blade_motion.h"
+#include "cut/strip.h"
+#include "cut/twist.h"
+
+namespace incise {
+inline namespace v0 {
+
+/// How a stroke at rest has ended: what another one needs that goes on from it.
+struct EndedStroke {
+  BladeMotion motion;
+  EdgeDivision edge;
+  std::vector<Vec3> row;                             ///< where its blade stood, divided
+  std::vector<std::shared_ptr<const Strip>> strips;  ///< the last that it laid, oldest first
+};
+
+/// The ends of the last strokes at rest.
+class EndedStrokes {
+ public:
+  /// Forgets the oldest above `kEndsKept`. Cost: O(kEndsKept).
+  void add(EndedStroke stroke);
+  /// All incisions are complete, or others than they were.
+  void clear() { ended_.clear(); }
+  /// The latest stroke at whose end a blade stands, each of its points within a length; null where there is none.
+  /// Cost: O(points · kEndsKept).
+  [[nodiscard]] const EndedStroke* find(std::span<const Vec3> row, double within) const;
+  /// Whether no stroke has ended after one of these.
+  [[nodiscard]] bool is_last(const EndedStroke& stroke) const { return &stroke == &ended_.back(); }
+
+ private:
+  std::deque<EndedStroke> ended_;
+};
+
+}  // namespace v0
+}  // namespace incise
