@@ -16,6 +16,7 @@
 #include "app/view/scene_camera.h"
 #include "app/view/surface_view.h"
 #include "incise/mesh/validate.h"
+#include "support/campaign.h"
 
 namespace incise::app::hand_exercise_test {
 namespace {
@@ -143,6 +144,9 @@ std::vector<Vec3> arc_of(const std::vector<Vec3>& line, std::size_t from, std::s
 }
 
 TEST(HandOnExcision, TakesTheLesionOffWithItsMargin) {
+  if (!test::is_whole_campaign()) {
+    GTEST_SKIP() << "by day ShippedExercise takes it off along the ideal line; INCISE_CAMPAIGNS_ALL=1 for a hand";
+  }
   const Scene scene = read_scene(std::string(INCISE_SCENES) + "/train_excision.json").value();
   const std::vector<Vec3> line = scene.exercise->target;
   const std::size_t corner = line.size() / 2;
