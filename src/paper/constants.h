@@ -38,10 +38,10 @@ inline constexpr double kFrontCosine = 0.70710678118654752440;
 /// With more, walls that cross in a star of ten pieces pass for one beside their axis; with less, the facets of a bent
 /// wall that was smoothed do not count.
 inline constexpr double kAlongCosine = 0.94;
-/// A stroke crosses an older wall where it encloses more than 8° with it: its cosine. With more, planes that cross at
+/// A stroke crosses an older wall where it encloses more than 10° with it: its cosine. With more, planes that cross at
 /// small angles come out joined beside their axis; with less, crumbs come off where a bent sheet goes over its own
 /// wall.
-inline constexpr double kCrossingCosine = 0.99;
+inline constexpr double kCrossingCosine = 0.985;
 /// A sheet goes on beyond its border within a cone of this slope, as far as is known: a corner of a tet that lies
 /// there, on an older wall, may lie on its next strip.
 inline constexpr double kMostBend = 0.5;

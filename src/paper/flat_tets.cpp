@@ -18,9 +18,6 @@ namespace {
 /// between two walls, or an older one that the stroke crosses there.
 enum class Lip : std::uint8_t { kNone, kBelow, kAbove, kBoth, kCrossed };
 
-/// So many tets along a sheet, joined to each other, are looked through at most.
-constexpr std::size_t kMostFlat = 64;
-
 /// Tets along a sheet, and which of their faces the incision passes.
 class FlatTets {
  public:
@@ -45,6 +42,7 @@ class FlatTets {
   /// The lip that a tet along the sheet is on: none where no wall of an incision goes along it there.
   [[nodiscard]] Lip lip_of(TetId tet) const {
     if (!is_flat(tet)) return Lip::kNone;
+    if (is_at_turn(tet)) return Lip::kCrossed;
     const double least = are_on(tet) ? 0 : kAlongCosine;
     const Vec3 normal = normal_at(tet);
     bool has_wall_above = false, has_wall_below = false, is_across = false;
@@ -70,41 +68,26 @@ class FlatTets {
   [[nodiscard]] double height_of(Side side, const Vec3& normal) const {
     return paper::area_vector(mesh_, side).normalized().dot(normal);
   }
-  /// Whether the stroke crosses tissue at a flat tet: it has made points there, and what the tet is joined to by flat
-  /// ones lies on both sides of the sheet. So does the tip of what it cuts off from an older wall that it crosses.
+  /// Whether the stroke has made a point of a tet, where it crosses tissue.
   [[nodiscard]] bool is_crossed_now(TetId tet) const {
     const TetVertices& v = mesh_.vertices(tet);
-    const bool is_split = std::any_of(v.begin(), v.end(), [&](VertexId w) {
+    return std::any_of(v.begin(), v.end(), [&](VertexId w) {
       const CollisionPoint* point = find(w);
       return point != nullptr && point->is_split;
     });
-    return is_split && joins_both_sides(tet);
+  }
+  /// Whether the sheet turns sharply between the corners of a tet: it spans them, and does not lie along the sheet.
+  [[nodiscard]] bool is_at_turn(TetId tet) const {
+    const Vec3 normal = normal_at(tet);
+    const TetVertices& v = mesh_.vertices(tet);
+    return std::any_of(v.begin(), v.end(), [&](VertexId w) {
+      const CollisionPoint* point = find(w);
+      return point != nullptr && std::abs(point->normal.dot(normal)) < kFrontCosine;
+    });
   }
   [[nodiscard]] bool is_flat(TetId tet) const {
     const TetVertices& v = mesh_.vertices(tet);
     return std::all_of(v.begin(), v.end(), [&](VertexId w) { return may_lie_on(w); });
-  }
-  [[nodiscard]] bool joins_both_sides(TetId tet) const {
-    const TetVertices& v = mesh_.vertices(tet);
-    const Vec3 normal = normal_at(tet);
-    const Vec3 centre = 0.25 * (mesh_.rest(v[0]) + mesh_.rest(v[1]) + mesh_.rest(v[2]) + mesh_.rest(v[3]));
-    std::vector<TetId> group = {tet};
-    bool is_above = false, is_below = false;
-    for (std::size_t i = 0; i < group.size() && group.size() < kMostFlat; ++i) {
-      for (const Link link : mesh_.links(group[i])) {
-        if (link.is_boundary()) continue;
-        const TetId other = link.side().tet();
-        if (is_flat(other)) {
-          if (std::find(group.begin(), group.end(), other) == group.end()) group.push_back(other);
-          continue;
-        }
-        for (const VertexId w : mesh_.vertices(other)) {
-          if (may_lie_on(w)) continue;
-          (normal.dot(mesh_.rest(w) - centre) > 0 ? is_above : is_below) = true;
-        }
-      }
-    }
-    return is_above && is_below;
   }
   [[nodiscard]] const CollisionPoint* find(VertexId vertex) const {
     const auto at = std::lower_bound(points_.begin(), points_.end(), vertex,
