@@ -224,7 +224,7 @@ TEST(Cli, a_cut_that_breaks_the_contract_is_taken_back_and_what_was_valid_is_wri
   for (int i = 0; i < 40; ++i) {
     const double y = -0.8 + 0.04 * i;
     const auto edge = [&](double at, double z) {
-      return "[[-2," + std::to_string(at) + "," + std::to_string(z) + "],[2," + std::to_string(at + 0.05) + "," +
+      return "[[-2," + std::to_string(at) + "," + std::to_string(z) + "],[2," + std::to_string(at + 0.3) + "," +
              std::to_string(z) + "]]";
     };
     strokes += std::string(i > 0 ? "," : "") + R"({"name":"slice )" + std::to_string(i) +
