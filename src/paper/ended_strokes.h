@@ -16,7 +16,7 @@ inline namespace v0 {
 /// How a stroke at rest has ended: what another one needs that goes on from it.
 struct EndedStroke {
   BladeMotion motion;
-  EdgeDivision edge;
+  EdgeDivision edge = EdgeDivision();
   std::vector<Vec3> row;                             ///< where its blade stood, divided
   std::vector<std::shared_ptr<const Strip>> strips;  ///< the last that it laid, oldest first
 };
@@ -24,7 +24,8 @@ struct EndedStroke {
 /// The ends of the last strokes at rest.
 class EndedStrokes {
  public:
-  /// Forgets the oldest above `kEndsKept`. Cost: O(kEndsKept).
+  /// One without a row is a stroke that none goes on from here: whole, or in a body that moves. Forgets the oldest
+  /// above `kEndsKept`. Cost: O(1).
   void add(EndedStroke stroke);
   /// All incisions are complete, or others than they were.
   void clear() { ended_.clear(); }

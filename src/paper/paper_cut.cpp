@@ -84,6 +84,7 @@ Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const St
     stroke_.may_go_on = false;
     Status status = cut_stroke(context, stroke, tag);
     front_.leave_lips(context.mesh, walker_);
+    ended_.add({});
     return status;
   });
 }
@@ -206,6 +207,7 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
       if (status) status = cut_to(context, stroke_.last_row);
       stroke_.is_last = false;
       stroke_.material.find_tips(context.mesh, complex_);
+      ended_.add({});
     } else {
       status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
       if (status) status = end_at_rest(context);
@@ -369,6 +371,7 @@ Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
   if (std::exchange(stroke_.goes_over, false)) {
     if (Status status = go_over(context, stroke_.gone_on_from); !status) return status;
   }
+  if (stroke_.sheet.travel() > kStripsReach * stroke_.spacing) stroke_.gone_on_from.clear();
   if (move.starts_anew) {
     finish_sheet(context);
     move.strip = stroke_.motion.lay_anew({});

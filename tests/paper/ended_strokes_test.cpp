@@ -40,6 +40,16 @@ TEST(EndedStrokes, give_the_latest_of_several_at_one_place) {
   EXPECT_EQ(strokes.find(row_at(0), 0.05)->row.front().x(), 0.02);
 }
 
+TEST(EndedStrokes, tell_that_others_have_cut_since_that_are_not_found) {
+  EndedStrokes strokes;
+  strokes.add(ended_at(0));
+  ASSERT_TRUE(strokes.is_last(*strokes.find(row_at(0), 0.05)));
+  strokes.add({});
+  const EndedStroke* ended = strokes.find(row_at(0), 0.05);
+  ASSERT_NE(ended, nullptr);
+  EXPECT_FALSE(strokes.is_last(*ended));
+}
+
 TEST(EndedStrokes, forget_the_oldest) {
   EndedStrokes strokes;
   for (std::size_t i = 0; i <= kEndsKept; ++i) strokes.add(ended_at(static_cast<double>(i)));
