@@ -105,7 +105,8 @@ with_progress() {
 }
 
 # build_preset PRESET [CMAKE-ARGUMENT...]: configures, and builds the array `targets`, or all where there is none. Two scripts
-# that build one preset at once wait for each other.
+# that build one preset at once wait for each other. Where INCISE_BUILT names a folder, nothing changes while it lasts: a
+# preset that is built whole is marked there and left as it is from then on, so that no test loses its program to a linker.
 build_preset() {
   local preset=$1 status=0 turn
   shift
@@ -113,8 +114,11 @@ build_preset() {
   mkdir -p "build/$preset"
   exec {turn}<"build/$preset"
   flock "$turn"
-  quietly "configuring the preset $preset" cmake --preset "$preset" "$@"
-  with_progress cmake --build --preset "$preset" -j "$jobs" ${targets:+--target "${targets[@]}"} || status=$?
+  if [ -z "${INCISE_BUILT:-}" ] || [ ! -e "$INCISE_BUILT/$preset" ]; then
+    quietly "configuring the preset $preset" cmake --preset "$preset" "$@"
+    with_progress cmake --build --preset "$preset" -j "$jobs" ${targets:+--target "${targets[@]}"} || status=$?
+    if [ -n "${INCISE_BUILT:-}" ] && [ -z "${targets:-}" ] && [ "$status" = 0 ]; then touch "$INCISE_BUILT/$preset"; fi
+  fi
   exec {turn}<&-
   return "$status"
 }
