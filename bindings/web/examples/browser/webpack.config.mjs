@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// npx webpack: webpack 5 takes the module and its .wasm along without a loader. Needs webpack and webpack-cli.
+// npx webpack: webpack 5, from 5.75 on, takes the module and its .wasm along without a loader. Needs webpack and webpack-cli.
 import { readFileSync, writeFileSync, mkdirSync } from 'node:fs';
 
 mkdirSync('dist-webpack', { recursive: true });
@@ -8,6 +8,6 @@ writeFileSync('dist-webpack/index.html', readFileSync('index.html', 'utf8').repl
 export default {
   mode: 'production',
   entry: './cut.mjs',
-  experiments: { outputModule: true },
+  experiments: { outputModule: true, topLevelAwait: true },
   output: { path: `${process.cwd()}/dist-webpack`, filename: 'main.mjs', module: true },
 };
