@@ -85,6 +85,33 @@ TEST(ThinShape, is_none_where_all_edges_are_alike) {
   EXPECT_EQ(find_thin_shape(flat, TetId(0), 3).shape, ThinShape::kNone);
 }
 
+/// Whether all edges that are shorter than the longest by more than a factor are among those found, and those are one
+/// of them, two that are opposite, or the three of a side.
+bool has_all_short_edges(const TetMesh& mesh, TetId tet, const ThinTet& thin, double factor) {
+  const TetVertices& v = mesh.vertices(tet);
+  double longest = 0;
+  for (const auto& [a, b] : kEdgeCorners) longest = std::max(longest, (mesh.rest(v[a]) - mesh.rest(v[b])).norm());
+  unsigned number = 0, found_short = 0, all_found = 0;
+  std::array<unsigned, 4> ends{};
+  for (const auto& [a, b] : kEdgeCorners) {
+    const bool is_short = factor * (mesh.rest(v[a]) - mesh.rest(v[b])).norm() < longest;
+    bool is_found = false;
+    for (unsigned i = 0; i < thin.count; ++i) {
+      const auto& edge = thin.edges[i];
+      is_found = is_found || edge == std::array{v[a], v[b]} || edge == std::array{v[b], v[a]};
+    }
+    number += is_short ? 1 : 0;
+    found_short += is_short && is_found ? 1 : 0;
+    all_found += is_found ? 1 : 0;
+    ends[a] += is_found ? 1 : 0;
+    ends[b] += is_found ? 1 : 0;
+  }
+  std::sort(ends.begin(), ends.end());
+  const std::array<std::array<unsigned, 4>, 4> kinds = {{{0, 0, 0, 0}, {0, 0, 1, 1}, {1, 1, 1, 1}, {0, 2, 2, 2}}};
+  const bool are_most_short = thin.count == 3 ? number >= 2 : number == thin.count;
+  return found_short == number && all_found == thin.count && are_most_short && ends == kinds[thin.count];
+}
+
 TEST(ThinShape, of_any_tet_is_one_of_the_three_or_none) {
   Random random(1);
   TetSoup soup;
@@ -104,6 +131,7 @@ TEST(ThinShape, of_any_tet_is_one_of_the_three_or_none) {
   mesh.for_each_tet([&](TetId tet) {
     const ThinTet thin = find_thin_shape(mesh, tet, 3);
     EXPECT_EQ(thin.count, static_cast<unsigned>(thin.shape));  // none, one, two or three edges
+    EXPECT_TRUE(has_all_short_edges(mesh, tet, thin, 3)) << tet.value;
     ++found[thin.count];
   });
   for (const unsigned count : found) EXPECT_GT(count, 100U);
