@@ -55,7 +55,8 @@ def _library(settings: Settings) -> Path:
     off = ["APPS", "VIEW", "EXAMPLES", "TESTS", "DETERMINISM"]
     options = ["-DINCISE_BUILD_%s=OFF" % name for name in off]
     jobs = os.environ.get("INCISE_JOBS", str(os.cpu_count() or 1))
-    environment = dict(os.environ, CCACHE_BASEDIR=str(ROOT), CCACHE_NOHASHDIR="1")
+    shared = {} if " " in str(ROOT) else {"CCACHE_BASEDIR": str(ROOT), "CCACHE_NOHASHDIR": "1"}  # see script/lib/common.sh
+    environment = dict(os.environ, **shared)
     for command in (["cmake", "-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release",
                      "-DCMAKE_UNITY_BUILD=ON", "-DINCISE_BUILD_C=ON",
                      "-DINCISE_WITH_TBB=OFF", "-DINCISE_INSTALL=OFF", "-DINCISE_WERROR=OFF"] + options + arguments,

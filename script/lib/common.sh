@@ -2,8 +2,9 @@
 # Sourced by the scripts beside it. Sets `root`, the top of the tree.
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
 jobs=${INCISE_JOBS:-$(nproc)}
-# Lets clones in other folders share ccache's results.
-export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+# Lets clones in other folders share ccache's results. Not those in folders with a space in their names: ccache leaves such names
+# as they are in its lists of what a source includes, and another clone would build what it has anew each time.
+case $root in *' '*) ;; *) export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 ;; esac
 
 say() { printf '%s\n' "$*" >&2; }
 die() {
