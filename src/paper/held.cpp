@@ -13,6 +13,10 @@ namespace paper {
 Held::Held(const TetMesh& mesh, std::vector<VertexId> front)
     : front_(std::move(front)), vertices_(find_corners_of(mesh, find_tets_at(mesh, front_))) {}
 
+bool Held::is_front(VertexId vertex) const {
+  return std::binary_search(front_.begin(), front_.end(), vertex);
+}
+
 bool Held::holds(VertexId vertex) const {
   return std::binary_search(vertices_.begin(), vertices_.end(), vertex);
 }

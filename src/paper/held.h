@@ -18,6 +18,8 @@ class Held {
   /// `front`: live vertices, ascending. Cost: O(n log n) in the tets around them.
   Held(const TetMesh& mesh, std::vector<VertexId> front);
 
+  /// Whether a vertex is part of the front, whose tets must stay. Cost: O(log).
+  [[nodiscard]] bool is_front(VertexId vertex) const;
   /// Whether a vertex must stay. Cost: O(log).
   [[nodiscard]] bool holds(VertexId vertex) const;
   /// Whether a tet must stay. Cost: O(log).

@@ -23,9 +23,11 @@ MaintainStatistics as_step(TetMesh& mesh, Journal& journal, Stage&& stage) {
   return done;
 }
 
-/// The paper's pipeline behind the incision (Figure 1), around the vertices that count as divided.
+/// The paper's pipeline behind the incision (Figure 1), around the vertices that count as divided; edges are merged
+/// around those of them that are `unmerged`.
 MaintainStatistics maintain(TetMesh& mesh, Journal& journal, const std::vector<VertexId>& divided,
-                            const paper::Held& held, const MaintainOptions& options, StageTimes& times) {
+                            const std::vector<VertexId>& unmerged, const paper::Held& held,
+                            const MaintainOptions& options, StageTimes& times) {
   using namespace paper;
   const auto tets_before = static_cast<std::int64_t>(mesh.tet_count());
   MaintainStatistics done;
@@ -34,7 +36,7 @@ MaintainStatistics maintain(TetMesh& mesh, Journal& journal, const std::vector<V
   }
   if (options.merge) {
     const StageZone zone(times, Stage::kMerge);
-    const std::vector<TetId> tets = find_tets_at(mesh, divided);
+    const std::vector<TetId> tets = find_tets_at(mesh, unmerged);
     done += as_step(mesh, journal, [&](Transaction& t) { return merge_edges(t, tets, {}, held); });
   }
   if (options.improve) {
@@ -55,12 +57,14 @@ MaintainStatistics maintain(TetMesh& mesh, Journal& journal, const std::vector<V
 
 MaintainStatistics maintain_as_paper(TetMesh& mesh, Journal& journal, std::size_t first_step,
                                      const MaintainOptions& options, StageTimes& times) {
-  return maintain(mesh, journal, paper::find_divided_vertices(mesh, journal, first_step), {}, options, times);
+  const std::vector<VertexId> divided = paper::find_divided_vertices(mesh, journal, first_step);
+  return maintain(mesh, journal, divided, divided, {}, options, times);
 }
 
 MaintainStatistics maintain_all_as_paper(TetMesh& mesh, Journal& journal, const MaintainOptions& options,
                                          StageTimes& times) {
-  return maintain(mesh, journal, paper::find_all_vertices(mesh), {}, options, times);
+  const std::vector<VertexId> all = paper::find_all_vertices(mesh);
+  return maintain(mesh, journal, all, all, {}, options, times);
 }
 
 void PaperMaintainer::take_up(std::size_t first_step) {
@@ -69,19 +73,25 @@ void PaperMaintainer::take_up(std::size_t first_step) {
 
 MaintainStatistics PaperMaintainer::run(TetMesh& mesh, Journal& journal, const std::vector<VertexId>& front,
                                         const MaintainOptions& options, StageTimes& times) {
-  std::vector<VertexId> divided = paper::find_live(mesh, waiting_);
+  std::vector<VertexId> divided = paper::find_live(mesh, waiting_), unmerged = paper::find_live(mesh, unmerged_);
   if (has_work()) {
     const std::vector<VertexId> more = paper::find_divided_vertices(mesh, journal, first_step_);
     divided.insert(divided.end(), more.begin(), more.end());
+    unmerged.insert(unmerged.end(), more.begin(), more.end());
   }
-  std::sort(divided.begin(), divided.end());
-  divided.erase(std::unique(divided.begin(), divided.end()), divided.end());
+  for (std::vector<VertexId>* list : {&divided, &unmerged}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
   const paper::Held held(mesh, front);
   first_step_ = kNothing;
-  const MaintainStatistics done = maintain(mesh, journal, divided, held, options, times);
+  const MaintainStatistics done = maintain(mesh, journal, divided, unmerged, held, options, times);
   waiting_.clear();
+  unmerged_.clear();
   for (const VertexId v : divided) {
-    if (mesh.is_live(v) && held.holds(v)) waiting_.emplace_back(v, mesh.generation(v));
+    if (!mesh.is_live(v) || !held.holds(v)) continue;
+    waiting_.emplace_back(v, mesh.generation(v));
+    if (held.is_front(v)) unmerged_.emplace_back(v, mesh.generation(v));
   }
   return done;
 }
@@ -89,6 +99,7 @@ MaintainStatistics PaperMaintainer::run(TetMesh& mesh, Journal& journal, const s
 void PaperMaintainer::forget() {
   first_step_ = kNothing;
   waiting_.clear();
+  unmerged_.clear();
 }
 
 }  // namespace v0

@@ -30,7 +30,8 @@ MaintainStatistics maintain_all_as_paper(TetMesh& mesh, Journal& journal, const 
                                          StageTimes& times);
 
 /// Maintains a mesh stroke by stroke. The paper maintains "after a complete incision": tets around the front of one
-/// that may go on are left for later, and what was divided there waits with them.
+/// that may go on are left for later, and what was divided there waits with them. Merging comes before smoothing: what
+/// it has been asked of once, it is not asked of again, or it would take what smoothing beside a front has made thin.
 class PaperMaintainer {
  public:
   /// The steps of the journal from `first_step` on wait to be maintained.
@@ -51,7 +52,8 @@ class PaperMaintainer {
  private:
   static constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
   std::size_t first_step_ = kNothing;
-  std::vector<std::pair<VertexId, std::uint32_t>> waiting_;  // with their generations
+  std::vector<std::pair<VertexId, std::uint32_t>> waiting_;   // with their generations
+  std::vector<std::pair<VertexId, std::uint32_t>> unmerged_;  // of them those whose tets merging has not been asked of
 };
 
 }  // namespace v0

@@ -125,6 +125,20 @@ TEST(PaperFrames, cut_the_papers_cube_to_1300_tets_in_any_number_of_frames_and_s
   }
 }
 
+TEST(PaperFrames, merge_nothing_that_smoothing_beside_a_front_has_made_thin) {
+  const Blade along_x = [](double t) {
+    return std::vector<Vec3>{Vec3(2 * t - 0.5, 0.5, -0.5), Vec3(2 * t - 0.5, 0.5, 1.5)};
+  };
+  for (const unsigned frames : {4U, 28U}) {
+    for (const unsigned strokes : {2U, 4U, 7U}) {
+      SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes");
+      const Engine engine = cut_in_frames(kuhn_cube(5), along_x, at_rest, frames, strokes, true);
+      EXPECT_EQ(engine.mesh().tet_count(), 1300U);
+      expect_pieces(engine.mesh(), {0.5, 0.5}, 1e-12);
+    }
+  }
+}
+
 TEST(PaperFrames, divide_edges_where_the_blade_crosses_them) {
   for (const auto& [frames, strokes] : kFramesAndStrokes) {
     SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes");
