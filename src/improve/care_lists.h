@@ -29,10 +29,10 @@ struct Hopeless {
   TetId tet;
   double ratio;
   std::uint64_t time;
-  unsigned trials = 0;  ///< of splits at its edges, so far
+  unsigned trials = 0;  ///< so far, of `kTrials`
 
   [[nodiscard]] bool is_worse_than(const Hopeless& o) const { return ratio != o.ratio ? ratio < o.ratio : tet < o.tet; }
-  [[nodiscard]] bool waits_for_trial() const { return ratio < kTried && trials < kEdgeCorners.size(); }
+  [[nodiscard]] bool waits_for_trial() const { return ratio < kTried && trials < kTrials; }
 };
 
 /// A vertex, by slot and generation: slots are used again.

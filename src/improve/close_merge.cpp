@@ -51,6 +51,28 @@ bool CloseMerger::try_merge(Care& care, VertexId from, VertexId into) {
   return try_place(care, q) || try_place(care, p) || try_place(care, 0.5 * (p + q));
 }
 
+std::optional<double> CloseMerger::merge_loosely(Care& care, VertexId from, VertexId into) {
+  planner_.plan(care.mesh, from, into, plan_, Flaps::kTakenAway);
+  if (!plan_ || !begin(care)) return std::nullopt;
+  const Vec3 p = care.mesh.rest(from), q = care.mesh.rest(into);
+  if ((p - q).norm() > kLooselyShort * edge_ || !are_flaps_thin(care)) return std::nullopt;
+  bend_ = kBentWall;
+  const bool is_merged = try_loosely(care, q) || try_loosely(care, p);
+  bend_ = 0;
+  return is_merged ? std::optional(lost6_) : std::nullopt;
+}
+
+/// As `try_place`, but for shapes and for the volume, which it only counts.
+bool CloseMerger::try_loosely(Care& care, const Vec3& place) {
+  lost6_ = 0;
+  for (MovedSide& side : sides_) {
+    side.after[0] = place;
+    lost6_ += (side.before[0] - place).cross(side.before[1] - place).dot(side.before[2] - place);
+  }
+  return stays_positive(care.mesh, plan_, place) && keeps_front(care, place) && keeps_current(care, place) &&
+         keeps_surfaces(care, place) && carry_out(care, place);
+}
+
 /// Whether what stands out between two walls is so thin that these may give way to each other.
 bool CloseMerger::are_flaps_thin(const Care& care) const {
   if (plan_.flaps.empty()) return true;
@@ -62,8 +84,9 @@ bool CloseMerger::are_flaps_thin(const Care& care) const {
 
 /// Whether neither end moves too far where it is part of a front.
 bool CloseMerger::keeps_front(const Care& care, const Vec3& place) const {
+  const double reach = std::max(kFrontReach * edge_, bend_ > 0 ? bend_ * care.references.sizes().at(place) : 0.0);
   const auto keeps = [&](VertexId v) {
-    return (care.mesh.shape_of(v) & shape::kFront) == 0 || (care.mesh.rest(v) - place).norm() <= kFrontReach * edge_;
+    return (care.mesh.shape_of(v) & shape::kFront) == 0 || (care.mesh.rest(v) - place).norm() <= reach;
   };
   return keeps(plan_.from) && keeps(plan_.into);
 }
@@ -166,13 +189,15 @@ bool CloseMerger::keeps_tag(Care& care, std::uint32_t tag, const Vec3& place) {
   }
   if (after_.facets.empty()) return false;
   after_.samples.push_back(place);
-  const double tolerance = surface_tolerance(care, tag, plan_.from, edge_);
+  double tolerance = surface_tolerance(care, tag, plan_.from, edge_);
+  const double bend = bend_ > 0 ? bend_ * care.references.sizes().at(place) : 0.0;
+  if (tag != 0) tolerance = std::max(tolerance, bend);
   const auto keeps_end = [&](const Vec3& end) {
     return !is_on(before_, end) || care.references.allows_apex(tag, end, place, tolerance, edge_, skin_share(care));
   };
   Reach reach;
   return keeps_end(care.mesh.rest(plan_.from)) && keeps_end(care.mesh.rest(plan_.into)) &&
-         care.references.allows(tag, before_, after_, tolerance, reach, skin_share(care));
+         care.references.allows(tag, before_, after_, tolerance, reach, skin_share(care), bend);
 }
 
 /// Whether tets that stand upright now stay so.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,13 @@ class CloseMerger {
   /// an edge that is short enough. **Source:** as `EdgeCollapser`; geometry decides in place of classes.
   bool improve(Care& care, TetId tet);
 
+  /// Merges a vertex into a neighbour, at the place of either, whatever that does to the shape of tets and to the
+  /// volume: a step of a trial (`Trial`). Edges are short up to `kLooselyShort` here, and besides what `improve` allows
+  /// walls and fronts may leave their place, and skin its rim at a wall, by `kBentWall` of the edges that the body came
+  /// with, as far as snapping bends them. No tet is inverted, at rest or now. Returns six times the volume that the
+  /// body lost, none where nothing was done. Cost: as `improve`.
+  std::optional<double> merge_loosely(Care& care, VertexId from, VertexId into);
+
  private:
   /// A boundary facet of either star, the merged vertex first, and the same before.
   struct MovedSide {
@@ -40,6 +48,7 @@ class CloseMerger {
   [[nodiscard]] bool begin(Care& care);
   void collect_sides(const Care& care);
   bool try_place(Care& care, Vec3 place);
+  bool try_loosely(Care& care, const Vec3& place);
   [[nodiscard]] bool are_flaps_thin(const Care& care) const;
   [[nodiscard]] bool keeps_front(const Care& care, const Vec3& place) const;
   bool restore_volume(Vec3& place);
@@ -56,6 +65,8 @@ class CloseMerger {
   std::vector<std::uint32_t> tags_;
   double worst_ = 0, edge_ = 0;  // of the stars: ratio, mean length
   Piece before_, after_;
+  double bend_ = 0;   // of the edges that the body came with: how far walls and fronts may leave their place besides
+  double lost6_ = 0;  // six times the volume that a merge for trial took
 };
 
 }  // namespace v0

@@ -22,6 +22,9 @@ inline constexpr double kGoal = kRegularLr / 11.0;
 inline constexpr double kBadQuality = kRegularLr / 18.0;
 /// Tets with an L/r above 22 that no single operation mends are split for trial. More tets take more work in vain.
 inline constexpr double kTried = kRegularLr / 22.0;
+/// Tets with an L/r above 24.5 are tried harder: their trials split more edges, and merge vertices, for which walls may
+/// bend. A better one costs vertices for tets that are good enough.
+inline constexpr double kTriedHard = kRegularLr / 24.5;
 
 // --- what an operation must gain, as a share of the worst quality before it
 
@@ -48,6 +51,11 @@ inline constexpr double kSkinTolerance = 0.01, kSeamSkinTolerance = 0.015, kBadS
 /// To mend bad tets walls and skin may leave their place by this share of the edges that the body came with, however
 /// short cuts have made those that stand there now.
 inline constexpr double kOriginalTolerance = 0.03;
+/// Walls, fronts and rims of skin where tets are tried harder: as far as snapping bends a wall. It is a share of
+/// the edges that the body came with, as is the next one.
+inline constexpr double kBentWall = 0.1;
+/// A vertex that gives back volume that a merge for trial took.
+inline constexpr double kReturn = 0.03;
 /// Cut walls from the sweep of their stroke.
 inline constexpr double kWallTolerance = 0.012;
 /// However coarse a wall is.
@@ -101,8 +109,8 @@ inline constexpr std::size_t kNeighboursTried = 8;
 inline constexpr double kLengthCap = 1.5;
 /// What a lip may lose to the other at a front: six times the volume, as a share of the longest edge cubed. Rounding.
 inline constexpr double kFrontVolume = 1e-12;
-/// Edges of at most this share of the mean edge around them are short.
-inline constexpr double kShort = 0.15;
+/// Edges of at most this share of the mean edge around them are short; in trials up to the second one.
+inline constexpr double kShort = 0.15, kLooselyShort = 0.3;
 /// A facet whose height is below this share of the mean edge may turn as it likes: it has no direction to speak of.
 inline constexpr double kLeastHeight = 0.05;
 /// A loss of volume below this share of the mean edge cubed is rounding.
@@ -126,16 +134,19 @@ inline constexpr unsigned kNewtonSteps = 6;
 
 // --- how much work
 
+/// The trials of a tet: merges along its six edges, both ways, and splits of them.
+inline constexpr unsigned kMergeTrials = 12, kTrials = 18;
 /// A tet with a vertex that so many trials in turn led to is left as it is: nothing may be refined for ever.
 inline constexpr unsigned kMostSplits = 4;
-/// So many edges are split in one trial.
-inline constexpr unsigned kSplits = 2;
-/// Units of work after which a trial ends, 2.5 ms; nine in ten take less.
-inline constexpr std::uint64_t kMostWork = 25'000;
-/// Trials may take this share of the work that all else took, and so many units besides, 5 ms: where a body was bad
+/// So many edges are split in one trial, for a tet that is tried harder and for others. Around an edge that is short
+/// for good all that lead away from it must be.
+inline constexpr unsigned kSplits = 8, kFewSplits = 2;
+/// Units of work after which a trial ends, 3 ms; nine in ten take less.
+inline constexpr std::uint64_t kMostWork = 30'000;
+/// Trials may take this share of the work that all else took, and so many units besides, 40 ms: where a body was bad
 /// before it was cut, few of them help.
 inline constexpr double kTrialShare = 0.5;
-inline constexpr std::uint64_t kTrialWork = 50'000;
+inline constexpr std::uint64_t kTrialWork = 400'000;
 /// Vertices that cuts made are tried so often: a merge makes room for others.
 inline constexpr unsigned kThinningRounds = 3;
 /// The end of an older cut is dense so many rings of vertices behind the seam.

@@ -74,7 +74,7 @@ MaintainStatistics Maintainer::run(TetMesh& mesh, Journal& journal, std::uint64_
     if (is_due()) {
       run_step(mesh, journal, times);
       if (!is_due()) take_hopeless(mesh);
-    } else if (is_locked || !try_next_split(mesh, journal, times)) {
+    } else if (is_locked || !try_next(mesh, journal, times)) {
       break;
     }
   }
@@ -360,21 +360,21 @@ unsigned Maintainer::splits_at(const TetMesh& mesh, TetId tet) const {
   return splits;
 }
 
-/// The worst of the tets that nothing mends is split at its next edge for trial. Returns false when none is left.
-bool Maintainer::try_next_split(TetMesh& mesh, Journal& journal, StageTimes& times) {
+/// The next trial of the worst of the tets that nothing mends. Returns false when none is left.
+bool Maintainer::try_next(TetMesh& mesh, Journal& journal, StageTimes& times) {
   const StageZone zone(times, Stage::kImprove);
   const double most = kTrialShare * static_cast<double>(other_work_) + static_cast<double>(kTrialWork);
   const bool may_try = options_.improve && static_cast<double>(trial_work_) < most;
   Hopeless* const next = may_try ? find_trial(mesh) : nullptr;
   if (next == nullptr) {
-    for (Hopeless& entry : hopeless_) entry.trials = kEdgeCorners.size();  // gone, or not to be improved
+    for (Hopeless& entry : hopeless_) entry.trials = kTrials;  // gone, or not to be improved
     return false;
   }
   Transaction transaction(mesh, true);
   Care care{transaction, mesh, references_, walker_, statistics_, true, {}, changed_, is_locked_};
   const MaintainStatistics before = statistics_;
   const unsigned splits = splits_at(mesh, next->tet) + 1;
-  if (trial_.improve(care, next->tet, next->trials++)) {
+  if (try_on(care, next->tet, next->trials++)) {
     for (const VertexId born : trial_.born()) {
       take_born(born);
       splits_.ensure(std::size_t{born.value} + 1);
@@ -389,6 +389,12 @@ bool Maintainer::try_next_split(TetMesh& mesh, Journal& journal, StageTimes& tim
   statistics_ = before;  // the transaction is rolled back
   statistics_.work_units = spent;
   return true;
+}
+
+/// One of the trials of a tet: merges along its edges, both ways, and then splits.
+bool Maintainer::try_on(Care& care, TetId tet, unsigned trial) {
+  return trial < kMergeTrials ? trial_.merge(care, tet, trial / 2, trial % 2 != 0)
+                              : trial_.split(care, tet, trial - kMergeTrials);
 }
 
 void Maintainer::take_born(VertexId vertex) {

@@ -11,7 +11,7 @@
 #include "improve/edge_collapse.h"
 #include "improve/reference.h"
 #include "improve/remedies.h"
-#include "improve/split_trial.h"
+#include "improve/trial.h"
 #include "incise/core/profile.h"
 #include "incise/geom/triangle_tree.h"
 #include "incise/improve/options.h"
@@ -99,7 +99,8 @@ class Maintainer {
   Hopeless* find_trial(const TetMesh& mesh);
   static bool is_of_cut(const TetMesh& mesh, TetId tet);
   [[nodiscard]] unsigned splits_at(const TetMesh& mesh, TetId tet) const;
-  bool try_next_split(TetMesh& mesh, Journal& journal, StageTimes& times);
+  bool try_next(TetMesh& mesh, Journal& journal, StageTimes& times);
+  bool try_on(Care& care, TetId tet, unsigned trial);
   void take_born(VertexId vertex);
   void requeue(Care& care);
 
@@ -131,7 +132,7 @@ class Maintainer {
   StarWalker walker_;
   Remedies remedies_;
   EdgeCollapser collapser_;  // of what is thinned out
-  SplitTrial trial_;
+  Trial trial_;
 };
 
 }  // namespace v0

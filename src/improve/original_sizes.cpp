@@ -62,7 +62,23 @@ double OriginalSizes::at(const Vec3& place) const {
     const auto mean = means_.find(cell_of(place, level));
     if (mean != means_.end()) return mean->second.sum / mean->second.count;
   }
-  return 0.0;
+  return levels_.empty() ? 0.0 : beside(cell_of(place, levels_.back()));
+}
+
+/// Of the cells beside one: rounding takes vertices of the skin across the faces of cells.
+double OriginalSizes::beside(const Cell& cell) const {
+  Mean sum;
+  for (std::int64_t x = -1; x <= 1; ++x) {
+    for (std::int64_t y = -1; y <= 1; ++y) {
+      for (std::int64_t z = -1; z <= 1; ++z) {
+        const auto mean = means_.find({cell.level, {cell.at[0] + x, cell.at[1] + y, cell.at[2] + z}});
+        if (mean == means_.end()) continue;
+        sum.sum += mean->second.sum;
+        sum.count += mean->second.count;
+      }
+    }
+  }
+  return sum.count > 0 ? sum.sum / sum.count : 0.0;
 }
 
 }  // namespace v0

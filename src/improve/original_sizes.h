@@ -41,6 +41,7 @@ class OriginalSizes {
   };
 
   static Cell cell_of(const Vec3& place, int level);
+  [[nodiscard]] double beside(const Cell& cell) const;
 
   std::unordered_map<Cell, Mean, CellHash> means_;  // looked up, never iterated
   std::vector<int> levels_;                         // in use, the finest first

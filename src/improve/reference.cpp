@@ -123,10 +123,11 @@ bool References::allows_apex(std::uint32_t tag, const Vec3& old_place, const Vec
 }
 
 bool References::allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance, Reach& reach,
-                        double skin_share) const {
+                        double skin_share, double retreat) const {
   const auto sweep = sweeps_.find(tag);
   if (sweep == sweeps_.end()) {
-    return are_near(after, before, tolerance * tolerance) && are_near(before, after, tolerance * tolerance) &&
+    const double left = tag == 0 ? std::max(tolerance, retreat) : tolerance;
+    return are_near(after, before, tolerance * tolerance) && are_near(before, after, left * left) &&
            (tag != 0 || skin_.keeps(before, after, skin_share));
   }
   return std::all_of(after.samples.begin(), after.samples.end(), [&](const Vec3& p) {

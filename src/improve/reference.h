@@ -54,7 +54,7 @@ class References {
   /// skin with the skin as it was besides, from which it may lie `skin_share` of the local edge. `reach` is that of
   /// `before`. Cost: O(samples), or O(samples·facets).
   [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance, Reach& reach,
-                            double skin_share = kSkinTolerance) const;
+                            double skin_share = kSkinTolerance, double retreat = 0) const;
 
   /// The same for a vertex of the surface that moves: it may lie as far from the reference as it did, or as the facets
   /// of a fresh wall with this mean edge do; on skin see `OriginalSkin::keeps_vertex`. True where there is no

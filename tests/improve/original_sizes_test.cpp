@@ -25,6 +25,16 @@ TEST(OriginalSizes, are_about_the_mean_edge_everywhere_in_a_body) {
   for (unsigned i = 0; i < 500; ++i) EXPECT_NEAR(sizes.at(random.point(0, 1)), edge, 0.15 * edge);
 }
 
+TEST(OriginalSizes, are_known_a_rounding_error_outside_of_the_body) {
+  const TetMesh mesh = build(kuhn_cube(3));
+  OriginalSizes sizes;
+  sizes.measure(mesh);
+  const double edge = mean_edge_length(mesh);
+  for (const Vec3& place : {Vec3(-1e-18, 0.5, 0.5), Vec3(0.5, -1e-18, -1e-18), Vec3(-1e-18, -1e-18, -1e-18)}) {
+    EXPECT_NEAR(sizes.at(place), edge, 0.15 * edge);
+  }
+}
+
 TEST(OriginalSizes, of_a_graded_body_are_its_own_in_each_place) {
   TetSoup soup = kuhn_cube(16);
   for (Vec3& p : soup.points) p = Vec3(p.x() * p.x() * p.x() * p.x(), 0.01 * p.y(), 0.01 * p.z());

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "improve/split_trial.h"
+#include "improve/trial.h"
 
 #include <algorithm>
 
 #include "improve/constants.h"
+#include "improve/volume_return.h"
 
 namespace incise {
 inline namespace v0 {
@@ -18,29 +19,54 @@ unsigned longest_edge_of(const TetMesh& mesh, TetId tet) {
   return static_cast<unsigned>(longest - kEdgeCorners.begin());
 }
 
+/// What all tets touched by a trial must be better than.
+double bound_of(double before) {
+  return std::max((1.0 + kLeastTrialGain) * before, kLeastRatio);
+}
+
 }  // namespace
 
-bool SplitTrial::improve(Care& care, TetId tet, unsigned edge) {
-  const double before = inradius_ratio(care.mesh, care.mesh.vertices(tet));
-  const double bound = std::max((1.0 + kLeastTrialGain) * before, kLeastRatio);
-  touched_.clear();
-  born_.clear();
-  last_unit_ = care.statistics.work_units + kMostWork;
-  for (unsigned i = 0; i < kSplits && split(care, tet, edge); ++i) {
+bool Trial::split(Care& care, TetId tet, unsigned edge) {
+  const double before = inradius_ratio(care.mesh, care.mesh.vertices(tet)), bound = bound_of(before);
+  const unsigned most = before < kTriedHard ? kSplits : kFewSplits;
+  begin(care);
+  for (unsigned i = 0; i < most && split_edge(care, tet, edge); ++i) {
     mend(care);
     const Waiting worst = find_worst(care.mesh);
-    if (worst.ratio > bound) {
-      care.changed = touched_;
-      return true;
-    }
+    if (worst.ratio > bound) return accept(care);
     tet = worst.tet;
     edge = longest_edge_of(care.mesh, tet);
   }
   return false;
 }
 
+bool Trial::merge(Care& care, TetId tet, unsigned edge, bool is_turned) {
+  const double before = inradius_ratio(care.mesh, care.mesh.vertices(tet));
+  const TetVertices& v = care.mesh.vertices(tet);
+  VertexId from = v[kEdgeCorners[edge][0]], into = v[kEdgeCorners[edge][1]];
+  if (is_turned) std::swap(from, into);
+  begin(care);
+  if (!(before < kTriedHard)) return false;
+  const std::optional<double> lost6 = merger_.merge_loosely(care, from, into);
+  if (!lost6 || !return_volume(care, into, *lost6)) return false;
+  take_changed(care);
+  mend(care);
+  return find_worst(care.mesh).ratio > bound_of(before) && accept(care);
+}
+
+void Trial::begin(const Care& care) {
+  touched_.clear();
+  born_.clear();
+  last_unit_ = care.statistics.work_units + kMostWork;
+}
+
+bool Trial::accept(Care& care) {
+  care.changed = touched_;
+  return true;
+}
+
 /// Puts a vertex into the middle of an edge, whatever that makes; false where that may not be.
-bool SplitTrial::split(Care& care, TetId tet, unsigned edge) {
+bool Trial::split_edge(Care& care, TetId tet, unsigned edge) {
   const TetVertices& v = care.mesh.vertices(tet);
   const std::array<VertexId, 2> ends = {v[kEdgeCorners[edge][0]], v[kEdgeCorners[edge][1]]};
   if ((care.mesh.shape_of(ends[0]) & care.mesh.shape_of(ends[1]) & shape::kPinched) != 0) return false;
@@ -63,7 +89,7 @@ bool SplitTrial::split(Care& care, TetId tet, unsigned edge) {
 }
 
 /// Whether the lips of a cut meet at an edge.
-bool SplitTrial::is_at_front(const TetMesh& mesh, const std::array<VertexId, 2>& ends, TetId tet) {
+bool Trial::is_at_front(const TetMesh& mesh, const std::array<VertexId, 2>& ends, TetId tet) {
   if ((mesh.shape_of(ends[0]) & mesh.shape_of(ends[1]) & shape::kFront) == 0) return false;
   find_edge_ring(mesh, ends[0], ends[1], tet, ring_);
   if (ring_.is_closed || ring_.tets.empty()) return false;
@@ -74,7 +100,7 @@ bool SplitTrial::is_at_front(const TetMesh& mesh, const std::array<VertexId, 2>&
 }
 
 /// Hill climbing around what was split: the worst tet first.
-void SplitTrial::mend(Care& care) {
+void Trial::mend(Care& care) {
   while (!heap_.empty() && care.statistics.work_units < last_unit_) {
     std::pop_heap(heap_.begin(), heap_.end());
     const Waiting worst = heap_.back();
@@ -87,13 +113,13 @@ void SplitTrial::mend(Care& care) {
   heap_.clear();
 }
 
-bool SplitTrial::mend_one(Care& care, TetId tet) {
+bool Trial::mend_one(Care& care, TetId tet) {
   const TetVertices v = care.mesh.vertices(tet);
   return remover_.improve(care, tet) || face_remover_.improve(care, tet) ||
          std::any_of(v.begin(), v.end(), [&](VertexId id) { return smoother_.improve(care, id); });
 }
 
-void SplitTrial::take_changed(const Care& care) {
+void Trial::take_changed(const Care& care) {
   for (const TetId tet : care.changed) {
     touched_.push_back(tet);
     const double ratio = inradius_ratio(care.mesh, care.mesh.vertices(tet));
@@ -104,7 +130,7 @@ void SplitTrial::take_changed(const Care& care) {
 }
 
 /// The worst of what is left of the tets touched, which it tidies: the live ones, each once.
-SplitTrial::Waiting SplitTrial::find_worst(const TetMesh& mesh) {
+Trial::Waiting Trial::find_worst(const TetMesh& mesh) {
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   std::erase_if(touched_, [&](TetId tet) { return !mesh.is_live(tet); });
