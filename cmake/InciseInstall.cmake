@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # `incise::incise`: every module at once, in the build tree and, installed, through find_package(incise).
 get_property(incise_built GLOBAL PROPERTY INCISE_BUILT_MODULES)
-list(REMOVE_ITEM incise_built app session render)  # the front ends' libraries are no part of the engine
+list(REMOVE_ITEM incise_built mesh_app app session render)  # the front ends' libraries are no part of the engine
 add_library(incise INTERFACE)
 add_library(incise::incise ALIAS incise)
 foreach(module IN LISTS incise_built)

@@ -12,7 +12,6 @@
 #include "app/jobs/cut_job.h"
 #include "app/model/fine_file.h"
 #include "app/scene/blade_file.h"
-#include "app/scene/scene_simulation.h"
 #include "command.h"
 #include "command_options.h"
 #include "command_support.h"

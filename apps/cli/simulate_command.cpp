@@ -9,6 +9,7 @@
 #include "app/scene/exercise_page.h"
 #include "app/scene/scene_simulation.h"
 #include "app/text/text_file.h"
+#include "app/view/scene_fine_view.h"
 #include "command.h"
 #include "command_options.h"
 #include "command_support.h"

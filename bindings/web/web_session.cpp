@@ -8,6 +8,7 @@
 #include "app/scene/view_names.h"
 #include "app/view/drapes.h"
 #include "app/view/scene_camera.h"
+#include "app/view/scene_fine_view.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/bounds.h"

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "app/scene/scene_simulation.h"
+#include "app/model/find_regions.h"
 #include "app/scene/stroke_reader.h"
 #include "app/text/json_tree.h"
 #include "app/text/text_file.h"

@@ -2,11 +2,11 @@
 #include "app/scene/scene_simulation.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
+#include "app/model/find_regions.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/join.h"
 #include "incise/mesh/shapes.h"
@@ -49,17 +49,6 @@ void name_regions(const std::vector<RegionPaint>& regions, io::RegionNames& name
   }
 }
 
-bool is_same_name(const std::string& a, const std::string& b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
-}
-
-std::string list_of(const io::RegionNames& names) {
-  std::string list;
-  for (const auto& [region, name] : names) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "none has a name" : "there are " + list;
-}
-
 bool has_material(const Materials& materials, std::int32_t region) {
   return std::any_of(materials.by_region.begin(), materials.by_region.end(),
                      [&](const Materials::Entry& e) { return e.region == region; });
@@ -68,19 +57,15 @@ bool has_material(const Materials& materials, std::int32_t region) {
 Status resolve_materials(const io::RegionNames& names, Scene& scene) {
   Materials& materials = scene.options.materials;
   for (const NamedMaterial& named : scene.named_materials) {
-    bool is_found = false;
-    for (const auto& [region, name] : names) {
-      if (!is_same_name(name, named.region)) continue;
-      is_found = true;
+    const Result<std::vector<std::int32_t>> regions = find_regions(named.region, names);
+    if (!regions.ok()) return Error{ErrorCode::kBadFile, "materials: " + regions.error().message};
+    for (const std::int32_t region : *regions) {
       if (has_material(materials, region)) {
-        return Error{ErrorCode::kBadFile, "materials: the region \"" + name + "\", " + std::to_string(region) +
-                                              ", is named twice; name it once"};
+        return Error{ErrorCode::kBadFile, "materials: the region \"" + names.at(region) + "\", " +
+                                              std::to_string(region) + ", is named twice; name it once"};
       }
       materials.by_region.push_back({region, named.material});
     }
-    if (is_found) continue;
-    return Error{ErrorCode::kBadFile,
-                 "materials: no region of the model is called \"" + named.region + "\"; " + list_of(names)};
   }
   for (const auto& [region, name] : names) {
     const Tissue* tissue = scene.has_materials_by_name ? tissue_of_region_name(name) : nullptr;
@@ -253,15 +238,6 @@ Status check_blades(const Scene& scene, const TetMesh& mesh) {
 }
 
 }  // namespace
-
-Result<std::vector<std::int32_t>> find_regions(const std::string& name, const io::RegionNames& names) {
-  std::vector<std::int32_t> regions;
-  for (const auto& [region, other] : names) {
-    if (is_same_name(name, other)) regions.push_back(region);
-  }
-  if (!regions.empty()) return regions;
-  return Error{ErrorCode::kBadFile, "no region of the model is called \"" + name + "\"; " + list_of(names)};
-}
 
 Result<fs::path> find_model(const Scene& scene) {
   return find_model(scene, scene.model.file);

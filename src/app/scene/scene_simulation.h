@@ -30,9 +30,6 @@ namespace app {
 /// Errors: besides kBadFile for a region that no name stands for.
 [[nodiscard]] Result<io::LoadedMesh> take_model(Scene& scene);
 
-/// The numbers of all regions of a name, in upper or lower case. Errors: kBadFile, with the names that there are.
-[[nodiscard]] Result<std::vector<std::int32_t>> find_regions(const std::string& name, const io::RegionNames& names);
-
 /// The vertices that an attachment holds, by their rest positions, in the order of their slots. Cost: O(tets).
 [[nodiscard]] std::vector<VertexId> find_attached(const TetMesh& mesh, const Attachment& attachment);
 

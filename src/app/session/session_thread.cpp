@@ -14,7 +14,7 @@
 #include "app/jobs/cut_job.h"
 #include "app/text/text_file.h"
 #include "app/view/exercise_marks.h"
-#include "app/view/fine_view.h"
+#include "app/view/scene_fine_view.h"
 #include "incise/core/triple_buffer.h"
 #include "incise/mesh/bounds.h"
 

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "app/scene/scene.h"
 #include "app/view/surface_view.h"
 #include "incise/mesh/drawn_surface.h"
 #include "incise/mesh/embedded_surface.h"
@@ -53,11 +52,6 @@ class FineView {
   std::uint64_t version_ = 0;
   std::vector<Depth> depths_;  // of points of walls
 };
-
-/// The fine surface that a scene's model names, bound to its mesh as it stands; none where it names none. Errors: as
-/// `find_model`, `read_fine_surface` and `EmbeddedSurface::bind`.
-[[nodiscard]] Result<std::optional<FineView>> fine_view_of(const Scene& scene, const TetMesh& mesh,
-                                                           const Journal& journal);
 
 }  // namespace app
 }  // namespace v0

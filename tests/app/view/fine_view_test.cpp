@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "app/scene/scene.h"
+#include "app/view/scene_fine_view.h"
 #include "incise/engine/engine.h"
 #include "incise/mesh/shapes.h"
 #include "support/fine_surfaces.h"
