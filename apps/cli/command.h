@@ -2,12 +2,14 @@
 // A command of the program: what it is called, what it takes, what it does.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
-#include <string>
-#include <vector>
+#include <span>
 
 #include "terminal.h"
+
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's
+class App;
+}  // namespace CLI
 
 namespace incise_cli {
 
@@ -20,7 +22,7 @@ struct Command {
 /// Adds a command to the program.
 using AddCommand = Command (*)(CLI::App& root);
 
-/// Adds all commands; what is read here, `--help`, the manual pages and the completion all tell.
-std::vector<Command> add_commands(CLI::App& root);
+/// The commands of this program, in the order of the help.
+std::span<const AddCommand> command_table();
 
 }  // namespace incise_cli

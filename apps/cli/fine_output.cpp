@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fine_output.h"
 
+#include <CLI/CLI.hpp>
 #include <utility>
 
 #include "app/model/fine_file.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command `incise`: reads arguments, runs one command, returns its exit code.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -14,6 +15,23 @@
 
 namespace incise_cli {
 namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 1 failure, 2 usage, 3 bad input, 4 a check failed, 5 no display, 130 interrupted.\n"
+    "Formats: .mesh .msh .vtk .vtu .node/.ele .veg .inp, tetrahedral .ply (read only); all also gzipped.\n"
+    "- for a mesh reads it from stdin, and -o - writes it to stdout, with --format.";
+
+/// Adds all commands; what is read here, `--help`, the manual pages and the completion all tell.
+std::vector<Command> add_commands(CLI::App& root) {
+  root.require_subcommand(1);
+  root.footer(std::string("incise help COMMAND tells more of a command.\n\nExamples:\n  incise info liver.msh\n  "
+                          "incise cut cube.mesh --plane 1,0,0,0.5 -o halves.vtu\n"
+                          "  incise improve halves.vtu -o better.vtu\n  incise help cut\n\n") +
+              kExitCodes);
+  std::vector<Command> commands;
+  for (const AddCommand add : command_table()) commands.push_back(add(root));
+  return commands;
+}
 
 int run(int argc, char** argv) {
   CLI::App root("incise cuts tetrahedral meshes", "incise");
