@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands of incise_first, which script/demo builds and runs before the rest is compiled
-// (docs/decisions/0154).
+// (docs/decisions/0155).
 #include <array>
 
 #include "command.h"
