@@ -44,31 +44,30 @@ bool CloseMerger::improve(Care& care, TetId tet) {
 }
 
 bool CloseMerger::try_merge(Care& care, VertexId from, VertexId into) {
-  planner_.plan(care.mesh, from, into, plan_, Flaps::kTakenAway);
-  if (!plan_ || !begin(care)) return false;
   const Vec3 p = care.mesh.rest(from), q = care.mesh.rest(into);
-  if ((p - q).norm() > kShort * edge_ || !are_flaps_thin(care)) return false;
+  if (!are_close(care, from, into, kShort)) return false;
   return try_place(care, q) || try_place(care, p) || try_place(care, 0.5 * (p + q));
 }
 
 std::optional<double> CloseMerger::merge_loosely(Care& care, VertexId from, VertexId into) {
-  planner_.plan(care.mesh, from, into, plan_, Flaps::kTakenAway);
-  if (!plan_ || !begin(care)) return std::nullopt;
   const Vec3 p = care.mesh.rest(from), q = care.mesh.rest(into);
-  if ((p - q).norm() > kLooselyShort * edge_ || !are_flaps_thin(care)) return std::nullopt;
+  if (!are_close(care, from, into, kLooselyShort)) return std::nullopt;
   bend_ = kBentWall;
   const bool is_merged = try_loosely(care, q) || try_loosely(care, p);
   bend_ = 0;
   return is_merged ? std::optional(lost6_) : std::nullopt;
 }
 
+/// Plans the merge of two vertices; false where it may not be, or they are further apart than a share of the mean edge.
+bool CloseMerger::are_close(Care& care, VertexId from, VertexId into, double share) {
+  planner_.plan(care.mesh, from, into, plan_, Flaps::kTakenAway);
+  return plan_ && begin(care) && (care.mesh.rest(from) - care.mesh.rest(into)).norm() <= share * edge_ &&
+         are_flaps_thin(care);
+}
+
 /// As `try_place`, but for shapes and for the volume, which it only counts.
 bool CloseMerger::try_loosely(Care& care, const Vec3& place) {
-  lost6_ = 0;
-  for (MovedSide& side : sides_) {
-    side.after[0] = place;
-    lost6_ += (side.before[0] - place).cross(side.before[1] - place).dot(side.before[2] - place);
-  }
+  lost6_ = put(place);
   return stays_positive(care.mesh, plan_, place) && keeps_front(care, place) && keeps_current(care, place) &&
          keeps_surfaces(care, place) && carry_out(care, place);
 }
@@ -84,7 +83,7 @@ bool CloseMerger::are_flaps_thin(const Care& care) const {
 
 /// Whether neither end moves too far where it is part of a front.
 bool CloseMerger::keeps_front(const Care& care, const Vec3& place) const {
-  const double reach = std::max(kFrontReach * edge_, bend_ > 0 ? bend_ * care.references.sizes().at(place) : 0.0);
+  const double reach = std::max(kFrontReach * edge_, bend_at(care, place));
   const auto keeps = [&](VertexId v) {
     return (care.mesh.shape_of(v) & shape::kFront) == 0 || (care.mesh.rest(v) - place).norm() <= reach;
   };
@@ -137,15 +136,29 @@ bool CloseMerger::try_place(Care& care, Vec3 place) {
          keeps_surfaces(care, place) && carry_out(care, place);
 }
 
+/// Puts the merged vertex in a place. Returns six times the volume that both stars lose: what facets enclose with the
+/// place itself, since none of those that stay have any.
+double CloseMerger::put(const Vec3& place) {
+  double lost6 = 0;
+  for (MovedSide& side : sides_) {
+    side.after[0] = place;
+    lost6 += (side.before[0] - place).cross(side.before[1] - place).dot(side.before[2] - place);
+  }
+  return lost6;
+}
+
+/// How far walls, fronts and rims of skin may leave their place besides, in the mesh's unit: in trials alone.
+double CloseMerger::bend_at(const Care& care, const Vec3& place) const {
+  return bend_ > 0 ? bend_ * care.references.sizes().at(place) : 0.0;
+}
+
 /// Moves the merged vertex to where both stars have the volume that they had: it is linear in the vertex, with the sum
 /// of the vector areas around it as gradient.
 bool CloseMerger::restore_volume(Vec3& place) {
-  double lost6 = 0, scale = 0;
+  const double lost6 = put(place);
+  double scale = 0;
   Vec3 area2 = Vec3::Zero();
-  for (MovedSide& side : sides_) {
-    side.after[0] = place;
-    // The volume that facets enclose with the place itself: none of those that stay have any.
-    lost6 += (side.before[0] - place).cross(side.before[1] - place).dot(side.before[2] - place);
+  for (const MovedSide& side : sides_) {
     if (!side.stays) continue;
     area2 += vector_area2(side.after);
     scale += vector_area2(side.after).norm();
@@ -189,9 +202,8 @@ bool CloseMerger::keeps_tag(Care& care, std::uint32_t tag, const Vec3& place) {
   }
   if (after_.facets.empty()) return false;
   after_.samples.push_back(place);
-  double tolerance = surface_tolerance(care, tag, plan_.from, edge_);
-  const double bend = bend_ > 0 ? bend_ * care.references.sizes().at(place) : 0.0;
-  if (tag != 0) tolerance = std::max(tolerance, bend);
+  const double bend = bend_at(care, place), own = surface_tolerance(care, tag, plan_.from, edge_);
+  const double tolerance = tag == 0 ? own : std::max(own, bend);
   const auto keeps_end = [&](const Vec3& end) {
     return !is_on(before_, end) || care.references.allows_apex(tag, end, place, tolerance, edge_, skin_share(care));
   };

@@ -49,6 +49,9 @@ class CloseMerger {
   void collect_sides(const Care& care);
   bool try_place(Care& care, Vec3 place);
   bool try_loosely(Care& care, const Vec3& place);
+  bool are_close(Care& care, VertexId from, VertexId into, double share);
+  double put(const Vec3& place);
+  [[nodiscard]] double bend_at(const Care& care, const Vec3& place) const;
   [[nodiscard]] bool are_flaps_thin(const Care& care) const;
   [[nodiscard]] bool keeps_front(const Care& care, const Vec3& place) const;
   bool restore_volume(Vec3& place);

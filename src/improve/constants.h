@@ -141,7 +141,7 @@ inline constexpr unsigned kMostSplits = 4;
 /// So many edges are split in one trial, for a tet that is tried harder and for others. Around an edge that is short
 /// for good all that lead away from it must be.
 inline constexpr unsigned kSplits = 8, kFewSplits = 2;
-/// Units of work after which a trial ends, 3 ms; nine in ten take less.
+/// Units of work after which a trial ends, 3 ms.
 inline constexpr std::uint64_t kMostWork = 30'000;
 /// Trials may take this share of the work that all else took, and so many units besides, 40 ms: where a body was bad
 /// before it was cut, few of them help.

@@ -393,8 +393,8 @@ bool Maintainer::try_next(TetMesh& mesh, Journal& journal, StageTimes& times) {
 
 /// One of the trials of a tet: merges along its edges, both ways, and then splits.
 bool Maintainer::try_on(Care& care, TetId tet, unsigned trial) {
-  return trial < kMergeTrials ? trial_.merge(care, tet, trial / 2, trial % 2 != 0)
-                              : trial_.split(care, tet, trial - kMergeTrials);
+  if (trial >= kMergeTrials) return trial_.split(care, tet, trial - kMergeTrials);
+  return options_.merge && trial_.merge(care, tet, trial / 2, trial % 2 != 0);
 }
 
 void Maintainer::take_born(VertexId vertex) {

@@ -51,8 +51,9 @@ class References {
 
   /// Whether the surface under a tag may change from `before` to `after`: no sample of `after` lies further from the
   /// reference than `tolerance`, or than `before` did. Where there is no sweep the pieces are compared with each other,
-  /// skin with the skin as it was besides, from which it may lie `skin_share` of the local edge. `reach` is that of
-  /// `before`. Cost: O(samples), or O(samples·facets).
+  /// skin with the skin as it was besides, from which it may lie `skin_share` of the local edge; its rim may draw back
+  /// by `retreat`, in the mesh's unit, where that is more than `tolerance`. `reach` is that of `before`. Cost:
+  /// O(samples), or O(samples·facets).
   [[nodiscard]] bool allows(std::uint32_t tag, const Piece& before, const Piece& after, double tolerance, Reach& reach,
                             double skin_share = kSkinTolerance, double retreat = 0) const;
 

@@ -33,7 +33,10 @@ bool Trial::split(Care& care, TetId tet, unsigned edge) {
   for (unsigned i = 0; i < most && split_edge(care, tet, edge); ++i) {
     mend(care);
     const Waiting worst = find_worst(care.mesh);
-    if (worst.ratio > bound) return accept(care);
+    if (worst.ratio > bound) {
+      care.changed = touched_;
+      return true;
+    }
     tet = worst.tet;
     edge = longest_edge_of(care.mesh, tet);
   }
@@ -51,18 +54,15 @@ bool Trial::merge(Care& care, TetId tet, unsigned edge, bool is_turned) {
   if (!lost6 || !return_volume(care, into, *lost6)) return false;
   take_changed(care);
   mend(care);
-  return find_worst(care.mesh).ratio > bound_of(before) && accept(care);
+  if (!(find_worst(care.mesh).ratio > bound_of(before))) return false;
+  care.changed = touched_;
+  return true;
 }
 
 void Trial::begin(const Care& care) {
   touched_.clear();
   born_.clear();
   last_unit_ = care.statistics.work_units + kMostWork;
-}
-
-bool Trial::accept(Care& care) {
-  care.changed = touched_;
-  return true;
 }
 
 /// Puts a vertex into the middle of an edge, whatever that makes; false where that may not be.

@@ -24,14 +24,12 @@ class Trial {
  public:
   /// Splits an edge of a bad tet (0 to 5, as in `kEdgeCorners`), lets swaps and smoothing mend what that makes, and
   /// splits the worst of it once more where they end, up to `kSplits` times for tets worse than `kTriedHard`, else
-  /// `kFewSplits`.
-  /// Returns whether all that was touched is better then than the tet was by `kLeastTrialGain`; `care.changed` holds
-  /// what was made or reshaped. Cost: about 1 ms, at most 3 ms and one operation.
+  /// `kFewSplits`. Returns whether all that was touched is better then than the tet was by `kLeastTrialGain`;
+  /// `care.changed` holds what was made or reshaped. Cost: about 1 ms, at most 3 ms and one operation.
   bool split(Care& care, TetId tet, unsigned edge);
   /// Merges the first end of an edge into the second one (`is_turned`: the second into the first) where the tet is
   /// worse than `kTriedHard` and `CloseMerger::merge_loosely` lets it, gives the body its volume back by moving
-  /// vertices of the surfaces around
-  /// (`return_volume`), and mends what that makes. Returns, and costs, as `split`.
+  /// vertices of the surfaces around (`return_volume`), and mends what that makes. Returns, and costs, as `split`.
   bool merge(Care& care, TetId tet, unsigned edge, bool is_turned);
 
   /// The vertices that the last trial put in.
@@ -47,7 +45,6 @@ class Trial {
   void begin(const Care& care);
   bool split_edge(Care& care, TetId tet, unsigned edge);
   [[nodiscard]] bool is_at_front(const TetMesh& mesh, const std::array<VertexId, 2>& ends, TetId tet);
-  bool accept(Care& care);
   void mend(Care& care);
   bool mend_one(Care& care, TetId tet);
   void take_changed(const Care& care);

@@ -241,6 +241,19 @@ TEST(Maintenance, merges_alone_and_improves_alone) {
   }
 }
 
+TEST(Maintenance, merges_nothing_for_trial_where_merging_is_off) {
+  for (const Case& scene : all_kinds_of_cuts()) {
+    SCOPED_TRACE(scene.name);
+    EngineOptions options;
+    options.maintain.merge = false;
+    Result<Engine> engine = Engine::create(build(scene.soup), options);
+    ASSERT_TRUE(engine.ok());
+    for (const Stroke& stroke : scene.strokes) {
+      EXPECT_EQ(cut_and_maintain(*engine, stroke).maintain.collapsed_edges, 0U);
+    }
+  }
+}
+
 TEST(Maintenance, counts_what_it_made) {
   const Case scene = planar_case('A', 4, 1);
   Engine engine = maintaining_engine(scene.soup, 0.0);
