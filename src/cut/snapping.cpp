@@ -235,8 +235,10 @@ constexpr double kBentReach = 0.5;
 /// A wall whose normal has this cosine with the sheet's lies along it; older walls are crooked at their fronts.
 constexpr double kAlong = 0.9, kAlongOlder = 0.8;
 /// Older walls attract within this share of the spacing at least, whatever the snapping distance: without snapping
-/// those that the sheet goes on from, at less than 8 degrees, since where planes cross the pieces are to be exact.
-constexpr double kLeastOlderReach = 0.02, kAlongExactly = 0.99;
+/// those that the sheet goes on from, at less than 8 degrees, since where planes cross the pieces are to be exact. With
+/// it, those at less than 8 degrees attract from so many times as far: strokes of a hand that wanders by a tenth of the
+/// body's mean edge to either side are one, also where edges are shorter than that. More, and thin slices are not cut.
+constexpr double kLeastOlderReach = 0.02, kAlongExactly = 0.99, kParallelReach = 1.15;
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
 bool is_on_same_part(const OnVertex& on, const Vec3& place, const Vec3& normal) {
   return on.normal.dot(normal) > 0.3 && std::abs(on.normal.dot(place - on.target)) <= 0.3 * on.spacing;
@@ -313,14 +315,13 @@ class CloseVertices {
     const bool is_on_wall = (mesh_.shape_of(v) & shape::kWall) != 0;
     const double longest = std::sqrt(noted.longest2);
     const double reach =
-        is_on_wall ? older_reach() * uncut_length(longest, rules_.spacing) : std::max(kCoincident, snap) * longest;
+        is_on_wall ? parallel_reach() * uncut_length(longest, rules_.spacing) : std::max(kCoincident, snap) * longest;
     const SheetPlace hit = sheet_.closest(mesh_.rest(v), reach);
     if (!hit.is_valid()) return;
     const std::vector<std::uint32_t>& star = complex_.star(mesh_, noted.master, v);
     const double spacing = mean_edge_length(mesh_, complex_, v, star, neighbours_);
     const OnVertex on{v, spacing, std::sqrt(hit.distance2), hit.point, hit.normal};
-    const bool is_older_cut = is_on_wall && on.distance <= older_reach() * uncut_length(spacing, rules_.spacing) &&
-                              lies_along(on, star, 1, snap_ > 0 ? kAlongOlder : kAlongExactly);
+    const bool is_older_cut = is_on_wall && is_on_older_cut(on, star);
     const bool is_coincident = is_older_cut || on.distance <= kCoincident * spacing;
     const bool may_take_part =
         is_older_cut || (is_coincident ? !waits_for_front(on, star)
@@ -332,6 +333,12 @@ class CloseVertices {
   /// How far older walls attract, as a share of the length of edges before they were cut, for the wall has bent by as
   /// much: also where nothing else snaps, as far as one cut may miss itself.
   [[nodiscard]] double older_reach() const { return std::max(snap_, kLeastOlderReach); }
+  [[nodiscard]] double parallel_reach() const { return std::max(kParallelReach * snap_, kLeastOlderReach); }
+  [[nodiscard]] bool is_on_older_cut(const OnVertex& on, std::span<const std::uint32_t> star) const {
+    const double reach = older_reach() * uncut_length(on.spacing, rules_.spacing);
+    if (on.distance > std::max(reach, parallel_reach() * rules_.spacing)) return false;
+    return lies_along(on, star, 1, snap_ > 0 && on.distance <= reach ? kAlongOlder : kAlongExactly);
+  }
   [[nodiscard]] bool passed_around(std::span<const std::uint32_t> star) const {
     return std::none_of(star.begin(), star.end(), [&](std::uint32_t m) { return has_odd_face(complex_[m].flagged); });
   }
