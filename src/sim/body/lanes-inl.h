@@ -179,6 +179,14 @@ HWY_INLINE FourV halves(Lanes a) {
   return hn::Add(hn::LowerHalf(Four(), a.v), hn::UpperHalf(Four(), a.v));
 }
 
+/// Powers of two by eighths: `power_of` of eight bytes.
+HWY_INLINE Lanes load_powers(const std::uint8_t* p) {
+  const hn::FixedTag<std::uint32_t, 8> d;
+  const hn::FixedTag<std::uint8_t, 8> bytes;
+  const auto bits = hn::ShiftLeft<20>(hn::PromoteTo(d, hn::LoadU(bytes, p)));
+  return {hn::BitCast(Eight(), hn::Add(bits, hn::Set(d, kPowerOne)))};
+}
+
 #if HWY_TARGET == HWY_AVX2
 #define INCISE_LANES_PICK 1
 /// The rows that begin at eight places, as columns.
@@ -284,6 +292,16 @@ HWY_INLINE FourV halves(Lanes a) {
   return hn::Add(a.low, a.high);
 }
 
+HWY_INLINE Lanes load_powers(const std::uint8_t* p) {
+  const hn::FixedTag<std::uint32_t, 4> d;
+  const hn::FixedTag<std::uint8_t, 4> bytes;
+  const auto four_of = [&](const std::uint8_t* from) HWY_ATTR {
+    const auto bits = hn::ShiftLeft<20>(hn::PromoteTo(d, hn::LoadU(bytes, from)));
+    return hn::BitCast(Four(), hn::Add(bits, hn::Set(d, kPowerOne)));
+  };
+  return {four_of(p), four_of(p + 4)};
+}
+
 #endif
 
 HWY_INLINE Row operator-(Row a, Row b) {
@@ -342,6 +360,9 @@ inline Lanes absolute(const Lanes& a) {
 }
 inline Lanes where_positive(const Lanes& sign, const Lanes& value) {
   return each([&](unsigned i) { return sign.v[i] > 0 ? value.v[i] : 0.0F; });
+}
+inline Lanes load_powers(const std::uint8_t* p) {
+  return each([&](unsigned i) { return power_of(p[i]); });
 }
 inline void store_rows(const Lanes& x, const Lanes& y, const Lanes& z, float* out) {
   for (unsigned i = 0; i < 8; ++i, out += 4) {
