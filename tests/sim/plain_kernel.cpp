@@ -29,12 +29,7 @@ plain::Descent descent_of(const PlainDescent& d) {
           static_cast<const plain::PackedStar*>(d.parts),
           static_cast<const plain::NearLanes*>(d.near),
           static_cast<const plain::TetLanes*>(d.tets),
-          d.pressures,
-          d.node_stiffnesses,
-          d.rest_volumes,
-          static_cast<const plain::NeighbourList*>(d.neighbours),
-          d.neighbour_slots,
-          d.rings,
+          static_cast<const plain::NodeTerm*>(d.nodes),
           static_cast<const plain::StiffeningBlock*>(d.stiffening),
           static_cast<const plain::FibreBlock*>(d.fibres)};
 }

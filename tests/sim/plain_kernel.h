@@ -11,11 +11,7 @@ namespace incise::test {
 struct PlainDescent {
   float* places;
   const void *blocks, *stars, *motions, *terms, *uses;
-  float* pressures = nullptr;
-  const float *node_stiffnesses = nullptr, *rest_volumes = nullptr;
-  const void* neighbours = nullptr;
-  const std::uint32_t* neighbour_slots = nullptr;
-  const std::uint16_t* rings = nullptr;
+  const void* nodes = nullptr;
   const void *stiffening = nullptr, *fibres = nullptr;
   const std::uint32_t *rows = nullptr, *slots = nullptr;
   const void *packed = nullptr, *parts = nullptr, *near = nullptr, *tets = nullptr;

@@ -140,12 +140,7 @@ struct Scene {
   }
   template <class To>
   void give_nodes(To& d) {
-    d.pressures = nodal.pressures();
-    d.node_stiffnesses = nodal.stiffnesses();
-    d.rest_volumes = nodal.rest_volumes();
-    d.neighbours = nodal.neighbours().lists();
-    d.neighbour_slots = nodal.neighbours().slots();
-    d.rings = nodal.neighbours().rings();
+    d.nodes = nodal.terms();
   }
   [[nodiscard]] test::PlainDescent plain_descent() {
     test::PlainDescent d{places.data(), stars.blocks(), stars.all(), motions.data(), terms.data(), uses.data()};
@@ -159,7 +154,7 @@ struct Scene {
   detail::Stars stars;
   detail::KernelRows rows;
   detail::PackedStars packed;
-  detail::NodalVolumes nodal;
+  detail::NodalVolumes nodal{rows};
   std::vector<detail::Element> elements;
   std::vector<float> places;
   std::vector<detail::Motion> motions;

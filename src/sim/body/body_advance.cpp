@@ -31,7 +31,8 @@ Result<AdvanceReport> DeformableBody::advance(double dt) {
   s.order.refresh();
   s.bones.begin(s);
   s.list_awake_rows();
-  s.list_pressed();
+  s.find_resting();
+  s.list_beside();
   s.list_strained();
   AdvanceReport report;
   report.active_vertices = s.order.awake_count();
@@ -74,14 +75,7 @@ detail::Descent DeformableBody::State::descent() {
   d.tets = packed.tets();
   d.stiffening = stars.stiffening();
   d.fibres = stars.fibres();
-  if (nodal.is_on) {
-    d.pressures = nodal.pressures();
-    d.node_stiffnesses = nodal.stiffnesses();
-    d.rest_volumes = nodal.rest_volumes();
-    d.neighbours = nodal.neighbours().lists();
-    d.neighbour_slots = nodal.neighbours().slots();
-    d.rings = nodal.neighbours().rings();
-  }
+  if (nodal.is_on) d.nodes = nodal.terms();
   return d;
 }
 
@@ -246,18 +240,18 @@ std::span<const std::uint32_t> DeformableBody::State::rows_of(std::span<const st
   return some_rows;
 }
 
-/// Visits read the pressures of what they move and of what is around it.
-void DeformableBody::State::list_pressed() {
-  if (nodal.is_on) nodal.gather([&](const auto& take) { for_each_awake(take); }, pressed);
-}
-
 /// As places are now. To be called whenever anything but a visit moved them, before the next visit.
 void DeformableBody::State::find_pressures() {
   if (!nodal.is_on) return;
   const detail::Descent d = descent();
-  const std::span<const std::uint32_t> all = rows_of(pressed);
-  const std::size_t half = all.size() / 2;
-  pair.run([&] { detail::find_pressures(d, all.first(half)); }, [&] { detail::find_pressures(d, all.subspan(half)); });
+  const auto find = [&](std::size_t part) { detail::find_pressures(d, awake_rows[part]); };
+  pair.run([&] { find(0); }, [&] { find(1); });
+  find(2);
+  find_pressures_beside();
+}
+
+void DeformableBody::State::find_pressures_beside() {
+  if (nodal.is_on) detail::find_pressures(descent(), beside_rows);
 }
 
 /// Everything starts where its velocity takes it.
@@ -281,10 +275,9 @@ void DeformableBody::State::begin_substep(double h) {
   });
 }
 
-/// More sweeps of what `list_strained` lists, for substeps of so many seconds, and how many rings of neighbours that
-/// are.
+/// More sweeps of what `list_strained` lists, for substeps of so many seconds.
 static constexpr double kUsualSubstep = 1.0 / 240;
-static constexpr unsigned kStrainedSweeps = 20, kStrainedRings = 2;
+static constexpr unsigned kStrainedSweeps = 20;
 
 /// The two parts at once, the seam after them.
 void DeformableBody::State::descend(double h) {
@@ -304,46 +297,19 @@ void DeformableBody::State::descend(double h) {
   for (unsigned i = 0; i < options.iterations; ++i) {
     visit([&](std::span<const std::uint32_t> part) { detail::sweep(d, part, i % 2 == 1); });
     bones.visit(*this);
+    find_pressures_beside();
   }
   const double longer = std::clamp(h / kUsualSubstep, 1.0, 4.0);
   const auto more = strained.empty() ? 0U : static_cast<unsigned>(kStrainedSweeps * longer);
-  for (unsigned i = 0; i < more; ++i) detail::sweep(d, rows_of(strained), i % 2 == 1);
-}
-
-/// Where tissue has stiffened a hundred times under a load, sweeps carry a change through it far more slowly than
-/// through what is around it: what pulls with a limit act on, the blade's, and some rings of neighbours, are swept
-/// more.
-void DeformableBody::State::list_strained() {
-  strained.clear();
-  if (!stars.stiffens) return;
-  is_resting.resize(places.size(), 0);
-  const auto take = [&](VertexId v) {
-    if (is_resting[v] != 0 || !order.is_awake(v)) return;
-    is_resting[v] = 1;
-    strained.push_back(v.value);
-  };
-  for (const Pull& pull : pulls) {
-    if (std::isinf(pull.limit) || pull.axis.isZero(0))
-      continue;  // tools and hooks do not press tissue as hard as a blade
-    for (unsigned i = 0; i < 4; ++i) {
-      if (pull.weights[i] != 0 && pull.stiffness > 0) take(pull.vertices[i]);
-    }
+  for (unsigned i = 0; i < more; ++i) {
+    if (nodal.is_on) detail::find_pressures(d, around_strained);
+    detail::sweep(d, rows_of(strained), i % 2 == 1);
   }
-  std::size_t next = 0;
-  for (unsigned ring = 0; ring < kStrainedRings; ++ring) {
-    for (const std::size_t end = strained.size(); next < end; ++next) {
-      detail::SweepOrder::for_each_neighbour(stars, VertexId(strained[next]), take);
-    }
-  }
-  for (const std::uint32_t v : strained) is_resting[VertexId(v)] = 0;
 }
 
 /// The slopes of the energy in all awake vertices, 4 numbers per vertex slot.
 void DeformableBody::State::find_slopes(float* slopes) {
   const detail::Descent d = descent();
-  if (nodal.is_on) {
-    for (const std::uint32_t v : pressed) single(VertexId(v))[3] = d.pressures[v];
-  }
   const auto find = [&](std::size_t part) { detail::find_slopes(d, awake_rows[part], slopes); };
   pair.run([&] { find(0); }, [&] { find(1); });
   find(2);
@@ -387,16 +353,14 @@ void DeformableBody::State::relax(std::span<const std::uint32_t> vertices, unsig
   };
   for (const std::uint32_t slot : vertices) before.push_back(place_of(slot));
   const detail::Descent d = descent();
-  if (nodal.is_on) {
-    nodal.gather(
-        [&](const auto& take) {
-          for (const std::uint32_t v : vertices) take(v);
-        },
-        pressed);
-    find_pressures();
-  }
+  std::vector<std::uint32_t> around;
+  if (nodal.is_on) list_around(vertices, around);
   const std::span<const std::uint32_t> order_of_rows = rows_of(vertices);
-  for (unsigned i = 0; i < sweeps; ++i) detail::sweep(d, order_of_rows, i % 2 == 1);
+  if (nodal.is_on) detail::find_pressures(d, order_of_rows);
+  for (unsigned i = 0; i < sweeps; ++i) {
+    if (nodal.is_on) detail::find_pressures(d, around);
+    detail::sweep(d, order_of_rows, i % 2 == 1);
+  }
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const std::array<float, 3> after = place_of(vertices[k]);
     for (unsigned i = 0; i < 3; ++i) {

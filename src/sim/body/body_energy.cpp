@@ -97,10 +97,26 @@ void DeformableBody::State::find_resting() {
 
 /// The energy before an `advance`, and where all stood.
 detail::EnergyNow DeformableBody::State::watch_energy() {
-  find_resting();
   places_before.resize(places.size());
   for_each_awake([&](std::uint32_t v) { places_before[v] = places[v]; });
   return energy_now();
+}
+
+/// Of the pressures that an `advance` may change, as they are.
+double DeformableBody::State::pressed_energy() const {
+  double sum = 0;
+  const auto add = [&](std::uint32_t row) {
+    const double k = nodal.stiffness(VertexId(rows.slots()[row]));
+    const auto pressure = static_cast<double>(floats[std::size_t{4} * row + 3]);
+    if (k > 0) sum += 0.5 * pressure * pressure / k;
+  };
+  for (const auto& part : awake_rows) {
+    for (const std::uint32_t row : part) add(row);
+  }
+  for (const std::uint32_t row : beside_rows) {
+    if (!order.is_awake(VertexId(rows.slots()[row]))) add(row);
+  }
+  return sum;
 }
 
 /// Of what an `advance` may change: all but a constant.
@@ -124,13 +140,7 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   pair.run([&] { find(0); }, [&] { find(1); });
   find(2);
   for (const double part : of_parts) elastic += part;
-  if (nodal.is_on) {
-    for (const std::uint32_t v : pressed) {
-      const double k = nodal.stiffness(VertexId(v));
-      const auto pressure = static_cast<double>(d.pressures[v]);
-      if (k > 0) elastic += 0.5 * pressure * pressure / k;
-    }
-  }
+  if (nodal.is_on) elastic += pressed_energy();
   now.total += elastic;
   now.noise = kNoise * std::abs(elastic);
   for (const detail::PullTerm& term : terms) {

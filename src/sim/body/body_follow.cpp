@@ -237,7 +237,6 @@ void DeformableBody::State::lay_out_stars() {
   for (const std::uint32_t v : sorted) packed.update(VertexId(v), stars, rows);
   if (nodal.is_on) {
     for (const std::uint32_t v : sorted) nodal.update(VertexId(v), stars);
-    order.keep_apart(nodal.neighbours());
   }
   std::vector<bool> is_first(sorted.size());
   for (std::size_t i = 0; i < sorted.size(); ++i) is_first[i] = i < sorted.size() / 2;

@@ -29,8 +29,11 @@ double DeformableBody::State::pressure_at(VertexId v) const {
 template <class Visit>
 void DeformableBody::State::for_each_volume_around(VertexId v, const Visit& visit) const {
   Vec3 own = Vec3::Zero();
-  for (const std::uint32_t slot : nodal.neighbours().of(v)) {
-    const VertexId n(slot);
+  std::vector<VertexId> around;
+  detail::SweepOrder::for_each_neighbour(stars, v, [&](VertexId n) { around.push_back(n); });
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  for (const VertexId n : around) {
     Vec3 change = Vec3::Zero();
     stars.for_each_tet(v, [&](TetId t) {
       const bool has_both = std::find(tets[t].begin(), tets[t].end(), n) != tets[t].end();

@@ -128,13 +128,15 @@ struct DeformableBody::State {
   double drifted = 0;           // the most that anything has moved since
 
   // the descent
+  detail::KernelRows rows;
   detail::Stars stars;
   detail::PackedStars packed;
   detail::SweepOrder order;
-  detail::NodalVolumes nodal;
-  std::vector<std::uint32_t> strained;  // awake vertices around pulls, where tissue stiffens; of this `advance`
-  std::vector<std::uint32_t> pressed;   // awake vertices and their neighbours, of this `advance`
-  detail::KernelRows rows;
+  detail::NodalVolumes nodal{rows};
+  std::vector<std::uint32_t> strained;         // awake vertices around pulls, where tissue stiffens; of this `advance`
+  std::vector<std::uint32_t> around_strained;  // rows of what is around those
+  std::vector<std::uint32_t>
+      beside_rows;          // of what visits leave where it is and has a pressure that they read, of this `advance`
   GrowArray<float> floats;  // places against the middle, and pressures, 4 per row
   detail::ByRow<detail::Motion> motions{rows};
   std::array<std::vector<std::uint32_t>, detail::SweepOrder::kParts> awake_rows;  // of `order`, as of this `advance`
@@ -283,9 +285,11 @@ struct DeformableBody::State {
   void list_uses();
   void list_awake_rows();
   [[nodiscard]] std::span<const std::uint32_t> rows_of(std::span<const std::uint32_t> slots);
-  void list_pressed();
+  void list_beside();
   void list_strained();
+  void list_around(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t>& around);
   void find_pressures();
+  void find_pressures_beside();
   void begin_substep(double h);
   void descend(double h);
   void find_slopes(float* slopes);
@@ -299,6 +303,7 @@ struct DeformableBody::State {
   void find_resting();
   [[nodiscard]] detail::EnergyNow watch_energy();
   [[nodiscard]] detail::EnergyNow energy_now();
+  [[nodiscard]] double pressed_energy() const;
   void keep_energy(const detail::EnergyNow& before, double dt);
   void step_back(double most, double dt);
   void find_turns(std::vector<detail::Drift>& found) const;

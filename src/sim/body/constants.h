@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants of contact and of free pieces.
+// Constants of contact, of free pieces and of averaged volumes.
 #pragma once
 
 namespace incise {
@@ -55,6 +55,12 @@ inline constexpr double kFarthestAnchor = 8;
 
 /// How often each carried piece is moved to where its neighbours leave it, at the end of a substep.
 inline constexpr unsigned kCarriedRounds = 3;
+
+/// How stiff a visit takes a tet to be by the share of its volume that its vertices average, against one that keeps
+/// that share for itself; no unit. A visit reads its neighbours' pressures as they were, so that all vertices around
+/// one answer the same pressure: below 1 they go too far together, and a cantilever stays where it was (measured at
+/// Poisson's ratio 0.49 on a grid and on jittered ones); above 5 sweeps are slow.
+inline constexpr double kSharedBend = 3;
 
 }  // namespace detail
 }  // namespace v0

@@ -73,29 +73,6 @@ HWY_INLINE Row load_row(const float* p) {
 HWY_INLINE void store_row(Row r, float* p) {
   hn::StoreU(r.v, Four(), p);
 }
-HWY_INLINE Row row_of(float x) {
-  return {hn::Set(Four(), x)};
-}
-HWY_INLINE Row operator+(Row a, Row b) {
-  return {hn::Add(a.v, b.v)};
-}
-HWY_INLINE Row operator*(Row a, Row b) {
-  return {hn::Mul(a.v, b.v)};
-}
-/// Columns to rows, with 0 as their fourth numbers.
-HWY_INLINE void store_rows(FourV x, FourV y, FourV z, float* out) {
-  const Four d;
-  const hn::Repartition<double, Four> d64;
-  const auto zero = hn::Zero(d);
-  const auto xy_low = hn::BitCast(d64, hn::InterleaveLower(x, y));
-  const auto xy_high = hn::BitCast(d64, hn::InterleaveUpper(d, x, y));
-  const auto z_low = hn::BitCast(d64, hn::InterleaveLower(z, zero));
-  const auto z_high = hn::BitCast(d64, hn::InterleaveUpper(d, z, zero));
-  hn::StoreU(hn::BitCast(d, hn::InterleaveLower(xy_low, z_low)), d, out);
-  hn::StoreU(hn::BitCast(d, hn::InterleaveUpper(d64, xy_low, z_low)), d, out + 4);
-  hn::StoreU(hn::BitCast(d, hn::InterleaveLower(xy_high, z_high)), d, out + 8);
-  hn::StoreU(hn::BitCast(d, hn::InterleaveUpper(d64, xy_high, z_high)), d, out + 12);
-}
 
 #if HWY_MAX_BYTES >= 32
 
@@ -143,11 +120,6 @@ HWY_INLINE Lanes absolute(Lanes a) {
 HWY_INLINE Lanes where_positive(Lanes sign, Lanes value) {
   return {hn::IfThenElseZero(hn::Gt(sign.v, hn::Zero(Eight())), value.v)};
 }
-HWY_INLINE void store_rows(Lanes x, Lanes y, Lanes z, float* out) {
-  const Four d4;
-  store_rows(hn::LowerHalf(d4, x.v), hn::LowerHalf(d4, y.v), hn::LowerHalf(d4, z.v), out);
-  store_rows(hn::UpperHalf(d4, x.v), hn::UpperHalf(d4, y.v), hn::UpperHalf(d4, z.v), out + 16);
-}
 
 HWY_INLINE hn::Vec<Eight> two_points(const float* places, std::uint32_t low, std::uint32_t high) {
   const Four d4;
@@ -177,6 +149,14 @@ HWY_INLINE void load_points(const float* places, const Index* i, Lanes& x, Lanes
 /// Lanes 0 to 3 plus lanes 4 to 7.
 HWY_INLINE FourV halves(Lanes a) {
   return hn::Add(hn::LowerHalf(Four(), a.v), hn::UpperHalf(Four(), a.v));
+}
+
+/// Powers of two by eighths: `power_of` of eight bytes.
+HWY_INLINE Lanes load_powers(const std::uint8_t* p) {
+  const hn::FixedTag<std::uint32_t, 8> d;
+  const hn::FixedTag<std::uint8_t, 8> bytes;
+  const auto bits = hn::ShiftLeft<20>(hn::PromoteTo(d, hn::LoadU(bytes, p)));
+  return {hn::BitCast(Eight(), hn::Add(bits, hn::Set(d, kPowerOne)))};
 }
 
 #if HWY_TARGET == HWY_AVX2
@@ -262,10 +242,6 @@ HWY_INLINE Lanes where_positive(Lanes sign, Lanes value) {
   return {hn::IfThenElseZero(hn::Gt(sign.low, zero), value.low),
           hn::IfThenElseZero(hn::Gt(sign.high, zero), value.high)};
 }
-HWY_INLINE void store_rows(Lanes x, Lanes y, Lanes z, float* out) {
-  store_rows(x.low, y.low, z.low, out);
-  store_rows(x.high, y.high, z.high, out + 16);
-}
 
 HWY_INLINE FourV point(const float* places, std::uint32_t i) {
   return hn::LoadU(Four(), places + std::size_t{4} * i);
@@ -282,6 +258,16 @@ HWY_INLINE void load_points(const float* places, const Index* i, Lanes& x, Lanes
 }
 HWY_INLINE FourV halves(Lanes a) {
   return hn::Add(a.low, a.high);
+}
+
+HWY_INLINE Lanes load_powers(const std::uint8_t* p) {
+  const hn::FixedTag<std::uint32_t, 4> d;
+  const hn::FixedTag<std::uint8_t, 4> bytes;
+  const auto four_of = [&](const std::uint8_t* from) HWY_ATTR {
+    const auto bits = hn::ShiftLeft<20>(hn::PromoteTo(d, hn::LoadU(bytes, from)));
+    return hn::BitCast(Four(), hn::Add(bits, hn::Set(d, kPowerOne)));
+  };
+  return {four_of(p), four_of(p + 4)};
 }
 
 #endif
@@ -343,13 +329,8 @@ inline Lanes absolute(const Lanes& a) {
 inline Lanes where_positive(const Lanes& sign, const Lanes& value) {
   return each([&](unsigned i) { return sign.v[i] > 0 ? value.v[i] : 0.0F; });
 }
-inline void store_rows(const Lanes& x, const Lanes& y, const Lanes& z, float* out) {
-  for (unsigned i = 0; i < 8; ++i, out += 4) {
-    out[0] = x.v[i];
-    out[1] = y.v[i];
-    out[2] = z.v[i];
-    out[3] = 0;
-  }
+inline Lanes load_powers(const std::uint8_t* p) {
+  return each([&](unsigned i) { return power_of(p[i]); });
 }
 struct Row {
   float v[4];
@@ -360,17 +341,8 @@ inline Row load_row(const float* p) {
 inline void store_row(const Row& r, float* p) {
   for (unsigned i = 0; i < 4; ++i) p[i] = r.v[i];
 }
-inline Row row_of(float x) {
-  return {{x, x, x, x}};
-}
-inline Row operator+(const Row& a, const Row& b) {
-  return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}};
-}
 inline Row operator-(const Row& a, const Row& b) {
   return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}};
-}
-inline Row operator*(const Row& a, const Row& b) {
-  return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}};
 }
 template <class Index>
 inline void load_rows(const float* places, const Index* i, Lanes& x, Lanes& y, Lanes& z, Lanes& w) {

@@ -6,13 +6,9 @@ inline namespace v0 {
 namespace detail {
 
 void NodalVolumes::ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots) {
-  neighbours_.ensure(vertex_slots);
-  if (vertex_slots > rest_volumes_.size()) {
-    stiffnesses_.resize(vertex_slots);
-    pressures_.resize(vertex_slots);
-    rest_volumes_.resize(vertex_slots);
+  if (vertex_slots > terms_.size()) {
+    terms_.resize(vertex_slots);
     gives_.resize(vertex_slots, 0);
-    is_taken_.resize(vertex_slots, 0);
   }
   if (tet_slots > tets_.size()) tets_.resize(tet_slots);
 }
@@ -22,7 +18,6 @@ void NodalVolumes::put(TetId tet, double volume6, const Element& element) {
 }
 
 void NodalVolumes::update(VertexId vertex, const Stars& stars) {
-  neighbours_.update(vertex, stars, [&](TetId t) { return has(t); });
   double volume6 = 0, give = 0;
   stars.for_each_tet(vertex, [&](TetId t) {
     const Share& share = tets_[t];
@@ -30,9 +25,8 @@ void NodalVolumes::update(VertexId vertex, const Stars& stars) {
     volume6 += share.volume6;
     give += share.give;
   });
-  rest_volumes_[vertex.value] = static_cast<float>(volume6);
   gives_[vertex] = give;
-  stiffnesses_[vertex.value] = static_cast<float>(stiffness(vertex));
+  terms_[vertex] = {static_cast<float>(stiffness(vertex)), static_cast<float>(volume6)};
 }
 
 }  // namespace detail

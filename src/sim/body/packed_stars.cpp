@@ -111,6 +111,7 @@ void PackedStars::pack_part(const Star& star, const StarBlock* blocks, std::uint
     lanes = {};
     lanes.bulk = block.bulk;
     lanes.pressure = block.pressure;
+    lanes.bend = block.bend;
     for (std::uint32_t i = 0; i < lanes_in(star, from + k); ++i) {
       lanes.a[i] = code(block.a[i], block.to_a[i]);
       lanes.b[i] = code(block.b[i], block.to_b[i]);

@@ -26,7 +26,8 @@ struct NearLanes {
 
 /// Eight tets of a star, in the lanes of its `StarBlock`. Corners are codes of neighbours; unused lanes have bulk 0.
 struct TetLanes {
-  std::array<std::uint8_t, kLanes> a, b, c, unused;
+  std::array<std::uint8_t, kLanes> a, b, c;
+  std::array<std::uint8_t, kLanes> bend;     ///< as in `StarBlock`
   std::array<float, kLanes> bulk, pressure;  ///< as in `StarBlock`
 };
 

@@ -31,6 +31,9 @@ enum class Wanted { kSlope, kSlopeAveraged, kBoth, kBothAveraged };
 /// The laws that the tets of a body have; each one has the terms of those before it.
 enum class Law { kSoft, kStiffening, kFibres };
 
+constexpr bool is_averaged(Wanted wanted) {
+  return wanted == Wanted::kSlopeAveraged || wanted == Wanted::kBothAveraged;
+}
 constexpr bool with_curvature(Wanted wanted) {
   return wanted == Wanted::kBoth || wanted == Wanted::kBothAveraged;
 }
@@ -97,11 +100,6 @@ struct FibreLanes {
   static constexpr float kNearlyTaut = 0.02F;
 };
 
-/// How six volumes change with a vertex: first those of its tets, row by row; then of its neighbours and of itself, by
-/// rows and by columns, with their stiffnesses and pressures. What no neighbour fills is 0.
-struct Around {
-  float *normals, *rows, *x, *y, *z, *stiffness, *pressure;
-};
 constexpr std::uint32_t kRows[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 /// The neighbours of a vertex, from it, in rows that go by their codes.
@@ -135,10 +133,11 @@ struct Few {
 /// Slope and curvature of a star, summed lane by lane.
 struct StarSum {
   Lanes gx, gy, gz, xx, xy, xz, yy, yz, zz;
+  Lanes volume;  ///< six volumes of what takes part in the vertex' average
 
   // Written out: a constructor that the compiler makes is not compiled for the instruction set at hand.
   inline explicit StarSum(const Lanes& zero)
-      : gx(zero), gy(zero), gz(zero), xx(zero), xy(zero), xz(zero), yy(zero), yz(zero), zz(zero) {}
+      : gx(zero), gy(zero), gz(zero), xx(zero), xy(zero), xz(zero), yy(zero), yz(zero), zz(zero), volume(zero) {}
 
   /// Tissue that does not stiffen: what neighbours do by the Laplacian.
   [[gnu::always_inline]] inline void add_stretch(const NearLanes& near, const Lanes& x, const Lanes& y,
@@ -149,11 +148,10 @@ struct StarSum {
 
   /// And what its tets do by their volumes.
   template <Wanted kWanted, class Near>
-  [[gnu::always_inline]] inline void add_swelling(const TetLanes& tets, const Near& near, float own_pressure,
-                                                  float* normals) {
+  [[gnu::always_inline]] inline void add_swelling(const TetLanes& tets, const Near& near, float own_pressure) {
     Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
     Lanes of_nodes = all(own_pressure);
-    if constexpr (kWanted == Wanted::kSlopeAveraged) {
+    if constexpr (is_averaged(kWanted)) {
       Lanes pa, pb, pc;
       near.corner(tets.a.data(), ax, ay, az, pa);
       near.corner(tets.b.data(), bx, by, bz, pb);
@@ -170,13 +168,15 @@ struct StarSum {
     const Lanes less = nx * ax + ny * ay + nz * az;
     const Lanes bulk = load(tets.bulk.data()), pressure = load(tets.pressure.data());
     Lanes shrink = bulk * less + absolute(pressure);
-    if constexpr (kWanted == Wanted::kSlopeAveraged) shrink = shrink - where_positive(pressure, of_nodes);
+    if constexpr (is_averaged(kWanted)) shrink = shrink - where_positive(pressure, of_nodes);
+    if constexpr (kWanted == Wanted::kBothAveraged) volume = volume - where_positive(pressure, less);
     gx = gx - shrink * nx, gy = gy - shrink * ny, gz = gz - shrink * nz;
     if constexpr (!with_curvature(kWanted)) return;
-    const Lanes kx = bulk * nx, ky = bulk * ny, kz = bulk * nz;
+    Lanes bent = bulk;
+    if constexpr (kWanted == Wanted::kBothAveraged) bent = bent * load_powers(tets.bend.data());
+    const Lanes kx = bent * nx, ky = bent * ny, kz = bent * nz;
     xx = xx + kx * nx, xy = xy + kx * ny, xz = xz + kx * nz;
     yy = yy + ky * ny, yz = yz + ky * nz, zz = zz + kz * nz;
-    if constexpr (kWanted == Wanted::kBothAveraged) store_rows(nx, ny, nz, normals);
   }
 
   /// Both, of tissue that stiffens or has fibres.
@@ -184,10 +184,10 @@ struct StarSum {
   [[gnu::always_inline]] inline void add_stiff(const TetLanes& tets, const StarBlock& block,
                                                const StiffeningBlock& stiffening,
                                                [[maybe_unused]] const FibreBlock* fibre_block, const Near& near,
-                                               float own_pressure, float* normals) {
+                                               float own_pressure) {
     Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
     Lanes of_nodes = all(own_pressure);
-    if constexpr (kWanted == Wanted::kSlopeAveraged) {
+    if constexpr (is_averaged(kWanted)) {
       Lanes pa, pb, pc;
       near.corner(tets.a.data(), ax, ay, az, pa);
       near.corner(tets.b.data(), bx, by, bz, pb);
@@ -227,15 +227,18 @@ struct StarSum {
                            wx * wx + wy * wy + wz * wz);
     const Lanes factor = stiff.factor();
     gx = gx + factor * sx, gy = gy + factor * sy, gz = gz + factor * sz;
-    if constexpr (kWanted == Wanted::kSlopeAveraged) {
+    if constexpr (is_averaged(kWanted)) {
       const Lanes shared = where_positive(pressure, of_nodes);
       gx = gx + shared * nx, gy = gy + shared * ny, gz = gz + shared * nz;
     }
+    if constexpr (kWanted == Wanted::kBothAveraged) volume = volume + where_positive(pressure, volume6);
     if constexpr (!with_curvature(kWanted)) return;
     // The Laplacian's diagonal is in the vertex' own, but for what the factor adds.
     Lanes more = (all(1) - factor) * (to_a + (to_b + to_c));
     const Lanes growth = stiff.growth(stiffening);
-    const Lanes bent = factor * bulk, kx = bent * nx, ky = bent * ny, kz = bent * nz;
+    Lanes bent = factor * bulk;
+    if constexpr (kWanted == Wanted::kBothAveraged) bent = bent + bulk * (load_powers(tets.bend.data()) - all(1));
+    const Lanes kx = bent * nx, ky = bent * ny, kz = bent * nz;
     const Lanes tx = growth * sx, ty = growth * sy, tz = growth * sz;
     if constexpr (kLaw == Law::kFibres) {
       more = more + factor * across;
@@ -244,68 +247,8 @@ struct StarSum {
     }
     xx = xx + (kx * nx + tx * sx) + more, xy = xy + (kx * ny + tx * sy), xz = xz + (kx * nz + tx * sz);
     yy = yy + (ky * ny + ty * sy) + more, yz = yz + (ky * nz + ty * sz), zz = zz + (kz * nz + tz * sz) + more;
-    if constexpr (kWanted == Wanted::kBothAveraged) store_rows(nx, ny, nz, normals);
-  }
-
-  /// What the volumes around the vertex add.
-  inline void add_around(const Around& around, unsigned begin) {
-    Lanes x, y, z;
-    load_points(around.rows + std::size_t{4} * begin, kRows, x, y, z);
-    store(x, around.x + begin);
-    store(y, around.y + begin);
-    store(z, around.z + begin);
-    const Lanes pressure = load(around.pressure + begin), stiffness = load(around.stiffness + begin);
-    gx = gx + pressure * x, gy = gy + pressure * y, gz = gz + pressure * z;
-    const Lanes kx = stiffness * x, ky = stiffness * y, kz = stiffness * z;
-    xx = xx + kx * x, xy = xy + kx * y, xz = xz + kx * z;
-    yy = yy + ky * y, yz = yz + ky * z, zz = zz + kz * z;
   }
 };
-
-/// Sums what the tets between a vertex and each neighbour do. Each tet has three other corners: its share in the
-/// vertex' own volume is a third of all.
-inline void find_around(const Descent& d, std::uint32_t vertex, const Around& around) {
-  const NeighbourList& list = d.neighbours[d.slots[vertex]];
-  const std::uint32_t* slots = d.neighbour_slots + list.first;
-  const std::uint16_t* ends = d.rings + list.first_ring;
-  const std::uint16_t* ring = ends + list.count;
-  for (unsigned i = 0; i <= list.count; ++i) {  // first: a machine waits where it reads at once what it wrote in parts
-    around.stiffness[i] = d.node_stiffnesses[slots[i]];
-    around.pressure[i] = d.pressures[slots[i]];
-  }
-  Row own = row_of(0);
-  const std::uint16_t* lane = ring;
-  const float* normals = around.normals;
-  for (unsigned i = 0; i < list.count; ++i) {
-    Row change = row_of(0), odd = row_of(0);
-    const std::uint16_t* end = ring + ends[i];
-    for (; lane + 1 < end; lane += 2) {
-      change = change + load_row(normals + lane[0]);
-      odd = odd + load_row(normals + lane[1]);
-    }
-    if (lane < end) change = change + load_row(normals + *lane++);
-    change = change + odd;
-    own = own + change;
-    store_row(change, around.rows + std::size_t{4} * i);
-  }
-  store_row(own * row_of(1.0F / 3), around.rows + std::size_t{4} * list.count);
-  for (unsigned i = list.count + 1U; i % kLanes != 0; ++i) {
-    around.stiffness[i] = around.pressure[i] = 0;
-    store_row(row_of(0), around.rows + std::size_t{4} * i);
-  }
-}
-
-/// Brings the pressures around a vertex up to date that has moved.
-inline void settle_pressures(const Descent& d, std::uint32_t vertex, const Around& around, const float* moved) {
-  const NeighbourList& list = d.neighbours[d.slots[vertex]];
-  const std::uint32_t* slots = d.neighbour_slots + list.first;
-  const Lanes x = all(moved[0]), y = all(moved[1]), z = all(moved[2]);
-  for (unsigned begin = 0; begin <= list.count; begin += kLanes) {
-    const Lanes way = (load(around.x + begin) * x + load(around.y + begin) * y) + load(around.z + begin) * z;
-    store(load(around.pressure + begin) + load(around.stiffness + begin) * way, around.pressure + begin);
-  }
-  for (unsigned i = 0; i <= list.count; ++i) d.pressures[slots[i]] = around.pressure[i];
-}
 
 /// Takes the neighbours of a part of a star into rows that go by their codes.
 struct NearRows {
@@ -408,19 +351,20 @@ struct Batch {
   std::uint32_t vertices[kBatch];
   std::uint32_t places[kBatch];  ///< as `NearLanes` has them
   unsigned count;
-  unsigned with_terms;  ///< the one of them that has pulls or contacts; kBatch: none has
-  alignas(32) float sums[9][kBatch][kLanes];
+  unsigned with_terms;                         ///< the one of them that has pulls or contacts; kBatch: none has
+  alignas(32) float sums[10][kBatch][kLanes];  ///< the last: six volumes, where they are averaged
 
   inline void clear() {
     count = 0;
     with_terms = kBatch;
   }
-  inline void add(const Descent& d, std::uint32_t vertex, const StarSum& sum, bool has_curvature) {
+  inline void add(const Descent& d, std::uint32_t vertex, const StarSum& sum, Wanted wanted) {
     store(sum.gx, sums[0][count]), store(sum.gy, sums[1][count]), store(sum.gz, sums[2][count]);
-    if (has_curvature) {
+    if (with_curvature(wanted)) {
       store(sum.xx, sums[3][count]), store(sum.xy, sums[4][count]), store(sum.xz, sums[5][count]);
       store(sum.yy, sums[6][count]), store(sum.yz, sums[7][count]), store(sum.zz, sums[8][count]);
     }
+    if (wanted == Wanted::kBothAveraged) store(sum.volume, sums[9][count]);
     if (has_terms(d.motions[vertex])) with_terms = count;
     places[count] = 4 * vertex;
     vertices[count++] = vertex;
@@ -448,19 +392,16 @@ struct Batch {
 
 /// Sums a star up into a batch. Not inlined: all visits share it, and it is long to compile.
 template <Wanted kWanted, Law kLaw>
-[[gnu::noinline]] void sum_star(const Descent& d, std::uint32_t vertex, const Around& around, Batch& batch) {
+[[gnu::noinline]] void sum_star(const Descent& d, std::uint32_t vertex, Batch& batch) {
   const float* place = d.places + std::size_t{4} * vertex;
   StarSum sum(all(0));
-  const auto normals_of = [&](std::uint32_t i) {
-    return kWanted == Wanted::kBothAveraged ? around.normals + std::size_t{4} * kLanes * i : nullptr;
-  };
   if constexpr (kLaw == Law::kSoft) {
     read_star(
         d, vertex,
         [&](const NearLanes& near, const Lanes& x, const Lanes& y, const Lanes& z)
             INCISE_INLINED { sum.add_stretch(near, x, y, z); },
-        [&](const TetLanes& tets, std::uint32_t i, const auto& near)
-            INCISE_INLINED { sum.template add_swelling<kWanted>(tets, near, place[3], normals_of(i)); });
+        [&](const TetLanes& tets, std::uint32_t /*i*/, const auto& near)
+            INCISE_INLINED { sum.template add_swelling<kWanted>(tets, near, place[3]); });
   } else {
     const std::size_t first = d.stars[d.slots[vertex]].first;
     read_star(
@@ -468,15 +409,10 @@ template <Wanted kWanted, Law kLaw>
         [&](const TetLanes& tets, std::uint32_t i, const auto& near) INCISE_INLINED {
           const FibreBlock* fibres = kLaw == Law::kFibres ? d.fibres + first + i : nullptr;
           sum.template add_stiff<kWanted, kLaw>(tets, d.blocks[first + i], d.stiffening[first + i], fibres, near,
-                                                place[3], normals_of(i));
+                                                place[3]);
         });
   }
-  if constexpr (kWanted == Wanted::kBothAveraged) {
-    find_around(d, vertex, around);
-    for (unsigned begin = 0; begin <= d.neighbours[d.slots[vertex]].count; begin += kLanes)
-      sum.add_around(around, begin);
-  }
-  batch.add(d, vertex, sum, with_curvature(kWanted));
+  batch.add(d, vertex, sum, kWanted);
 }
 
 /// The quadratics of a batch.
@@ -513,29 +449,6 @@ struct Quadratics {
       xx += stiffness, yy += stiffness, zz += stiffness;
     }
     if (b.with_terms < kBatch) add_terms<kCurved>(d, d.motions[b.vertices[b.with_terms]], b.with_terms);
-  }
-
-  /// Of a batch of one vertex.
-  [[gnu::always_inline]] inline Quadratics(const Descent& d, const Batch& b) {
-    const std::uint32_t vertex = b.vertices[0];
-    float s[12];
-    sum_lanes(load(b.sums[0][0]), load(b.sums[1][0]), load(b.sums[2][0]), load(b.sums[3][0]), s);
-    sum_lanes(load(b.sums[4][0]), load(b.sums[5][0]), load(b.sums[6][0]), load(b.sums[7][0]), s + 4);
-    const Lanes last = load(b.sums[8][0]);
-    sum_lanes(last, last, last, last, s + 8);
-    const auto wide = [&](unsigned i) { return static_cast<double>(s[i]); };
-    const Motion& motion = d.motions[vertex];
-    const float* place = d.places + std::size_t{4} * vertex;
-    const Doubles weight = {motion.weight};
-    x = Floats{place[0]}, y = Floats{place[1]}, z = Floats{place[2]}, pressure = Floats{place[3]};
-    gx = Doubles{wide(0)}, gy = Doubles{wide(1)}, gz = Doubles{wide(2)};
-    add_inertia(x, Floats{motion.start[0]}, Floats{motion.aim[0]}, weight, from_x, gx);
-    add_inertia(y, Floats{motion.start[1]}, Floats{motion.aim[1]}, weight, from_y, gy);
-    add_inertia(z, Floats{motion.start[2]}, Floats{motion.aim[2]}, weight, from_z, gz);
-    const double stiffness = motion.weight + motion.diagonal;
-    xx = Doubles{wide(3) + stiffness}, xy = Doubles{wide(4)}, xz = Doubles{wide(5)};
-    yy = Doubles{wide(6) + stiffness}, yz = Doubles{wide(7)}, zz = Doubles{wide(8) + stiffness};
-    if (Batch::has_terms(motion)) add_terms<true>(d, motion, 0);
   }
 
   [[gnu::always_inline]] static inline void add_inertia(const Floats& place, const Floats& start, const Floats& aim,
@@ -649,60 +562,29 @@ template <class Visit>
   for (unsigned k = 0; k < b.count; ++k) put(rows[k], d.places + std::size_t{4} * b.vertices[k]);
   b.clear();
 }
-template <class Visit>
+/// The pressures of a batch as its stars stood before it moves.
+[[gnu::always_inline]] inline void find_batch_pressures(const Descent& d, const Batch& b, Floats& pressures) {
+  Doubles volumes;
+  b.sum(9, volumes);
+  const NodeTerm &n0 = d.nodes[b.vertices[0]], &n1 = d.nodes[b.vertices[b.at(1)]], &n2 = d.nodes[b.vertices[b.at(2)]],
+                 &n3 = d.nodes[b.vertices[b.at(3)]];
+  Doubles stiffness, at_rest;
+  widen(Floats{n0.stiffness, n1.stiffness, n2.stiffness, n3.stiffness}, stiffness);
+  widen(Floats{n0.rest_volume, n1.rest_volume, n2.rest_volume, n3.rest_volume}, at_rest);
+  narrow(stiffness * (volumes - at_rest), pressures);
+}
+
+template <bool kAveraged, class Visit>
 inline void finish(const Descent& d, const Visit& how, Batch& b) {
-  move_batch(d, how, Quadratics(d, b, std::true_type()), b);
-}
-
-constexpr std::uint32_t kMostBlocks = 24;  // of stars whose scratch is not allocated
-constexpr std::size_t columns_of(std::uint32_t neighbours) {
-  return (neighbours / kLanes + 1) * kLanes;
-}
-constexpr std::size_t kMostColumns = columns_of(std::uint32_t{kMostBlocks} * kLanes / 2);
-
-inline Around lay_out(float* normals, float* columns, std::size_t count) {
-  return {normals,
-          columns,
-          columns + 4 * count,
-          columns + 5 * count,
-          columns + 6 * count,
-          columns + 7 * count,
-          columns + 8 * count};
-}
-
-/// Visits a vertex alone; the pressures of its neighbours are kept up with it.
-template <Law kLaw, class Visit>
-[[gnu::always_inline]] inline void visit_averaged(const Descent& d, const Visit& how, std::uint32_t v,
-                                                  const Around& around, Batch& b) {
-  const float* x = d.places + std::size_t{4} * v;
-  const float before[3] = {x[0], x[1], x[2]};
-  sum_star<Wanted::kBothAveraged, kLaw>(d, v, around, b);
-  move_batch(d, how, Quadratics(d, b), b);
-  const float moved[3] = {x[0] - before[0], x[1] - before[1], x[2] - before[2]};
-  settle_pressures(d, v, around, moved);
-}
-
-template <Law kLaw, class Visit>
-void visit_large(const Descent& d, const Visit& how, std::uint32_t v, Batch& b) {
-  const std::size_t count = columns_of(d.neighbours[d.slots[v]].count);
-  std::vector<float> normals(std::size_t{4} * kLanes * d.stars[d.slots[v]].used_blocks()), columns(9 * count);
-  visit_averaged<kLaw>(d, how, v, lay_out(normals.data(), columns.data(), count), b);
+  Quadratics q(d, b, std::true_type());
+  if constexpr (kAveraged) find_batch_pressures(d, b, q.pressure);
+  move_batch(d, how, q, b);
 }
 
 template <bool kAveraged, Law kLaw, class Visit>
 [[gnu::always_inline]] inline void visit(const Descent& d, const Visit& how, std::uint32_t v, Batch& b) {
-  if constexpr (kAveraged) {
-    if (d.stars[d.slots[v]].used_blocks() > kMostBlocks || d.neighbours[d.slots[v]].count >= kMostColumns) {
-      visit_large<kLaw>(d, how, v, b);
-      return;
-    }
-    alignas(32) float normals[std::size_t{4} * kLanes * kMostBlocks];
-    alignas(32) float columns[9 * kMostColumns];
-    visit_averaged<kLaw>(d, how, v, lay_out(normals, columns, kMostColumns), b);
-  } else {
-    if (b.count == kBatch || b.meets(d, v)) finish(d, how, b);
-    sum_star<Wanted::kBoth, kLaw>(d, v, {}, b);
-  }
+  if (b.count == kBatch || b.meets(d, v)) finish<kAveraged>(d, how, b);
+  sum_star<kAveraged ? Wanted::kBothAveraged : Wanted::kBoth, kLaw>(d, v, b);
 }
 
 /// Calls `work.operator()<is averaged, law>()` as the body is.
@@ -718,7 +600,7 @@ template <bool kAveraged, class Work>
 }
 template <class Work>
 [[gnu::always_inline]] inline void for_kind(const Descent& d, const Work& work) {
-  d.node_stiffnesses != nullptr ? for_law<true>(d, work) : for_law<false>(d, work);
+  d.nodes != nullptr ? for_law<true>(d, work) : for_law<false>(d, work);
 }
 
 template <bool kAveraged, Law kLaw, class Visit>
@@ -732,7 +614,7 @@ inline void visit_each(const Descent& d, const Visit& how, std::span<const std::
     fetch_ahead(d, at, i, count);
     if (how.takes_part(d.motions[v])) visit<kAveraged, kLaw>(d, how, v, batch);
   }
-  if (batch.count > 0) finish(d, how, batch);
+  if (batch.count > 0) finish<kAveraged>(d, how, batch);
 }
 
 void sweep_all(const Descent& d, std::span<const std::uint32_t> order, bool is_backward) {
@@ -761,7 +643,7 @@ inline void slopes_of_each(const Descent& d, std::span<const std::uint32_t> orde
         d, [&](std::size_t k) { return order[k]; }, i, order.size());
     const bool has_terms = Batch::has_terms(d.motions[order[i]]);
     if (batch.count == kBatch || (has_terms && batch.with_terms < kBatch)) put_slopes(d, batch, slopes);
-    sum_star<kWanted, kLaw>(d, order[i], {}, batch);
+    sum_star<kWanted, kLaw>(d, order[i], batch);
   }
   if (batch.count > 0) put_slopes(d, batch, slopes);
 }
@@ -794,9 +676,8 @@ void pressures_of_all(const Descent& d, std::span<const std::uint32_t> vertices)
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     fetch_ahead(
         d, [&](std::size_t k) { return vertices[k]; }, i, vertices.size());
-    const std::uint32_t v = d.slots[vertices[i]];
-    const float k = d.node_stiffnesses[v];
-    d.pressures[v] = k > 0 ? k * (star_volume(d, vertices[i]) - d.rest_volumes[v]) : 0.0F;
+    const NodeTerm& node = d.nodes[vertices[i]];
+    d.places[std::size_t{4} * vertices[i] + 3] = node.stiffness * (star_volume(d, vertices[i]) - node.rest_volume);
   }
 }
 

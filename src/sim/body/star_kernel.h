@@ -10,7 +10,7 @@
 
 #include "incise/geom/vec.h"
 #include "sim/body/contact_terms.h"
-#include "sim/body/neighbours.h"
+#include "sim/body/nodal_volumes.h"
 #include "sim/body/packed_stars.h"
 #include "sim/body/stars.h"
 
@@ -78,13 +78,8 @@ struct Descent {
   const PackedStar* parts = nullptr;
   const NearLanes* near = nullptr;
   const TetLanes* tets = nullptr;
-  // of `NodalVolumes`; null where no volume is averaged
-  float* pressures = nullptr;
-  const float* node_stiffnesses = nullptr;
-  const float* rest_volumes = nullptr;
-  const NeighbourList* neighbours = nullptr;
-  const std::uint32_t* neighbour_slots = nullptr;
-  const std::uint16_t* rings = nullptr;
+  // of `NodalVolumes`, by row; null where no volume is averaged
+  const NodeTerm* nodes = nullptr;
   // of tissue that stiffens; null where none does
   const StiffeningBlock* stiffening = nullptr;
   // of tissue with fibres; null where there are none

@@ -4,11 +4,19 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/body/constants.h"
+
 namespace incise {
 inline namespace v0 {
 namespace detail {
 
 static constexpr std::uint32_t kHole = 0xFFFFFFFFU;  // in place of an owner
+
+/// Of the share of a tet that its vertices have, with the tet's own part as 1.
+static std::uint8_t bend_code(const Element& element) {
+  if (!(element.give > 0)) return 0;
+  return power_code(1 + kSharedBend / (6 * element.give * element.bulk));
+}
 
 void Stars::ensure(std::uint32_t vertex_slots, std::uint32_t tet_slots) {
   if (vertex_slots > stars_.size()) {
@@ -37,6 +45,7 @@ void Stars::clear_lane(const Star& star, std::uint32_t lane, VertexId vertex) {
   const std::uint32_t i = lane % kLanes;
   block.a[i] = block.b[i] = block.c[i] = vertex.value;
   block.bulk[i] = block.pressure[i] = block.to_a[i] = block.to_b[i] = block.to_c[i] = 0;
+  block.bend[i] = 0;
   if (stiffens) put_stiffening(star.first + lane / kLanes, i, 0, {});
   if (has_fibres) put_fibres(star.first + lane / kLanes, i, 0, {});
 }
@@ -104,6 +113,7 @@ void Stars::grow(Star& star, VertexId vertex) {
 }
 
 void Stars::add(TetId tet, const TetVertices& vertices, const Element& element) {
+  const std::uint8_t bend = bend_code(element);
   for (unsigned i = 0; i < 4; ++i) {
     Star& star = stars_[vertices[i]];
     std::uint32_t lane = star.lanes;
@@ -121,6 +131,7 @@ void Stars::add(TetId tet, const TetVertices& vertices, const Element& element) 
     block.c[slot] = vertices[c].value;
     block.bulk[slot] = static_cast<float>(element.bulk);
     block.pressure[slot] = static_cast<float>(element.give > 0 ? element.pressure : -element.pressure);
+    block.bend[slot] = bend;
     put_laplacian(at, slot, i, element);
     if (stiffens) put_stiffening(at, slot, i, element);
     if (has_fibres) put_fibres(at, slot, i, element);
@@ -141,6 +152,7 @@ void Stars::move_lane(const Star& star, std::uint32_t from, std::uint32_t to) {
   target.to_a[j] = source.to_a[i];
   target.to_b[j] = source.to_b[i];
   target.to_c[j] = source.to_c[i];
+  target.bend[j] = source.bend[i];
   if (stiffens) {
     const StiffeningBlock& other = stiffening_[star.first + from / kLanes];
     StiffeningBlock& into = stiffening_[star.first + to / kLanes];

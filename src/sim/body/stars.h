@@ -17,12 +17,28 @@ namespace detail {
 
 inline constexpr std::uint32_t kLanes = 8;
 
+/// A number from 1 on in a byte, within an eighth of it: its three first binary places and its exponent, as floats have
+/// them.
+inline constexpr std::uint32_t kPowerOne = 0x3F800000U;
+[[nodiscard]] constexpr float power_of(std::uint8_t code) {
+  float power = 1 + 0.125F * static_cast<float>(code % 8);
+  for (unsigned i = 0; i < code / 8U; ++i) power *= 2;
+  return power;
+}
+/// The least code whose number is not below `value`.
+[[nodiscard]] constexpr std::uint8_t power_code(double value) {
+  std::uint8_t code = 0;
+  while (code < 255 && static_cast<double>(power_of(code)) < value) ++code;
+  return code;
+}
+
 /// Eight tets of one star. Unused lanes name the vertex itself and weigh nothing.
 struct StarBlock {
   std::array<std::uint32_t, kLanes> a, b, c;   ///< the other corners, as `kSideCorners` orders them
   std::array<float, kLanes> bulk;              ///< of `Element`
   std::array<float, kLanes> pressure;          ///< likewise; below 0 where the vertices share nothing of the tet
   std::array<float, kLanes> to_a, to_b, to_c;  ///< the row of its Laplacian
+  std::array<std::uint8_t, kLanes> bend;       ///< `power_code` of the curvature that a visit takes, by `bulk`
 };
 
 /// What else is known of the tets of a block where tissue stiffens: their energies, seen from the vertex.

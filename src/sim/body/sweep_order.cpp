@@ -33,14 +33,7 @@ void SweepOrder::begin(std::span<const std::uint32_t> order, const std::vector<b
 SweepOrder::Part SweepOrder::part_beside(VertexId vertex, const Stars& stars) const {
   bool touches[4] = {};
   const auto note = [&](VertexId n) { touches[static_cast<std::size_t>(parts_[n])] = true; };
-  if (neighbours_ == nullptr) {
-    for_each_neighbour(stars, vertex, note);
-  } else {
-    for (const std::uint32_t n : neighbours_->of(vertex)) {
-      note(VertexId(n));
-      for (const std::uint32_t beyond : neighbours_->of(VertexId(n))) note(VertexId(beyond));
-    }
-  }
+  for_each_neighbour(stars, vertex, note);
   const Part own = parts_[vertex];
   if (own != Part::kNone) touches[static_cast<std::size_t>(own)] = true;
   if (touches[2] && own == Part::kSeam) return Part::kSeam;

@@ -9,7 +9,6 @@
 
 #include "incise/core/id_array.h"
 #include "incise/mesh/tet_mesh.h"
-#include "sim/body/neighbours.h"
 #include "sim/body/stars.h"
 
 namespace incise {
@@ -29,9 +28,6 @@ class SweepOrder {
   void begin(std::span<const std::uint32_t> order, const std::vector<bool>& is_first, const Stars& stars);
   /// Takes a new vertex up, or sets one right whose star has changed: it goes to the seam where it touches both parts.
   void settle(VertexId vertex, const Stars& stars);
-  /// From here on no vertex of the first part has a neighbour in common with one of the second: visits write what their
-  /// neighbours hold. The lists are to stay where they are, and up to date before `begin` and `settle`.
-  void keep_apart(const Neighbours& neighbours) { neighbours_ = &neighbours; }
   /// Leaves a vertex out: dead or rigidly held.
   void drop(VertexId vertex);
 
@@ -75,7 +71,6 @@ class SweepOrder {
   IdArray<VertexId, std::uint32_t> rank_;
   IdArray<VertexId, std::uint8_t> is_lent_;
   std::vector<std::uint32_t> lent_;  // ascending
-  const Neighbours* neighbours_ = nullptr;
   std::uint32_t next_rank_ = 0;
   std::size_t moving_ = 0;  // vertices in a part
   std::array<std::vector<std::uint32_t>, kParts> awake_;
