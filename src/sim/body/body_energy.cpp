@@ -74,10 +74,10 @@ void DeformableBody::State::move_rigidly(std::vector<detail::Drift> moved) {
 }
 
 /// What is held or asleep has a share in the energy of tets whose other corners move. Cost: O(awake), or O(body) where
-/// most of it is awake.
+/// most of it is awake: not where most of what may move is, since far more may be held.
 void DeformableBody::State::find_resting() {
   resting.clear();
-  if (2 * order.awake_count() > order.moving_count()) {
+  if (2 * order.awake_count() > places.size()) {
     for (std::uint32_t slot = 0; slot < places.size(); ++slot) {
       const VertexId v(slot);
       if (is_live(v) && in_crumb[v] == 0 && !order.is_awake(v)) resting.push_back(slot);
