@@ -312,8 +312,9 @@ Status PaperCutter::cut_to(const CutContext& context, const std::vector<Vec3>& r
   return status;
 }
 
-/// Holds the points of the blade that go back in the wound.
+/// Holds the points of the blade that go back in the wound, once it has gone far enough to tell where back is.
 void PaperCutter::hold_where_it_turns_back() {
+  if (stroke_.course.norm() < kLeastCourse * stroke_.spacing) return;
   const std::vector<Vec3> row = stroke_.material.wanted();
   for (std::size_t i = 0; i < row.size(); ++i) {
     const bool is_back = (row[i] - stroke_.material.anchors()[i]).dot(stroke_.course) < 0;
@@ -321,11 +322,13 @@ void PaperCutter::hold_where_it_turns_back() {
   }
 }
 
-/// Where the front goes at rest: its mean way, new ones counting most.
+/// Where the front goes at rest: the mean way of its points over about the last spacing. While the blade touches down,
+/// ways are short, and lead anywhere.
 void PaperCutter::note_course(std::span<const SosPoint> row) {
   Vec3 way = Vec3::Zero();
   for (std::size_t i = 0; i < row.size(); ++i) way += row[i].position - stroke_.material.anchors()[i];
-  if (way.norm() > 0) stroke_.course = (0.5 * stroke_.course + way.normalized()).normalized();
+  way /= static_cast<double>(row.size());
+  stroke_.course = std::max(0.0, 1 - way.norm() / stroke_.spacing) * stroke_.course + way;
 }
 
 /// A blade in the air cuts nothing: its sheet ends where it has left the body, and the next one begins where it comes
