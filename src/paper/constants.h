@@ -55,11 +55,9 @@ inline constexpr std::size_t kEndsKept = 16;
 inline constexpr double kMostParts = 64;
 inline constexpr double kNearBody = 0.1;
 /// In a body that moves a blade that goes back is in its wound, and held, until it is so many spacings away from the
-/// front: then it is on another way. Less, and one that is drawn back by some elements cuts crumbs off the lips.
+/// front, or further than the wound is long: then it is on another way. Less, and one that is drawn back by some
+/// elements cuts crumbs off the lips.
 inline constexpr double kTurnBack = 6.0;
-/// It is known which way is back once the front has gone so many spacings. Less, and a blade that is pushed aside where
-/// it touches down is held for all of its stroke; more, and one that comes back at once cuts crumbs.
-inline constexpr double kLeastCourse = 0.25;
 
 namespace paper {
 

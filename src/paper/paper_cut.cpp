@@ -312,23 +312,22 @@ Status PaperCutter::cut_to(const CutContext& context, const std::vector<Vec3>& r
   return status;
 }
 
-/// Holds the points of the blade that go back in the wound, once it has gone far enough to tell where back is.
+/// Holds the points of the blade that go back in the wound: no further than that is long.
 void PaperCutter::hold_where_it_turns_back() {
-  if (stroke_.course.norm() < kLeastCourse * stroke_.spacing) return;
+  const double most = std::min(kTurnBack * stroke_.spacing, stroke_.gone);
   const std::vector<Vec3> row = stroke_.material.wanted();
   for (std::size_t i = 0; i < row.size(); ++i) {
     const bool is_back = (row[i] - stroke_.material.anchors()[i]).dot(stroke_.course) < 0;
-    if (is_back && stroke_.material.lead(i) < kTurnBack * stroke_.spacing) stroke_.material.hold(i);
+    if (is_back && stroke_.material.lead(i) < most) stroke_.material.hold(i);
   }
 }
 
-/// Where the front goes at rest: the mean way of its points over about the last spacing. While the blade touches down,
-/// ways are short, and lead anywhere.
+/// Where the front goes at rest: its mean way, new ones counting most.
 void PaperCutter::note_course(std::span<const SosPoint> row) {
   Vec3 way = Vec3::Zero();
   for (std::size_t i = 0; i < row.size(); ++i) way += row[i].position - stroke_.material.anchors()[i];
-  way /= static_cast<double>(row.size());
-  stroke_.course = std::max(0.0, 1 - way.norm() / stroke_.spacing) * stroke_.course + way;
+  if (way.norm() > 0) stroke_.course = (0.5 * stroke_.course + way.normalized()).normalized();
+  stroke_.gone += way.norm() / static_cast<double>(row.size());
 }
 
 /// A blade in the air cuts nothing: its sheet ends where it has left the body, and the next one begins where it comes
@@ -351,6 +350,7 @@ void PaperCutter::finish_sheet(const CutContext& context) {
   front_.begin_sheet();
   stroke_.sheet.clear();
   stroke_.course = Vec3::Zero();
+  stroke_.gone = 0;
 }
 
 /// The strips that the blade laid within `kStripsReach` elements before a strip, if that goes on from them as on one

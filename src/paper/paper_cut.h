@@ -76,7 +76,8 @@ class PaperCutter {
     std::vector<Vec3> last_row;  // divided
     double spacing = 1.0;
     Vec3 direction = Vec3::Zero();  // of the last frame in a body that moves
-    Vec3 course = Vec3::Zero();     // of the front there, at rest: its last way
+    Vec3 course = Vec3::Zero();     // of the front there, at rest; unit
+    double gone = 0;                // how far it has: the length of the wound
     bool is_in_material = false, is_last = false;
     bool has_cut = false;
     bool may_go_on = false;  // it has ended, and nothing else has happened since

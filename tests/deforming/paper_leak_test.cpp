@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The profile paper in 20 scenes of bodies that move under a solver: the pieces of the profile incise, and nothing
-// else, maintained or not. By day every other scene: each body, and each motion.
+// else, maintained or not. By day every fourth scene: each body, and each motion.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -175,6 +175,22 @@ TEST(Compose, the_same_partial_stroke_again_changes_next_to_nothing) {
   }
 }
 
+/// A hand wanders by a tenth of the mean edge to either side: 0.2 of it lie between two of its strokes. In a cube of
+/// three cells that is more than 0.2 of the typical edge.
+TEST(Compose, the_same_partial_stroke_beside_itself_changes_next_to_nothing) {
+  const Plane plane;
+  const TetSoup soup = kuhn_cube(3);
+  for (const double lift : {-0.086, 0.086}) {
+    SCOPED_TRACE(lift);
+    Engine engine = engine_for(soup);
+    stroke(engine, plane.sweep(-kWhole, 0.1, 8));
+    const std::size_t before = engine.mesh().tet_count();
+    stroke(engine, plane.sweep(-kWhole, 0.1, 8, lift));
+    EXPECT_EQ(pieces(engine), 1U);
+    EXPECT_LE(engine.mesh().tet_count(), before + before / 20);
+  }
+}
+
 TEST(Compose, a_stroke_that_starts_at_a_wall_reaches_it_and_spares_the_other_lip) {
   const Plane plane;
   Engine engine = engine_for(kuhn_cube(5));
