@@ -212,8 +212,9 @@ void add_row(const Body& body, unsigned strokes, const std::string& method, cons
              fmt::format("{:.2f}", std::abs(lost) < 0.005 ? 0.0 : lost), fmt::format("{:+.0f}", added),
              fmt::format("{:.2f}", quality.lr_min), fmt::format("{:.2f}", quality.lr_mean),
              fmt::format("{:.4g}", quality.lr_max), fmt::format("{:.2g}", quality.lr_over_200_pct),
-             fmt::format("{:.2g}", quality.dihedral_min_deg), fmt::format("{:.4g}", quality.dihedral_max_deg),
-             fmt::format("{:.2g}", sum / walls), fmt::format("{:.2g}", greatest),
+             std::to_string(quality.flat_tets), fmt::format("{:.2g}", quality.dihedral_min_deg),
+             fmt::format("{:.4g}", quality.dihedral_max_deg), fmt::format("{:.2g}", sum / walls),
+             fmt::format("{:.2g}", greatest),
              fmt::format("{:.1f}", 1e3 * out.ms / static_cast<double>(std::max<std::uint64_t>(out.cut_tets, 1)))});
 }
 
@@ -287,11 +288,12 @@ int run(int argc, char** argv) {
   }
   Table table(
       "methods",
-      "Methods on the same planes. Volume lost and tets added over the body's; L/r and dihedral angles of all tets; "
+      "Methods on the same planes. Volume lost and tets added over the body's; L/r and dihedral angles of all tets "
+      "but the flat ones, which are counted; "
       "distance of the last wall's points from its plane in mean edges; processor time by tet that a plane met. Made: "
       "strokes until the mesh had more than a million tets, or none",
       {"body", "strokes", "method", "made", "tets before", "pieces", "volume lost %", "tets added", "L/r min", "mean",
-       "max", "> 200 %", "dihedral min", "max", "wall off, mean", "max", "us / cut tet"});
+       "max", "> 200 %", "flat", "dihedral min", "max", "wall off, mean", "max", "us / cut tet"});
   for (const Body& body : bodies(root)) {
     for (const unsigned strokes : kStrokes) {
       const std::vector<Plane> planes = random_planes(body, strokes);

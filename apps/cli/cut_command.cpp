@@ -34,6 +34,7 @@ struct CutArguments {
   MeshOutput output;
   FineArguments fine;
   bool as_json = false;
+  bool at_once = false;  // each stroke of a blade as one sheet, as a plane is cut
   std::string profile = "incise";
   std::vector<std::string> stop_at;
   double snap = 0.2;
@@ -117,6 +118,7 @@ void note_idle_beside_method(const CutArguments& a, const Terminal& terminal) {
   note(a.no_merge, "--no-merge");
   note(a.no_improve, "--no-improve");
   note(a.no_smooth_boundary, "--no-smooth-boundary");
+  note(a.at_once, "--at-once");
   note(a.budget_us > 0, "--budget-us");
 }
 
@@ -124,6 +126,7 @@ void note_idle_beside_method(const CutArguments& a, const Terminal& terminal) {
 void note_idle_flags(const CutArguments& a, const Terminal& terminal) {
   if (method_of(a)) return note_idle_beside_method(a, terminal);
   const bool is_paper = a.profile == "paper";
+  if (a.at_once && !a.plane.empty()) terminal.note("--at-once has no effect with --plane, which is one sheet anyway");
   if (is_paper && a.has_snap) terminal.note("--snap has no effect with --profile paper, which never snaps");
   if (a.no_smooth_boundary && (!is_paper || a.no_improve)) {
     terminal.note("--no-smooth-boundary has no effect without --profile paper and its improvement");
@@ -169,7 +172,7 @@ Result<std::vector<Stroke>> held_strokes_of(const CutArguments& a, const io::Loa
 app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Terminal& terminal, ProgressBar& bar) {
   app::CutJob job;
   job.strokes = std::move(strokes);
-  job.by_steps = !a.blade.empty();
+  job.by_steps = !a.blade.empty() && !a.at_once;
   job.record = a.record;
   job.method = method_of(a);
   job.engine.cut.profile = profile_of(a.profile);
@@ -195,22 +198,22 @@ std::string shown(double number) {
 }
 
 /// Says which strokes met nothing, and where a plane would have.
-void warn_of_misses(const CutArguments& a, const app::CutJob& job, const app::JobReport& report, const Box& body,
+void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::JobReport& report, const Box& body,
                     const Terminal& terminal) {
   if (report.missed.empty()) return;
   if (a.blade.empty()) {
     const Vec3 normal = parse_plane(a.plane)->normal;
     const Vec3 middle = (body.lo + body.hi) / 2, half = (body.hi - body.lo) / 2;
     const double at = normal.dot(middle), reach = normal.cwiseAbs().dot(half);
+    if (std::abs(parse_plane(a.plane)->offset - at) < reach) {
+      return terminal.warning("the plane " + a.plane + " cut nothing: no tet of the mesh is whole there");
+    }
     return terminal.warning("the plane " + a.plane + " misses the mesh: nothing was cut; its box has d from " +
                             shown(at - reach) + " to " + shown(at + reach) + " along that normal");
   }
-  const std::size_t first = report.missed.front();
-  const std::string& name = job.strokes[first].name;
-  const std::string which = "stroke " + std::to_string(first) + (name.empty() ? "" : " \"" + name + "\"");
-  const std::size_t more = report.missed.size() - 1;
-  terminal.warning(a.blade + ": " + which + (more > 0 ? " and " + std::to_string(more) + " more" : "") +
-                   " cut nothing; does the blade meet the mesh? incise info tells its bounds");
+  std::vector<std::string> names;
+  for (const Stroke& stroke : job.strokes) names.push_back(stroke.name);
+  warn_of_misses(a.blade, report, names, terminal);
 }
 
 /// The picture and the surface that were asked for.
@@ -242,7 +245,8 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   Result<std::optional<app::FineView>> fine = bind_fine(arguments.fine, loaded->mesh);
   if (!fine.ok()) return fail(terminal, fine.error(), kBadInput);
   const Box body = rest_bounds(loaded->mesh);
-  std::optional<ProgressBar> bar(std::in_place, terminal, arguments.blade.empty() ? "cuts" : "steps");
+  std::optional<ProgressBar> bar(std::in_place, terminal,
+                                 arguments.blade.empty() || arguments.at_once ? "cuts" : "steps");
   app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal, *bar);
   Status drawn;
   job.look = [&](const Engine& end) { drawn = draw_end(arguments, end, *fine ? &**fine : nullptr); };
@@ -252,7 +256,7 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   if (!result.ok()) {
     return fail(terminal, result.error(), result.error().code == ErrorCode::kBadArgument ? kBadInput : kFailure);
   }
-  warn_of_misses(arguments, job, result->report, body, terminal);
+  warn_of_closed(arguments, job, result->report, body, terminal);
   if (!arguments.picture.empty()) terminal.wrote(arguments.picture, "picture");
   if (!arguments.fine.drawn.empty()) terminal.wrote(arguments.fine.drawn, "surface");
   if (!arguments.record.empty()) terminal.wrote(arguments.record, "recording");
@@ -291,6 +295,8 @@ Command add_cut(CLI::App& root) {
   cut->add_option("--stop-at", arguments->stop_at,
                   "Regions that the blade's edge is held outside of, by number or name: muscle,3")
       ->delimiter(',');
+  cut->add_flag("--at-once", arguments->at_once,
+                "Cut each stroke of the blade as one sheet, not pose by pose: faster, and no wound in between");
   cut->add_option("--plane", arguments->plane, "nx,ny,nz,d: cut through everything along n.x = d, n of any length");
   add_output(*cut, arguments->output);
   add_cut_profile(*cut, arguments->profile);

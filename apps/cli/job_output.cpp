@@ -19,10 +19,15 @@ Status write_report(const ReportOutput& output, const app::JobReport& report, co
   return output.is_on_stdout() ? terminal.data(app::to_json(report)) : Status();
 }
 
+/// Whether a method has removed all tets; there is no file without one.
+bool is_empty(const app::JobResult& result) {
+  return result.report.after.tets == 0;
+}
+
 Status write_results(const MeshOutput& output, const ReportOutput& report, const app::JobResult& result,
                      const Terminal& terminal) {
   const WritingZone zone;
-  if (output.is_wanted() && (result.report.change.ok || result.report.broken)) {
+  if (output.is_wanted() && !is_empty(result) && (result.report.change.ok || result.report.broken)) {
     if (Status status = write_output(output, result.mesh, terminal); !status.ok()) return status;
   }
   return write_report(report, result.report, terminal);
@@ -68,12 +73,25 @@ Result<io::LoadedMesh> load(const std::string& mesh, const Terminal& terminal) {
   return loaded;
 }
 
+void warn_of_misses(const std::string& file, const app::JobReport& report, const std::vector<std::string>& names,
+                    const Terminal& terminal) {
+  if (report.missed.empty()) return;
+  const std::size_t first = report.missed.front(), more = report.missed.size() - 1;
+  const std::string name = first < names.size() ? names[first] : "";
+  terminal.warning(file + ": stroke " + std::to_string(first) + (name.empty() ? "" : " \"" + name + "\"") +
+                   (more > 0 ? " and " + std::to_string(more) + " more" : "") +
+                   " cut nothing; does the blade meet the mesh, where it is whole? incise info tells its bounds");
+}
+
 int finish_job(const MeshOutput& output, const ReportOutput& report, const std::string& work,
                const app::JobResult& result, const Terminal& terminal) {
   if (const Status status = write_results(output, report, result, terminal); !status.ok()) {
     return fail(terminal, status.error(), status.error().code == ErrorCode::kBadArgument ? kUsage : kFailure);
   }
   if (!report.is_on_stdout()) terminal.summary(app::to_text(result.report), output.is_stdout());
+  if (result.report.change.ok && output.is_wanted() && is_empty(result)) {
+    return fail(terminal, "nothing is left of the mesh, so that " + output.file + " was not written", kFailure);
+  }
   if (result.report.change.ok) return kDone;
   return fail(terminal, broken_text(output.file, work, result.report), kCheckFailed);
 }

@@ -15,6 +15,7 @@
 #include "command_support.h"
 #include "fine_output.h"
 #include "input_kind.h"
+#include "job_output.h"
 #include "shared/device_arguments.h"
 
 namespace incise_cli {
@@ -178,6 +179,7 @@ Status write_page(const SimulateArguments& a, const app::Scene& scene, const app
 
 int finish_run(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
   print_notes(report.job.notes, report.job.input, terminal);
+  warn_of_misses(a.scene, report.job, {}, terminal);
   if (!a.output.empty() && report.job.change.ok) terminal.wrote(a.output, "series, with its folder");
   if (!a.record.empty()) terminal.wrote(a.record, "recording");
   if (const Status status = write_report(a, report, terminal); !status.ok()) {

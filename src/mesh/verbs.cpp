@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "incise/geom/predicates.h"
+#include "incise/geom/quality.h"
 #include "incise/mesh/star.h"
 
 namespace incise {
@@ -25,6 +26,21 @@ bool is_exactly_positive_with(const TetMesh& mesh, TetId tet, unsigned corner, c
   Corners p = rest_corners(mesh, mesh.vertices(tet));
   p[corner] = moved;
   return orient3d(p[0], p[1], p[2], p[3]) > 0;
+}
+
+/// Whether a tet is flat, or inverted, with one corner elsewhere.
+bool is_flat_with(const TetMesh& mesh, TetId tet, unsigned corner, const Vec3& moved) {
+  Corners p = rest_corners(mesh, mesh.vertices(tet));
+  p[corner] = moved;
+  return v0::is_flat(p[0], p[1], p[2], p[3]);
+}
+
+/// Whether a corner's move takes a tet's volume: its sign, or all of it but rounding.
+bool loses_volume(const TetMesh& mesh, TetId tet, VertexId vertex, const Vec3& moved) {
+  const unsigned corner = mesh.corner_of(tet, vertex);
+  const Vec3& old = mesh.rest(vertex);
+  if (!is_exactly_positive_with(mesh, tet, corner, moved)) return is_exactly_positive_with(mesh, tet, corner, old);
+  return is_flat_with(mesh, tet, corner, moved) && !is_flat_with(mesh, tet, corner, old);
 }
 
 /// The boundary bits that a point of an edge inherits: those of the surfaces that both ends of the fan lie on.
@@ -405,13 +421,9 @@ MoveVertexPlan plan_move_vertex(const TetMesh& mesh, VertexId vertex, const Vec3
   }
   StarWalker walker;
   const std::vector<TetId>& star = walker.star(mesh, vertex);
-  for (const TetId tet : star) {
-    const unsigned corner = mesh.corner_of(tet, vertex);
-    if (!is_exactly_positive_with(mesh, tet, corner, rest) &&
-        is_exactly_positive_with(mesh, tet, corner, mesh.rest(vertex))) {
-      plan.refusal = Refusal::kWouldInvert;
-      return plan;
-    }
+  if (std::any_of(star.begin(), star.end(), [&](TetId tet) { return loses_volume(mesh, tet, vertex, rest); })) {
+    plan.refusal = Refusal::kWouldInvert;
+    return plan;
   }
   locate(mesh, star, plan);
   return plan;

@@ -135,6 +135,65 @@ TEST_F(CliHabits, warns_of_a_plane_or_a_blade_that_misses) {
   EXPECT_NE(far.err.find("warning: " + blade + ": stroke 1 \"far\" cut nothing"), std::string::npos) << far.err;
 }
 
+TEST_F(CliHabits, warns_of_a_stroke_along_an_older_cut_and_of_a_blade_in_the_air) {
+  const std::string halves = folder_ / "halves.vtu";
+  ASSERT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.4", "-o", halves, "-q"}).code, 0);
+  const Outcome again = run({"cut", halves, "--plane", "1,0,0,0.4"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.err.find("warning: the plane 1,0,0,0.4 cut nothing"), std::string::npos) << again.err;
+  json scene = json::parse(R"({"format":"incise-scene","version":1,"model":{"box":{"cells":[2,2,2]}},"length_unit":0.1,
+      "materials":{"default":{"density":1000,"young":5000,"poisson":0.4}},"duration":0.2,
+      "attachments":[{"below":[0,0,1,0.1]}],"strokes":[{"start":0,"blade":[{"edges":[
+        {"t":0,"points":[[4,-1,-1],[4,2,-1]]},{"t":0.1,"points":[[4,-1,2],[4,2,2]]}]}]}]})");
+  const auto warned = [&] {
+    const Outcome outcome = run({"simulate", folder_.write("scene.json", scene.dump())});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err.find("scene.json: stroke 0 cut nothing") != std::string::npos;
+  };
+  EXPECT_TRUE(warned());
+  for (auto& edge : scene["strokes"][0]["blade"][0]["edges"]) {
+    for (auto& point : edge["points"]) point[0] = 0.4;
+  }
+  EXPECT_FALSE(warned());
+}
+
+TEST_F(CliHabits, reports_a_cut_that_leaves_nothing_and_writes_no_file) {
+  const std::string tet = folder_.write("tet.mesh", R"(MeshVersionFormatted 1
+Dimension 3
+Vertices
+4
+0 0 0 0
+1 0 0 0
+0 1 0 0
+0 0 1 0
+Tetrahedra
+1
+1 2 3 4 0
+End
+)");
+  const std::string out = folder_ / "none.vtu";
+  const Outcome gone = run({"cut", tet, "--plane", "1,0,0,0.3", "--profile", "removal", "-o", out, "--report", "-"});
+  EXPECT_EQ(gone.code, 1);
+  EXPECT_NE(gone.err.find("incise: error: nothing is left of the mesh, so that " + out), std::string::npos) << gone.err;
+  EXPECT_EQ(json::parse(gone.out)["mesh"]["after"]["tets"], 0);
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(CliHabits, cuts_a_stroke_as_one_sheet_where_it_is_asked_to) {
+  const std::string blade = INCISE_SCENES "/table2_cube_complex.json";
+  const std::string cube = folder_.write("five.mesh", cube_mesh(5));
+  const auto tets = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"cut", cube, "--blade", blade, "--profile", "paper", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return json::parse(run(words).out)["mesh"]["after"]["tets"].get<int>();
+  };
+  EXPECT_EQ(tets({"--at-once", "--no-merge", "--no-improve"}), 3836);  // docs/paper_map.md, Table 2
+  EXPECT_EQ(tets({"--at-once", "--no-improve"}), 1990);
+  EXPECT_EQ(run({"cut", cube, "--plane", "1,0,0,0.5", "--at-once"}).err.find("note: --at-once has no effect") !=
+                std::string::npos,
+            true);
+}
+
 TEST_F(CliHabits, says_of_files_of_another_kind_what_they_are_and_what_to_use) {
   const std::string scene = folder_.write("scene.json", full_scene().dump());
   const std::string blade = INCISE_SCENES "/cube_plane.json", record = folder_ / "r.jsonl";

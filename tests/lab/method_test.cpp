@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all cited methods promise: sound meshes whatever the stroke, the way back, and errors.
+#include "incise/mesh/quality_stats.h"
 #include "lab/lab_support.h"
 #include "support/random_strokes.h"
 
@@ -61,6 +62,17 @@ TEST_P(EveryMethod, keeps_the_volume_where_it_says_so) {
 TEST_P(EveryMethod, refuses_a_stroke_that_sweeps_nothing) {
   LabCut body{build(kuhn_cube(2)), {}, {}};
   EXPECT_FALSE(cut_by(GetParam(), body.mesh, body.journal, Stroke(), 1).ok());
+}
+
+TEST_P(EveryMethod, leaves_no_flat_tet_after_a_plane) {
+  Random random(23);
+  for (std::uint32_t k = 0; k < 50; ++k) {
+    const Vec3 normal = random_direction(random);
+    const double offset = normal.dot(random.point(0.3, 0.7));
+    const LabCut body =
+        cut_by(GetParam(), k % 2 == 0 ? kuhn_cube(5) : jittered_cube(4, k), plane_through(normal, offset));
+    EXPECT_EQ(measure_quality(body.mesh).flat_tets, 0U) << "plane " << k;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Lab, EveryMethod,

@@ -129,8 +129,9 @@ struct MoveVertexPlan {
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 
-/// Plans a move in the rest shape. Refuses where a tet of positive volume would lose it, by exact sign; keeping a
-/// boundary vertex on its surface is up to the caller. Refuses pinched vertices (kNoStar). Cost: O(star).
+/// Plans a move in the rest shape. Refuses where a tet of positive volume would lose it, by exact sign, or one
+/// that is not flat (`is_flat`) would become so; keeping a boundary vertex on its surface is up to the caller. Refuses
+/// pinched vertices (kNoStar). Cost: O(star).
 MoveVertexPlan plan_move_vertex(const TetMesh& mesh, VertexId vertex, const Vec3& rest);
 
 /// Carries a plan out; cannot fail. Links, slots and shape bits stay.

@@ -81,7 +81,7 @@ Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, Ste
   const auto cut = job.by_steps ? cut_by_steps : cut_whole;
   const Result<StrokeReport> stroke = cut(engine, job.strokes[index], samples, count);
   if (!stroke.ok()) return in_stroke(stroke.error(), job, index);
-  if (stroke->cut.cut_tets == 0 && stroke->cut.incision_faces == 0) report.missed.push_back(index);
+  if (detail::opened_nothing(stroke->cut)) report.missed.push_back(index);
   report.cut += stroke->cut;
   if (index + 1 == job.strokes.size()) detail::measure_cut(engine.mesh(), report);
   MaintainReport maintained{stroke->maintain, {}};

@@ -115,6 +115,10 @@ Error in_stroke(Error error, const CutJob& job, std::size_t index) {
   return error;
 }
 
+bool opened_nothing(const CutStatistics& cut) {
+  return cut.incision_faces <= 0;
+}
+
 void add_operation(const MaintainStatistics& maintained, const StepSamples& samples, JobReport& report) {
   report.maintain += maintained;
   report.units_per_stroke.push_back(maintained.work_units);

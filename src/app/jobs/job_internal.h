@@ -64,6 +64,10 @@ struct StepSamples {
 /// Says in which stroke of a job an error came up.
 [[nodiscard]] Error in_stroke(Error error, const CutJob& job, std::size_t index);
 
+/// Whether a stroke, or frames of one, left every face of the mesh closed: it met nothing, pressed, or went along an
+/// older cut.
+[[nodiscard]] bool opened_nothing(const CutStatistics& cut);
+
 /// Adds one operation, a stroke or an improvement.
 void add_operation(const MaintainStatistics& maintained, const StepSamples& samples, JobReport& report);
 

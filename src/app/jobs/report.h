@@ -60,7 +60,7 @@ struct JobReport {
   std::vector<std::string> notes;  ///< from loading
   ReportOptions options;
   std::uint64_t strokes = 0;          ///< 0 for an improvement
-  std::vector<std::uint64_t> missed;  ///< strokes, from 0, that cut nothing
+  std::vector<std::uint64_t> missed;  ///< strokes, from 0, that opened nothing
   MeshCounts before, after;
   std::vector<PieceFigures> pieces;  ///< after, by label
   CutStatistics cut;

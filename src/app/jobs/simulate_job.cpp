@@ -42,6 +42,7 @@ class SceneRunner {
   void add(const FrameReport& frame, const FrameInput& input);
   void add(const BladeState& blade);
   void add_work(const FrameReport& frame);
+  void end_stroke();
   bool stops() {
     was_stopped_ = was_stopped_ || (job_.should_stop && job_.should_stop());
     return was_stopped_;
@@ -55,6 +56,7 @@ class SceneRunner {
   std::optional<ExerciseScorer> scorer_;       // where the scene is an exercise
   std::chrono::steady_clock::time_point due_;  // of the next frame, with a live hand
   bool had_blade_ = false;
+  CutStatistics stroke_cut_;  // since the blade came
   bool was_stopped_ = false;
 };
 
@@ -133,6 +135,7 @@ Status SceneRunner::run_frame(std::uint64_t index) {
     return error;
   }
   add(*frame, input);
+  if (had_blade_ && !input.blade) end_stroke();
   if (scorer_) scorer_->add(input, *frame, simulation());
   feel(index);
   had_blade_ = input.blade.has_value();
@@ -144,6 +147,7 @@ void SceneRunner::add(const FrameReport& frame, const FrameInput& input) {
   if (input.blade && !had_blade_) {
     ++job.strokes;
     job.units_per_stroke.push_back(0);
+    stroke_cut_ = {};
   }
   const double ms = simulation_.last_ms();
   job.total_ms += ms;
@@ -164,8 +168,14 @@ void SceneRunner::add(const FrameReport& frame, const FrameInput& input) {
 void SceneRunner::add_work(const FrameReport& frame) {
   JobReport& job = report_.job;
   job.cut += frame.cut;
+  stroke_cut_ += frame.cut;
   job.maintain += frame.maintain;
   if (!job.units_per_stroke.empty()) job.units_per_stroke.back() += frame.maintain.work_units;
+}
+
+/// A frame later than the blade's last, in which the profile `paper` still opens what it had gathered.
+void SceneRunner::end_stroke() {
+  if (detail::opened_nothing(stroke_cut_)) report_.job.missed.push_back(report_.job.strokes - 1);
 }
 
 void SceneRunner::add(const BladeState& blade) {
@@ -181,7 +191,10 @@ void SceneRunner::add(const BladeState& blade) {
 
 void SceneRunner::measure() {
   const Simulation& end = simulation();
-  if (had_blade_) detail::measure_cut(end.mesh(), report_.job);
+  if (had_blade_) {
+    detail::measure_cut(end.mesh(), report_.job);
+    end_stroke();
+  }
   detail::measure_after(end.mesh(), find_components(end.mesh()), volume_tolerance(scene_.options.engine), report_.job);
   report_.energy_after = end.body().energy();
   report_.haptics = job_.hand == nullptr ? hand_.figures() : job_.hand->figures();
