@@ -13,6 +13,7 @@
 #include "incise/mesh/validate.h"
 #include "support/bodies.h"
 #include "support/engines.h"
+#include "support/random_strokes.h"
 #include "support/strokes.h"
 
 namespace incise::test {
@@ -39,6 +40,17 @@ inline LabCut cut_by(LabMethod method, TetSoup soup, const Stroke& stroke) {
 /// The plane normal · x = offset through the unit cube.
 inline Stroke plane_through(const Vec3& normal, double offset) {
   return *plane_stroke({Vec3(0, 0, 0), Vec3(1, 1, 1)}, normal, offset);
+}
+
+/// The first planes of docs/benchmark.md (`random_planes` of bench/methods.cpp), through the unit cube.
+inline std::vector<Stroke> benchmark_planes(unsigned count) {
+  Random random(7 * 0x9e3779b97f4a7c15U + 1);
+  std::vector<Stroke> strokes;
+  while (strokes.size() < count) {
+    const Vec3 normal = random_direction(random);
+    strokes.push_back(plane_through(normal, normal.dot(0.5 * Vec3::Ones() + 0.2 * random.point(-1, 1))));
+  }
+  return strokes;
 }
 
 /// Nothing inverted or pinched, every link sound: whatever the volume is.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/lab_support.h"
-#include "support/random_strokes.h"
 
 namespace incise::test::snapping_test {
 namespace {
