@@ -166,12 +166,13 @@ ThreePoints through_three_points(const TetSoup& soup, Random& random) {
   }
 }
 
-void cut_through_three_points(const TetSoup& soup, double snap, unsigned count, std::uint64_t seed) {
+void cut_through_three_points(const TetSoup& soup, double snap, unsigned count, std::uint64_t seed,
+                              Profile profile = Profile::kIncise) {
   Random random(seed);
   for (unsigned i = 0; i < count; ++i) {
     SCOPED_TRACE(testing::Message() << "run " << i << ", seed " << seed << ", snap " << snap);
     const ThreePoints blade = through_three_points(soup, random);
-    Engine engine = make_engine(soup, snap);
+    Engine engine = make_engine(soup, snap, profile);
     cut(engine, blade.stroke);
     EXPECT_EQ(find_components(engine.mesh()).count(), blade.has_both_sides ? 2U : 1U);
     if (testing::Test::HasFailure()) return;
@@ -183,6 +184,12 @@ TEST(Planes, through_three_grid_points_give_two_pieces_without_snapping) {
 }
 TEST(Planes, through_three_scattered_points_give_two_pieces_without_snapping) {
   cut_through_three_points(jittered_cube(4, 2), 0.0, 200, 2);
+}
+TEST(Planes, through_three_scattered_points_give_two_pieces_in_the_paper_profile) {
+  cut_through_three_points(jittered_cube(4, 2), 0.0, 200, 2, Profile::kPaper);
+}
+TEST(Planes, through_three_grid_points_give_two_pieces_in_the_paper_profile) {
+  cut_through_three_points(kuhn_cube(4), 0.0, 200, 1, Profile::kPaper);
 }
 TEST(Planes, through_three_grid_points_give_sound_tets_at_the_default) {
   cut_through_three_points(kuhn_cube(4), 0.2, 200, 3);

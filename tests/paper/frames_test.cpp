@@ -2,14 +2,19 @@
 // The paper's cut frame by frame, in the body as it stands: the same pieces however often the blade is looked at.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "incise/mesh/quality_stats.h"
 #include "support/bodies.h"
 #include "support/engines.h"
+#include "support/sections.h"
 #include "support/strokes.h"
 
 namespace incise::test::frames_test {
@@ -139,12 +144,117 @@ TEST(PaperFrames, merge_nothing_that_smoothing_beside_a_front_has_made_thin) {
   }
 }
 
-TEST(PaperFrames, divide_edges_where_the_blade_crosses_them) {
+/// The plane that `oblique` sweeps: normal · x = offset.
+struct SweptPlane {
+  Vec3 normal;
+  double offset;
+};
+SweptPlane plane_of_oblique() {
+  const Vec3 normal = Vec3(0.2, 1.0, 0.1).cross(Vec3(-0.15, 0.02, 1.0)).normalized();
+  return {normal, normal.dot(Vec3(0.57, 0.5, 0.5))};
+}
+
+/// Where the edges of a body cross a plane, one place for each edge; of edges and ends alone.
+std::vector<Vec3> find_crossings(const TetSoup& soup, const SweptPlane& plane) {
+  std::set<std::array<std::uint32_t, 2>> edges;
+  for (const auto& tet : soup.tets) {
+    for (unsigned i = 0; i < 4; ++i) {
+      for (unsigned j = 0; j < 4; ++j) {
+        if (tet[i] < tet[j]) edges.insert({tet[i], tet[j]});
+      }
+    }
+  }
+  std::vector<Vec3> places;
+  for (const auto& [i, j] : edges) {
+    const Vec3 &a = soup.points[i], &b = soup.points[j];
+    const double from = plane.normal.dot(a) - plane.offset, to = plane.normal.dot(b) - plane.offset;
+    if (from * to < 0) places.emplace_back(a + from / (from - to) * (b - a));
+  }
+  return places;
+}
+
+/// The vertices of the body that it had not before, at their places.
+std::vector<Vec3> find_new_places(const TetMesh& mesh, std::size_t before) {
+  std::vector<Vec3> places;
+  mesh.for_each_vertex([&](VertexId v) {
+    if (v.value >= before) places.push_back(mesh.rest(v));
+  });
+  return places;
+}
+
+std::size_t count_near(const std::vector<Vec3>& places, const Vec3& place) {
+  return static_cast<std::size_t>(
+      std::count_if(places.begin(), places.end(), [&](const Vec3& p) { return (p - place).norm() < 1e-9; }));
+}
+
+/// Each edge that the blade crosses has its collision point there, one for either lip, and nothing else has one.
+void expect_collision_points(const TetSoup& soup, const TetMesh& mesh, const SweptPlane& plane) {
+  const std::vector<Vec3> expected = find_crossings(soup, plane);
+  const std::vector<Vec3> found = find_new_places(mesh, soup.points.size());
+  EXPECT_GT(expected.size(), 80U);
+  EXPECT_EQ(found.size(), 2 * expected.size());
+  for (const Vec3& place : expected) EXPECT_EQ(count_near(found, place), 2U) << place.transpose();
+}
+
+TEST(PaperFrames, divide_edges_where_the_blade_crosses_them_and_nowhere_else) {
+  const TetSoup soup = jittered_cube(4, 2);
   for (const auto& [frames, strokes] : kFramesAndStrokes) {
     SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes");
-    const Engine engine = cut_in_frames(jittered_cube(4, 2), straight(0.43), at_rest, frames, strokes, false);
-    expect_pieces(engine.mesh(), {0.43, 0.57}, 1e-9);
-    EXPECT_NEAR(wall_area(engine.mesh()), 1.0, 1e-9);
+    const Engine straight_cut = cut_in_frames(soup, straight(0.43), at_rest, frames, strokes, false);
+    expect_collision_points(soup, straight_cut.mesh(), {Vec3(1, 0, 0), 0.43});
+    expect_pieces(straight_cut.mesh(), {0.43, 0.57}, 1e-9);
+    const Engine oblique_cut = cut_in_frames(soup, oblique(), at_rest, frames, strokes, false);
+    expect_collision_points(soup, oblique_cut.mesh(), plane_of_oblique());
+  }
+}
+
+/// Calls `visit` with the corners of each face of the walls.
+void for_each_wall(const TetMesh& mesh, const std::function<void(const std::array<Vec3, 3>&)>& visit) {
+  mesh.for_each_tet([&](TetId tet) {
+    for (unsigned s = 0; s < 4; ++s) {
+      const Link link = mesh.links(tet)[s];
+      if (!link.is_boundary() || link.tag() == 0) continue;
+      const auto v = mesh.vertices(Side(tet, s));
+      visit({mesh.rest(v[0]), mesh.rest(v[1]), mesh.rest(v[2])});
+    }
+  });
+}
+
+/// Figure 3: "a complete collection of incision faces that approximates the tool trajectory". Of a plane they are all
+/// of its section through the body, and nothing beside it.
+TEST(PaperFrames, open_faces_that_make_up_the_plane_of_the_sweep) {
+  const SweptPlane plane = plane_of_oblique();
+  const Section section = section_of_unit_cube(plane.normal, plane.offset);
+  for (const std::uint64_t seed : {3U, 4U}) {
+    for (const auto& [frames, strokes] : kFramesAndStrokes) {
+      SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes, seed " << seed);
+      const Engine engine = cut_in_frames(jittered_cube(5, seed), oblique(), at_rest, frames, strokes, false);
+      for_each_wall(engine.mesh(), [&](const std::array<Vec3, 3>& face) {
+        for (const Vec3& corner : face) EXPECT_NEAR(plane.normal.dot(corner), plane.offset, 1e-9);
+      });
+      EXPECT_NEAR(wall_area(engine.mesh()), section.area, 1e-9);
+      expect_pieces(engine.mesh(), {section.volume, 1 - section.volume}, 1e-9);
+    }
+  }
+}
+
+/// Of a bent sweep their corners lie on it, and seen along x, which it nowhere hides, they cover the body once.
+TEST(PaperFrames, open_faces_that_approximate_a_bent_sweep) {
+  for (const unsigned frames : {28U, 70U}) {
+    SCOPED_TRACE(frames);
+    const Engine engine = cut_in_frames(jittered_cube(5, 3), curved(), at_rest, frames, 1, false);
+    const Blade bent = curved();
+    double covered = 0, off = 0;
+    for_each_wall(engine.mesh(), [&](const std::array<Vec3, 3>& face) {
+      covered += 0.25 * std::abs((face[1] - face[0]).cross(face[2] - face[0]).x());  // of one of two lips
+      for (const Vec3& corner : face) {
+        const double step = (corner.z() + 0.2) / 1.4 * frames, along = step - std::floor(step);
+        const double from = bent(std::floor(step) / frames)[0].x(), to = bent((std::floor(step) + 1) / frames)[0].x();
+        off = std::max(off, std::abs(corner.x() - (from + along * (to - from))));
+      }
+    });
+    EXPECT_LT(off, 1e-9);
+    EXPECT_NEAR(covered, 1, 1e-9);
   }
 }
 
