@@ -170,6 +170,27 @@ TEST(PaperSeparation, algorithm_1_finds_the_vertices_within_the_faces_and_none_o
   EXPECT_TRUE(transaction.new_vertices().empty());
 }
 
+/// "If a vertex not dividable is subdivided, problem would occur" (2.3): those of a face on its own, and on the rim of
+/// several, stay.
+TEST(PaperSeparation, divides_no_vertex_that_is_not_dividable) {
+  for (const std::size_t count : {1U, 2U, 5U}) {
+    SCOPED_TRACE(count);
+    TetMesh mesh = build(kuhn_cube(4));
+    Faces faces = faces_where(mesh, [](const Vec3& p) {
+      return is_at(p.x(), 0.5) && is_between(p.y(), 0.25, 0.75) && is_between(p.z(), 0.25, 0.75);
+    });
+    ASSERT_EQ(faces.size(), 8U);
+    faces.resize(count);
+    const std::uint64_t hash = mesh.hash();
+    const Separation result = separate_by_paper(mesh, faces);
+    EXPECT_EQ(result.copied_vertices, 0U);
+    EXPECT_EQ(result.opened_faces, 0U);
+    EXPECT_EQ(result.latent_faces, count);
+    EXPECT_EQ(mesh.hash(), hash);
+    expect_valid(mesh, 1.0);
+  }
+}
+
 // --- T22: sheets inside the body
 // -----------------------------------------------------------------------------------------------
 
@@ -183,6 +204,22 @@ TEST(Separate, a_closed_bubble_inside_gives_two_pieces) {
   const Faces faces = faces_where(mesh, is_on_inner_box);
   ASSERT_EQ(faces.size(), 48U);
   const Separation result = separate_stars(mesh, faces);
+  EXPECT_EQ(result.copied_vertices, 26U);
+  EXPECT_EQ(result.opened_faces, 48U);
+  expect_pieces(mesh, {0.125, 0.875}, 1e-15);
+  expect_valid(mesh, 1.0);
+}
+
+/// "Type-I dividable vertex will always be converted to type-II" (2.3) is wrong here: no edge of the sheet is a surface
+/// edge, and some vertex has to be divided as type I before any other.
+TEST(PaperSeparation, takes_a_closed_bubble_out_by_vertices_of_type_1) {
+  TetMesh mesh = build(kuhn_cube(4));
+  const Faces faces = faces_where(mesh, is_on_inner_box);
+  ASSERT_EQ(faces.size(), 48U);
+  for (const IncisionFace& face : faces) {
+    for (const VertexId v : mesh.vertices(face.a)) ASSERT_EQ(mesh.shape_of(v), 0U);  // inside
+  }
+  const Separation result = separate_by_paper(mesh, faces);
   EXPECT_EQ(result.copied_vertices, 26U);
   EXPECT_EQ(result.opened_faces, 48U);
   expect_pieces(mesh, {0.125, 0.875}, 1e-15);
@@ -265,6 +302,20 @@ std::vector<Layout> layouts() {
       {"three planes", [](const Vec3& p) { return is_at(p.x(), 0.5) || is_at(p.y(), 0.5) || is_at(p.z(), 0.5); }, 8,
        91},
   };
+}
+
+/// The paper's algorithms themselves, against the count of cycles.
+TEST(PaperSeparation, divides_each_vertex_as_often_as_its_faces_have_cycles) {
+  for (const Layout& layout : layouts()) {
+    SCOPED_TRACE(layout.name);
+    TetMesh mesh = build(kuhn_cube(4));
+    const Faces faces = faces_where(mesh, layout.is_in);
+    ASSERT_EQ(expected_copies(mesh, faces), layout.copies);
+    const Separation result = separate_by_paper(mesh, faces);
+    EXPECT_EQ(result.copied_vertices, layout.copies);
+    EXPECT_EQ(find_components(mesh).count(), layout.pieces);
+    expect_valid(mesh, 1.0);
+  }
 }
 
 TEST(Separate, gives_each_vertex_one_copy_per_part_of_its_star) {
