@@ -305,19 +305,6 @@ TEST(Merge, beside_flat_faces_keeps_pieces_volumes_walls_and_corners) {
   }
 }
 
-TEST(Merge, makes_no_bad_shaped_tet_and_stops_where_nothing_can_go) {
-  CutBody body = cut_as_paper(ball(8), curved_stroke());
-  const QualityStats before = measure_quality(body.mesh);
-  merge(body);
-  const QualityStats after = measure_quality(body.mesh);
-  EXPECT_LE(after.lr_over_200_pct, before.lr_over_200_pct * 1.5);  // of fewer tets
-  EXPECT_LE(after.lr_max, std::max(200.0, before.lr_max));
-  merge(body);  // what is typical in a mesh with fewer small tets is a little larger
-  const std::uint64_t hash = body.mesh.hash();
-  EXPECT_EQ(merge(body).collapsed_edges, 0U);
-  EXPECT_EQ(body.mesh.hash(), hash);
-}
-
 /// The tets without a thin shape whose volume is below a share of the typical one's, and which have a short edge.
 std::size_t count_small(const TetMesh& mesh, double typical) {
   std::size_t count = 0;
@@ -332,6 +319,74 @@ std::size_t count_small(const TetMesh& mesh, double typical) {
     count += !is_thin && is_small ? 1U : 0U;
   });
   return count;
+}
+
+/// How many tets of a mesh are worse than some L/r.
+std::size_t count_worse(const TetMesh& mesh, double ratio) {
+  std::size_t count = 0;
+  paper::QualityMeter meter(mesh);
+  mesh.for_each_tet([&](TetId tet) { count += meter.of(tet) > ratio ? 1U : 0U; });
+  return count;
+}
+
+/// What Figure 7 colours.
+struct IllShaped {
+  std::size_t thin = 0, bad = 0, small = 0;
+};
+
+IllShaped count_ill_shaped(const TetMesh& mesh, double typical) {
+  return {count_worse(mesh, MergeThresholds().shape), count_worse(mesh, kBadRatio), count_small(mesh, typical)};
+}
+
+/// Figure 7: "the ill-shaped tetras as well as ones with too small size are successfully eliminated"; all of them where
+/// the wall passes a layer of vertices closely.
+TEST(Merge, eliminates_all_ill_shaped_and_small_tets_of_figure_7) {
+  CutBody body = cut_as_paper(kuhn_cube(5), {{Vec3(1, 0.004, 0.007), 0.612}});
+  const double typical = typical_spacing(body.mesh);
+  const IllShaped before = count_ill_shaped(body.mesh, typical);
+  EXPECT_EQ(before.thin, 500U);
+  EXPECT_GT(before.bad, 20U);
+  EXPECT_GT(before.small, 40U);
+  merge(body);
+  const IllShaped after = count_ill_shaped(body.mesh, typical);
+  EXPECT_EQ(after.thin, 0U);
+  EXPECT_EQ(after.small, 0U);
+}
+
+/// The same of other walls: most of each kind.
+TEST(Merge, eliminates_most_ill_shaped_and_small_tets) {
+  std::size_t bad_before = 0, bad_after = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U}) {
+    SCOPED_TRACE(seed);
+    CutBody body = cut_as_paper(jittered_cube(5, seed), {{Vec3(0.3, 0.5, 0.9), 0.8}});
+    const double typical = typical_spacing(body.mesh);
+    const IllShaped before = count_ill_shaped(body.mesh, typical);
+    merge(body);
+    const IllShaped after = count_ill_shaped(body.mesh, typical);
+    EXPECT_GT(before.thin, 400U);
+    EXPECT_LT(after.thin, before.thin / 4);
+    EXPECT_GT(before.small, 30U);
+    EXPECT_LE(after.small, 1U);
+    EXPECT_LE(after.bad, before.bad);
+    bad_before += before.bad;
+    bad_after += after.bad;
+  }
+  EXPECT_GT(bad_before, 200U);
+  EXPECT_LT(bad_after, bad_before / 10);
+}
+
+TEST(Merge, makes_no_bad_shaped_tet_and_stops_where_nothing_can_go) {
+  CutBody body = cut_as_paper(ball(8), curved_stroke());
+  const std::size_t bad_before = count_worse(body.mesh, kBadRatio);
+  const double worst_before = measure_quality(body.mesh).lr_max;
+  merge(body);
+  EXPECT_GT(bad_before, 10U);
+  EXPECT_LE(count_worse(body.mesh, kBadRatio), bad_before);
+  EXPECT_LE(measure_quality(body.mesh).lr_max, worst_before);
+  merge(body);  // what is typical in a mesh with fewer small tets is a little larger
+  const std::uint64_t hash = body.mesh.hash();
+  EXPECT_EQ(merge(body).collapsed_edges, 0U);
+  EXPECT_EQ(body.mesh.hash(), hash);
 }
 
 TEST(Merge, eliminates_tets_that_are_too_small_in_all_the_mesh) {
