@@ -614,7 +614,8 @@ Result<Engine> Engine::create(TetMesh mesh, EngineOptions options) {
   }
   if (options.log && mesh.folds_over_at_load() && (options.maintain.merge || options.maintain.improve)) {
     options.log(LogLevel::kWarning,
-                "the mesh folds over itself: it is cut, but not maintained; mend its inverted tets");
+                "the mesh folds over itself, since two neighbours lie on one side of the face between them: it is cut, "
+                "but not maintained; mesh it again");
   }
   return Engine(std::make_unique<Conductor>(std::move(mesh), std::move(options)));
 }

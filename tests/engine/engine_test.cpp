@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/components.h"
@@ -476,6 +478,23 @@ TEST(EngineFarBlades, may_come_to_a_body_that_has_moved_from_far_away) {
                                              Vec3(0.46, -0.4, -height), Vec3(0.48, 1.4, -height))),
               2U);
   }
+}
+
+/// Two tets on one side of the face between them, neither of which is inverted.
+TEST(EngineFolds, are_told_with_what_helps_and_are_cut_but_not_maintained) {
+  const TetSoup soup{
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1}, {0.4, 0.2, 0.6}}, {{0, 1, 2, 3}, {0, 1, 2, 4}}, {}};
+  std::string told;
+  EngineOptions options;
+  options.log = [&](LogLevel, std::string_view text) { told += text; };
+  Result<Engine> engine = Engine::create(build(soup), options);
+  ASSERT_TRUE(engine.ok());
+  EXPECT_NE(told.find("two neighbours lie on one side of the face between them"), std::string::npos) << told;
+  EXPECT_NE(told.find("mesh it again"), std::string::npos) << told;
+  const Result<StrokeReport> report = engine->cut(plane(*engine, Vec3(1, 0, 0), 0.3));
+  ASSERT_TRUE(report.ok());
+  EXPECT_GT(report->cut.cut_tets, 0U);
+  EXPECT_EQ(report->maintain.work_units, 0U);
 }
 
 TEST(EngineEmpty, has_nothing_that_a_plane_could_cut) {
