@@ -2,12 +2,14 @@
 // What the paper claims against the methods that it cites (its sections 1 and 4.5): all cut along the same planes, the
 // first ones of docs/benchmark.md and some others.
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
 #include "incise/engine/engine.h"
 #include "incise/geom/quality.h"
 #include "incise/mesh/quality_stats.h"
+#include "incise/mesh/tet_tables.h"
 #include "lab/lab_support.h"
 
 namespace incise::test::discussion_test {

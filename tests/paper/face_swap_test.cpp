@@ -10,6 +10,7 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/quality_stats.h"
 #include "incise/mesh/remesh.h"
+#include "incise/mesh/tet_tables.h"
 #include "paper/paper_quality.h"
 #include "paper/paper_region.h"
 #include "paper/paper_support.h"
