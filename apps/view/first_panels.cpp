@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/text/formatted.h"
 #include "icons.h"
@@ -19,8 +20,10 @@ using app::Action;
 using app::Viewer;
 
 constexpr float kIconSide = 1.55F, kButtonSide = 2.35F;  // heights of text
-constexpr float kCardWidth = 8.2F, kCardHeight = 2.6F;
-constexpr float kBottom = 4.2F;  // that the bar of time takes
+constexpr float kCardWidth = 10.6F, kCardHeight = 2.9F, kCardIcon = 1.9F;
+constexpr float kRowName = 5.2F;  // "Exercises", beside the cards
+constexpr float kSmallText = 0.87F;
+constexpr float kBottom = 4.6F;  // that the bar of time takes
 constexpr float kTimeLine = 13;
 constexpr double kInSkin = 7;  // mm of the ghost's scalpel, about
 constexpr double kFew = 0.9;   // simulated seconds per second that still count as keeping up
@@ -81,16 +84,28 @@ void draw_tool_column(Viewer& viewer, const PanelContext& context) {
   ImGui::End();
 }
 
-bool card(const char* id, Icon icon, const std::string& name, const std::string& told, bool is_on) {
+/// What a card shows.
+struct Card {
+  Icon icon;
+  std::string name, few;  // below it
+  std::string told;       // where the pointer rests on it
+  bool is_on;
+};
+
+/// Returns whether it was pressed.
+bool draw_card(const char* id, const Card& card) {
   const ImVec2 at = ImGui::GetCursorScreenPos(), size(kCardWidth * em(), kCardHeight * em());
-  if (is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  if (card.is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   const bool is_pressed = ImGui::Button(id, size);
-  if (is_on) ImGui::PopStyleColor();
-  hint(told);
+  if (card.is_on) ImGui::PopStyleColor();
+  hint(card.told);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float side = 1.7F * em();
-  draw_icon(list, icon, {at.x + 0.5F * em(), at.y + 0.5F * (size.y - side)}, side, color_of(ImGuiCol_Text));
-  list.AddText({at.x + 2.6F * em(), at.y + 0.5F * (size.y - em())}, color_of(ImGuiCol_Text), name.c_str());
+  const float side = kCardIcon * em(), left = at.x + 2.75F * em();
+  const ImU32 ink = color_of(ImGuiCol_Text);
+  draw_icon(list, card.icon, {at.x + 0.45F * em(), at.y + 0.5F * (size.y - side)}, side, ink);
+  list.AddText({left, at.y + 0.3F * em()}, ink, card.name.c_str());
+  list.AddText(ImGui::GetFont(), kSmallText * em(), {left, at.y + 1.5F * em()}, color_of(ImGuiCol_Text, 0.8F),
+               card.few.c_str());
   return is_pressed;
 }
 
@@ -99,21 +114,54 @@ std::string capital(std::string word) {
   return word;
 }
 
+/// Cards in a row, or in rows that are as long as the window is wide. Returns which one was pressed.
+std::optional<std::size_t> draw_card_row(const char* name, const std::vector<Card>& cards) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetMainViewport()->Size.x - 4 * kMargin * em();
+  const float step = kCardWidth * em() + gap, first = kRowName * em();
+  const auto columns = static_cast<std::size_t>(std::max(1.0F, (room - first) / step));
+  std::optional<std::size_t> pressed;
+  const float left = ImGui::GetCursorPosX();
+  const float top = ImGui::GetCursorPosY();
+  ImGui::SetCursorPosY(top + 0.5F * (kCardHeight - 1) * em());
+  faint(name);
+  ImGui::SetCursorPosY(top);
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    if (i % columns != 0) ImGui::SameLine();
+    ImGui::SetCursorPosX(left + first + static_cast<float>(i % columns) * step);
+    if (draw_card(app::formatted("###{}{}", name, i).c_str(), cards[i])) pressed = i;
+  }
+  return pressed;
+}
+
+void draw_body_cards(Viewer& viewer, FileList& files) {
+  std::vector<Card> cards;
+  for (std::size_t i = 0; i < app::kStartingBodies.size(); ++i) {
+    const app::StartingBodyRow& row = app::kStartingBodies[i];
+    cards.push_back({static_cast<Icon>(static_cast<std::size_t>(Icon::kSkin) + i), capital(row.name), row.few, row.text,
+                     viewer.view().title == row.text});
+  }
+  cards.push_back({Icon::kFolder, "Open...", "a file of yours", "A mesh, a scene or a recording of your own", false});
+  const std::optional<std::size_t> pressed = draw_card_row("Bodies", cards);
+  if (pressed && *pressed < app::kStartingBodies.size()) viewer.open(static_cast<app::StartingBody>(*pressed));
+  if (pressed && *pressed == app::kStartingBodies.size()) files.open();
+}
+
+void draw_exercise_cards(Viewer& viewer) {
+  std::vector<Card> cards;
+  for (std::size_t i = 0; i < app::kStartingExercises.size(); ++i) {
+    const app::StartingExerciseRow& row = app::kStartingExercises[i];
+    cards.push_back({static_cast<Icon>(static_cast<std::size_t>(Icon::kStraightCut) + i), row.name, row.few, row.text,
+                     viewer.view().title == row.title});
+  }
+  const std::optional<std::size_t> pressed = draw_card_row("Exercises", cards);
+  if (pressed) viewer.open(static_cast<app::StartingExercise>(*pressed));
+}
+
 void draw_cards(Viewer& viewer, FileList& files) {
   const float screen = ImGui::GetMainViewport()->Size.y;
-  if (begin_panel("bodies", {0.5F, 1 - kBottom * em() / screen}, 0, 2 * kBottom * em())) {
-    const app::SessionView& view = viewer.view();
-    for (std::size_t i = 0; i < app::kStartingBodies.size(); ++i) {
-      const app::StartingBodyRow& row = app::kStartingBodies[i];
-      const Icon icon = static_cast<Icon>(static_cast<std::size_t>(Icon::kSkin) + i);
-      if (i > 0) ImGui::SameLine();
-      const std::string id = app::formatted("###body{}", i);
-      if (card(id.c_str(), icon, capital(row.name), row.text, view.title == row.text)) {
-        viewer.open(static_cast<app::StartingBody>(i));
-      }
-    }
-    ImGui::SameLine();
-    if (card("###open", Icon::kFolder, "Open...", "A mesh, a scene or a recording of your own", false)) files.open();
+  if (begin_panel("bodies", {0.5F, 1 - kBottom * em() / screen}, 0, 0.6F * screen)) {
+    draw_body_cards(viewer, files);
+    draw_exercise_cards(viewer);
     if (const std::optional<std::filesystem::path> file = files.draw()) viewer.open(*file);
   }
   ImGui::End();
@@ -157,7 +205,7 @@ void draw_time_bar(Viewer& viewer, const PanelContext& context, bool& shows_bodi
     ImGui::SameLine();
     action_icon(viewer, context, Action::kScreenshot, Icon::kPicture);
     ImGui::SameLine();
-    if (icon_button("###other bodies", Icon::kBodies, shows_bodies, "Other bodies to cut"))
+    if (icon_button("###other bodies", Icon::kBodies, shows_bodies, "Other bodies to cut, and exercises"))
       shows_bodies = !shows_bodies;
   }
   ImGui::End();

@@ -41,6 +41,8 @@ void action_button(incise::app::Viewer& viewer, const PanelContext& context, inc
 class FirstPanels {
  public:
   void draw(incise::app::Viewer& viewer, const PanelContext& context);
+  /// Whether cards of bodies and exercises lie where an exercise says what to do.
+  [[nodiscard]] bool shows_cards() const { return shows_bodies_; }
 
  private:
   FileList files_;

@@ -451,7 +451,8 @@ void Panels::draw(Viewer& viewer, const PanelContext& context) {
     } else {
       first_->draw(viewer, context);
     }
-    if (state.panels == app::Panels::kAll) draw_exercise(viewer, context);
+    const bool has_cards = !state.is_research && first_->shows_cards();
+    if (state.panels == app::Panels::kAll && !has_cards) draw_exercise(viewer, context);
     draw_probe(viewer.view());
     draw_legend(state);
   }

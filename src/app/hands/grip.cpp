@@ -13,6 +13,7 @@ namespace {
 constexpr double kPushPerNotch = 0.5;                      // of the hook's radius
 constexpr double kNearestShare = 0.2, kFarthestShare = 5;  // of the depth of what was grasped
 constexpr double kJaw = 0.5, kForcepsLength = 3;           // of the hook's radius, as drawn
+constexpr double kMostLean = 2;                            // of a hook that pulls: aside by up; so it hides no wound
 constexpr double kLeastCosine = 1e-3;                      // of a ray to the middle of the view: none are in a picture
 
 double depth_of(const Camera& camera, const Vec3& point) {
@@ -70,7 +71,7 @@ Instrument instrument_at(const Hook& hook, const Vec3& grasped, const HeldBy& by
   const Vec3 flat = pull - pull.dot(by.normal) * by.normal;
   made.ahead = flat;
   const double lean = hook.radius > 0 ? std::min(1.0, flat.norm() / hook.radius) : 0;
-  made.up = (by.normal + 0.7 * lean * flat.stableNormalized()).normalized();
+  made.up = (by.normal + kMostLean * lean * flat.stableNormalized()).normalized();
   return made;
 }
 

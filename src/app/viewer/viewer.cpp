@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/hands/scene_hand_tools.h"
 #include "app/scene/view_names.h"
 #include "app/text/formatted.h"
 #include "app/view/drapes.h"
@@ -39,14 +40,6 @@ fs::path free_name(const fs::path& folder, const std::string& stem, const std::s
     if (!fs::exists(path, code)) return path;
   }
   return folder / (stem + extension);
-}
-
-double stiffest(const Scene& scene) {
-  double young = scene.options.materials.fallback.young;
-  for (const Materials::Entry& entry : scene.options.materials.by_region) {
-    young = std::max(young, entry.material.young);
-  }
-  return young;
 }
 
 }  // namespace
@@ -181,6 +174,10 @@ void Viewer::open(const fs::path& path) {
 
 void Viewer::open(StartingBody body) {
   state_->session.open(body);
+}
+
+void Viewer::open(StartingExercise exercise) {
+  state_->session.open(exercise);
 }
 
 void Viewer::notify(const std::string& text) {
@@ -485,9 +482,11 @@ Viewport Viewer::State::free_part(const Viewport& viewport) const {
 void Viewer::State::begin_session(const Viewport& viewport) {
   const SessionView& view = session.view();
   const Scene& scene = *view.scene;
-  tools.reset(settings_for(view.body, stiffest(scene), scene.options.body.length_unit));
   const std::pair scene_now(view.title, view.figures.tets_at_start);
-  if (scene_seen != scene_now) {  // the same scene from its start keeps the person's view
+  const bool is_same = scene_seen == scene_now;  // from its start: it keeps the person's view, tool and settings
+  tools.reset(is_same ? tools.settings() : settings_for(scene, view.body));
+  if (!is_same) {
+    if (const std::optional<ToolKind> tool = tool_for(scene); tool && !options.keeps_tool) tools.choose(*tool);
     picture.camera = camera_of(scene, view.body, free_part(viewport));
     if (!options.keeps_view) shown.options = view_options_of(scene);
     shown.options.shows_occlusion = options.shades_hollows;

@@ -174,6 +174,56 @@ TEST_F(ViewerTest, a_scene_says_how_it_is_seen_unless_the_view_is_kept) {
   EXPECT_FALSE(state().is_clipped);
 }
 
+// --- what is in hand
+
+TEST_F(ViewerTest, a_scene_puts_a_tool_of_its_settings_into_the_hand) {
+  Json scene = still_scene();
+  scene["hand"] = {{"tool", "punch"}, {"depth", 0.3}, {"ring", 0.2}};
+  act(app::action_of(ToolKind::kGrasp));
+  show(opened(scene));
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kPunch);
+  EXPECT_EQ(viewer_->tools().settings().depth, 0.3);
+  EXPECT_EQ(viewer_->tools().settings().punch_radius, 0.2);
+}
+
+TEST_F(ViewerTest, the_tool_stays_where_a_scene_does_not_name_one) {
+  act(app::action_of(ToolKind::kHook));
+  Json scene = still_scene();
+  scene["name"] = "another";
+  viewer_->open(folder_.write("another.json", scene.dump()));
+  ASSERT_TRUE(sees_session(2));
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kHook);
+}
+
+TEST_F(ViewerTest, the_same_scene_from_its_start_keeps_tool_and_settings) {
+  Json scene = still_scene();
+  scene["hand"] = {{"tool", "punch"}, {"depth", 0.3}};
+  show(opened(scene));
+  act(app::action_of(ToolKind::kScalpel));
+  act(Action::kDeeper);
+  act(Action::kReset);
+  ASSERT_TRUE(sees_session(2));
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kScalpel);
+  EXPECT_NEAR(viewer_->tools().settings().depth, 0.33, 1e-12);
+}
+
+TEST_F(ViewerTest, where_a_device_has_the_blade_the_mouse_keeps_its_tool) {
+  Json scene = still_scene();
+  scene["hand"] = {{"tool", "punch"}};
+  app::ViewerOptions options;
+  options.keeps_tool = true;
+  show(opened(scene), options);
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kScalpel);
+}
+
+TEST_F(ViewerTest, an_exercise_that_needs_no_file_opens_with_its_tool) {
+  viewer_->open(app::StartingExercise::kCore);
+  ASSERT_TRUE(sees_session(2));
+  ASSERT_TRUE(view().scene->exercise.has_value());
+  EXPECT_EQ(view().title, app::kStartingExercises[static_cast<std::size_t>(app::StartingExercise::kCore)].title);
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kPunch);
+}
+
 // --- pictures
 
 TEST_F(ViewerTest, a_picture_is_made_only_where_something_changed) {
