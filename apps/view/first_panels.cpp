@@ -21,9 +21,11 @@ using app::Viewer;
 
 constexpr float kIconSide = 1.55F, kButtonSide = 2.35F;  // heights of text
 constexpr float kCardWidth = 10.6F, kCardHeight = 2.9F, kCardIcon = 1.9F;
-constexpr float kRowName = 5.2F;  // "Exercises", beside the cards
+constexpr float kCompactWidth = 7.9F, kCompactHeight = 2.3F,
+                kCompactIcon = 1.5F;  // of cards where there is little room
+constexpr float kRowName = 5.2F;      // "Exercises", beside the cards
 constexpr float kSmallText = 0.87F;
-constexpr float kBottom = 4.6F;  // that the bar of time takes
+constexpr std::size_t kCardsInRow = 5;
 constexpr float kTimeLine = 13;
 constexpr double kInSkin = 7;  // mm of the ghost's scalpel, about
 constexpr double kFew = 0.9;   // simulated seconds per second that still count as keeping up
@@ -92,18 +94,40 @@ struct Card {
   bool is_on;
 };
 
+/// How cards lie, by the room beside the tools.
+struct CardLayout {
+  float width = 0, height = 0, icon = 0;
+  float name = 0;  // of a row, to its left; 0: none is written
+  std::size_t columns = 1;
+
+  [[nodiscard]] bool is_compact() const { return !(name > 0); }
+};
+
+CardLayout card_layout() {
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float room = ImGui::GetMainViewport()->Size.x - 2 * (kToolColumn + kMargin) * em() -
+                     2 * ImGui::GetStyle().WindowPadding.x + gap;
+  const auto columns = [&](float width) {
+    return std::clamp(static_cast<std::size_t>(room / (width * em() + gap)), std::size_t{1}, kCardsInRow);
+  };
+  const bool is_wide = room >= kRowName * em() + kCardsInRow * (kCardWidth * em() + gap);
+  if (is_wide) return {kCardWidth * em(), kCardHeight * em(), kCardIcon * em(), kRowName * em(), kCardsInRow};
+  return {kCompactWidth * em(), kCompactHeight * em(), kCompactIcon * em(), 0, columns(kCompactWidth)};
+}
+
 /// Returns whether it was pressed.
-bool draw_card(const char* id, const Card& card) {
-  const ImVec2 at = ImGui::GetCursorScreenPos(), size(kCardWidth * em(), kCardHeight * em());
+bool draw_card(const char* id, const Card& card, const CardLayout& layout) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size(layout.width, layout.height);
   if (card.is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   const bool is_pressed = ImGui::Button(id, size);
   if (card.is_on) ImGui::PopStyleColor();
   hint(card.told);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float side = kCardIcon * em(), left = at.x + 2.75F * em();
+  const float side = layout.icon, left = at.x + side + 0.8F * em();
   const ImU32 ink = color_of(ImGuiCol_Text);
-  draw_icon(list, card.icon, {at.x + 0.45F * em(), at.y + 0.5F * (size.y - side)}, side, ink);
-  list.AddText({left, at.y + 0.3F * em()}, ink, card.name.c_str());
+  draw_icon(list, card.icon, {at.x + 0.4F * em(), at.y + 0.5F * (size.y - side)}, side, ink);
+  list.AddText({left, at.y + (layout.is_compact() ? 0.5F * (size.y - em()) : 0.3F * em())}, ink, card.name.c_str());
+  if (layout.is_compact()) return is_pressed;
   list.AddText(ImGui::GetFont(), kSmallText * em(), {left, at.y + 1.5F * em()}, color_of(ImGuiCol_Text, 0.8F),
                card.few.c_str());
   return is_pressed;
@@ -116,19 +140,20 @@ std::string capital(std::string word) {
 
 /// Cards in a row, or in rows that are as long as the window is wide. Returns which one was pressed.
 std::optional<std::size_t> draw_card_row(const char* name, const std::vector<Card>& cards) {
-  const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetMainViewport()->Size.x - 4 * kMargin * em();
-  const float step = kCardWidth * em() + gap, first = kRowName * em();
-  const auto columns = static_cast<std::size_t>(std::max(1.0F, (room - first) / step));
+  const CardLayout layout = card_layout();
+  const ImVec2 at = ImGui::GetCursorPos();
+  if (!layout.is_compact()) {
+    ImGui::SetCursorPosY(at.y + 0.5F * (layout.height - em()));
+    faint(name);
+    ImGui::SetCursorPosY(at.y);
+  }
   std::optional<std::size_t> pressed;
-  const float left = ImGui::GetCursorPosX();
-  const float top = ImGui::GetCursorPosY();
-  ImGui::SetCursorPosY(top + 0.5F * (kCardHeight - 1) * em());
-  faint(name);
-  ImGui::SetCursorPosY(top);
   for (std::size_t i = 0; i < cards.size(); ++i) {
-    if (i % columns != 0) ImGui::SameLine();
-    ImGui::SetCursorPosX(left + first + static_cast<float>(i % columns) * step);
-    if (draw_card(app::formatted("###{}{}", name, i).c_str(), cards[i])) pressed = i;
+    const std::size_t column = i % layout.columns;
+    if (column != 0) ImGui::SameLine();
+    const float step = layout.width + ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SetCursorPosX(at.x + layout.name + static_cast<float>(column) * step);
+    if (draw_card(app::formatted("###{}{}", name, i).c_str(), cards[i], layout)) pressed = i;
   }
   return pressed;
 }
@@ -159,7 +184,7 @@ void draw_exercise_cards(Viewer& viewer) {
 
 void draw_cards(Viewer& viewer, FileList& files) {
   const float screen = ImGui::GetMainViewport()->Size.y;
-  if (begin_panel("bodies", {0.5F, 1 - kBottom * em() / screen}, 0, 0.6F * screen)) {
+  if (begin_panel("bodies", {0.5F, 1 - kTimeBar * em() / screen}, 0, 0.6F * screen)) {
     draw_body_cards(viewer, files);
     draw_exercise_cards(viewer);
     if (const std::optional<std::filesystem::path> file = files.draw()) viewer.open(*file);
@@ -188,7 +213,7 @@ void draw_time_line(const app::SessionView& view) {
 
 void draw_time_bar(Viewer& viewer, const PanelContext& context, bool& shows_bodies) {
   const app::SessionView& view = viewer.view();
-  if (begin_panel("time bar", {0.5F, 1}, 0, 2 * kBottom * em())) {
+  if (begin_panel("time bar", {0.5F, 1}, 0, 2 * kTimeBar * em())) {
     action_icon(viewer, context, Action::kUndo, Icon::kUndo);
     ImGui::SameLine();
     action_icon(viewer, context, Action::kRedo, Icon::kRedo);
@@ -196,6 +221,7 @@ void draw_time_bar(Viewer& viewer, const PanelContext& context, bool& shows_bodi
     action_icon(viewer, context, Action::kPause, view.is_paused ? Icon::kGo : Icon::kPause);
     ImGui::SameLine();
     if (view.is_replay) {
+      ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5F * (kButtonSide * em() - ImGui::GetFrameHeight()));
       replay_line(viewer, context);
     } else {
       draw_time_line(view);
@@ -305,8 +331,8 @@ void FirstPanels::draw(Viewer& viewer, const PanelContext& context) {
   strokes_ = view.figures.strokes;
   // An exercise says what to do where the cards would lie; they wait behind their button.
   const bool is_exercise = view.scene && view.scene->exercise;
-  if (is_exercise && !was_exercise_) shows_bodies_ = false;
-  was_exercise_ = is_exercise;
+  if (is_exercise && view.session != session_) shows_bodies_ = false;
+  session_ = view.session;
   draw_ghost_hand(viewer, context);
   draw_tool_column(viewer, context);
   draw_pills(viewer, context);

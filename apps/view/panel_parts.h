@@ -14,7 +14,9 @@
 
 namespace incise_view {
 
-inline constexpr float kMargin = 0.6F;  // around panels, in heights of text
+inline constexpr float kMargin = 0.6F;      // around panels, in heights of text
+inline constexpr float kToolColumn = 4.3F;  // icons of tools, and the way to what is beside them, likewise
+inline constexpr float kTimeBar = 4.6F;     // with what lies above it, likewise
 
 /// The height of text, which all sizes go by.
 [[nodiscard]] float em();
@@ -46,8 +48,8 @@ class FirstPanels {
 
  private:
   FileList files_;
-  bool shows_bodies_ = true, was_exercise_ = false;
-  std::uint64_t strokes_ = 0;  // when it was last drawn
+  bool shows_bodies_ = true;
+  std::uint64_t strokes_ = 0, session_ = 0;  // when it was last drawn
 };
 /// Every figure.
 void draw_research_panels(incise::app::Viewer& viewer, const PanelContext& context);

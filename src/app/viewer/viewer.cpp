@@ -66,6 +66,7 @@ struct Viewer::State {
   fs::path attempt;  // the recording of what was scored last
   std::uint64_t scores_seen = 0;
   Vec3 clip_normal = Vec3::UnitX();
+  std::optional<Theme> chosen_theme;  // by the person, for all bodies
   FirstSteps first_steps;
   bool is_demonstrating = false;
   Cursor cursor = Cursor::kArrow;
@@ -74,6 +75,7 @@ struct Viewer::State {
     return {viewport, &session.view().surface, session.view().body};
   }
   [[nodiscard]] Viewport free_part(const Viewport& viewport) const;
+  [[nodiscard]] FirstSteps::Hold hold() const;
   void begin_session(const Viewport& viewport);
   void end_demonstration();
   void choose_cursor(const PointerEvent& event);
@@ -372,6 +374,7 @@ bool Viewer::State::act_on_view(Action action) {
       return true;
     case Action::kTheme:
       view.theme = view.theme == Theme::kDark ? Theme::kLight : Theme::kDark;
+      chosen_theme = view.theme;
       return true;
     default:
       return false;
@@ -455,7 +458,7 @@ bool Viewer::update(const Viewport& viewport, double now) {
     s.session_seen = view.session;
     if (s.notices_seen != view.notices) s.say(view.notice);
     s.notices_seen = view.notices;
-    s.first_steps.see(view.figures.strokes, !s.tools.hands().hooks.empty(), s.is_demonstrating);
+    s.first_steps.see(view.figures.strokes, s.hold(), s.is_demonstrating);
     s.is_changed = true;
   }
   if (!s.shown.notice.empty() && now > s.notice_until) {
@@ -468,6 +471,11 @@ bool Viewer::update(const Viewport& viewport, double now) {
   s.picture.marks = s.session.view().marks;
   s.tools.draw(s.context(viewport), s.picture.camera, s.picture.marks);
   return true;
+}
+
+FirstSteps::Hold Viewer::State::hold() const {
+  if (tools.hands().hooks.empty()) return FirstSteps::Hold::kNone;
+  return tools.is_busy() ? FirstSteps::Hold::kDrag : FirstSteps::Hold::kStays;
 }
 
 /// What panels leave free. A body that fits into a part of the picture is seen in it as a camera of that part sees it,
@@ -484,11 +492,17 @@ void Viewer::State::begin_session(const Viewport& viewport) {
   const Scene& scene = *view.scene;
   const std::pair scene_now(view.title, view.figures.tets_at_start);
   const bool is_same = scene_seen == scene_now;  // from its start: it keeps the person's view, tool and settings
+  is_demonstrating = scene.view && scene.view->is_demonstration && !view.is_replay;
   tools.reset(is_same ? tools.settings() : settings_for(scene, view.body));
+  // What a demonstration tells a person to do is told of its tool, also where it begins again.
+  const std::optional<ToolKind> tool = is_same && !is_demonstrating ? std::nullopt : tool_for(scene);
+  if (tool && !options.keeps_tool) tools.choose(*tool);
   if (!is_same) {
-    if (const std::optional<ToolKind> tool = tool_for(scene); tool && !options.keeps_tool) tools.choose(*tool);
     picture.camera = camera_of(scene, view.body, free_part(viewport));
-    if (!options.keeps_view) shown.options = view_options_of(scene);
+    const ViewOptions asked = view_options_of(scene);
+    if (!options.keeps_view) shown.options = asked;
+    shown.options.look = asked.look;  // the body's, whatever is kept
+    shown.options.theme = chosen_theme.value_or(shown.options.theme);
     shown.options.shows_occlusion = options.shades_hollows;
     shown.options.shows_shadows = options.has_shadows;
     shown.is_clipped = false;
@@ -500,7 +514,6 @@ void Viewer::State::begin_session(const Viewport& viewport) {
   if (has_drapes) {
     picture.ground = std::make_shared<const std::vector<SolidCorner>>(drapes_around(view.body, picture.camera.up));
   }
-  is_demonstrating = scene.view && scene.view->is_demonstration && !view.is_replay;
   first_steps.begin(is_demonstrating);
   show_surface();
   session.set_hands(tools.hands());

@@ -13,6 +13,7 @@
 #include "app/hands/hand_queue.h"
 #include "app/hands/scene_hand_tools.h"
 #include "app/hands/tools.h"
+#include "app/scene/scene_simulation.h"
 #include "app/session/session.h"
 #include "app/session/starting_exercise.h"
 #include "app/view/scene_camera.h"
