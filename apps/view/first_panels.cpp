@@ -221,8 +221,11 @@ void draw_time_bar(Viewer& viewer, const PanelContext& context, bool& shows_bodi
     action_icon(viewer, context, Action::kPause, view.is_paused ? Icon::kGo : Icon::kPause);
     ImGui::SameLine();
     if (view.is_replay) {
-      ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5F * (kButtonSide * em() - ImGui::GetFrameHeight()));
+      // As high as the icons beside it.
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                          {ImGui::GetStyle().FramePadding.x, 0.5F * (kButtonSide - 1) * em()});
       replay_line(viewer, context);
+      ImGui::PopStyleVar();
     } else {
       draw_time_line(view);
     }

@@ -27,6 +27,7 @@ constexpr float kToolsWidth = 13.5F, kFiguresWidth = 19;  // of the panels
 constexpr float kHistogramHeight = 4.2F, kForceHeight = 3.2F, kLegendHeight = 0.8F;
 constexpr float kTimeHalfWidth = 15.5F, kTimeHeight = 11;
 constexpr float kBarHalfWidth = 16.2F, kReplayHalfWidth = 24;  // of the bar of time without Research
+constexpr float kReplayHigher = 0.8F;                          // that bar, where a recording is played
 constexpr float kExerciseWidth = 25, kNarrowExerciseWidth = 20.5F;
 constexpr int kLogLines = 5;
 
@@ -107,6 +108,9 @@ void rows(const char* name, const std::vector<app::HudRow>& lines) {
 
 void stage_table(const app::Hud& hud) {
   begin_columns("stages", 3);
+  ImGui::TableSetupColumn("stage", ImGuiTableColumnFlags_WidthFixed, 2.2F * em());
+  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, 5.2F * em());
+  ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthStretch);
   for (const app::StageRow& row : hud.stages()) {
     ImGui::TableNextColumn();
     faint(row.label);
@@ -282,7 +286,7 @@ ImVec2 beside_tools(float width, bool is_replay) {
   const ImVec2 screen = ImGui::GetMainViewport()->Size;
   const float half = (is_replay ? kReplayHalfWidth : kBarHalfWidth) * em();
   const bool is_narrow = 2 * (kToolColumn * em() + width + half) > screen.x;
-  ImVec2 at(0, is_narrow ? 1 - kTimeBar * em() / screen.y : 1);
+  ImVec2 at(0, is_narrow ? 1 - (kTimeBar + (is_replay ? kReplayHigher : 0)) * em() / screen.y : 1);
   const float room = screen.x - 2 * kMargin * em() - width;
   if (room > 0) at.x = std::min(1.0F, kToolColumn * em() / room);
   return at;
