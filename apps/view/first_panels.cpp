@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/text/formatted.h"
 #include "icons.h"
@@ -19,8 +20,12 @@ using app::Action;
 using app::Viewer;
 
 constexpr float kIconSide = 1.55F, kButtonSide = 2.35F;  // heights of text
-constexpr float kCardWidth = 8.2F, kCardHeight = 2.6F;
-constexpr float kBottom = 4.2F;  // that the bar of time takes
+constexpr float kCardWidth = 10.6F, kCardHeight = 2.9F, kCardIcon = 1.9F;
+constexpr float kCompactWidth = 7.9F, kCompactHeight = 2.3F,
+                kCompactIcon = 1.5F;  // of cards where there is little room
+constexpr float kRowName = 5.2F;      // "Exercises", beside the cards
+constexpr float kSmallText = 0.87F;
+constexpr std::size_t kCardsInRow = 5;
 constexpr float kTimeLine = 13;
 constexpr double kInSkin = 7;  // mm of the ghost's scalpel, about
 constexpr double kFew = 0.9;   // simulated seconds per second that still count as keeping up
@@ -81,16 +86,50 @@ void draw_tool_column(Viewer& viewer, const PanelContext& context) {
   ImGui::End();
 }
 
-bool card(const char* id, Icon icon, const std::string& name, const std::string& told, bool is_on) {
-  const ImVec2 at = ImGui::GetCursorScreenPos(), size(kCardWidth * em(), kCardHeight * em());
-  if (is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+/// What a card shows.
+struct Card {
+  Icon icon;
+  std::string name, few;  // below it
+  std::string told;       // where the pointer rests on it
+  bool is_on;
+};
+
+/// How cards lie, by the room beside the tools.
+struct CardLayout {
+  float width = 0, height = 0, icon = 0;
+  float name = 0;  // of a row, to its left; 0: none is written
+  std::size_t columns = 1;
+
+  [[nodiscard]] bool is_compact() const { return !(name > 0); }
+};
+
+CardLayout card_layout() {
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float room = ImGui::GetMainViewport()->Size.x - 2 * (kToolColumn + kMargin) * em() -
+                     2 * ImGui::GetStyle().WindowPadding.x + gap;
+  const auto columns = [&](float width) {
+    return std::clamp(static_cast<std::size_t>(room / (width * em() + gap)), std::size_t{1}, kCardsInRow);
+  };
+  const bool is_wide = room >= kRowName * em() + kCardsInRow * (kCardWidth * em() + gap);
+  if (is_wide) return {kCardWidth * em(), kCardHeight * em(), kCardIcon * em(), kRowName * em(), kCardsInRow};
+  return {kCompactWidth * em(), kCompactHeight * em(), kCompactIcon * em(), 0, columns(kCompactWidth)};
+}
+
+/// Returns whether it was pressed.
+bool draw_card(const char* id, const Card& card, const CardLayout& layout) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size(layout.width, layout.height);
+  if (card.is_on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   const bool is_pressed = ImGui::Button(id, size);
-  if (is_on) ImGui::PopStyleColor();
-  hint(told);
+  if (card.is_on) ImGui::PopStyleColor();
+  hint(card.told);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float side = 1.7F * em();
-  draw_icon(list, icon, {at.x + 0.5F * em(), at.y + 0.5F * (size.y - side)}, side, color_of(ImGuiCol_Text));
-  list.AddText({at.x + 2.6F * em(), at.y + 0.5F * (size.y - em())}, color_of(ImGuiCol_Text), name.c_str());
+  const float side = layout.icon, left = at.x + side + 0.8F * em();
+  const ImU32 ink = color_of(ImGuiCol_Text);
+  draw_icon(list, card.icon, {at.x + 0.4F * em(), at.y + 0.5F * (size.y - side)}, side, ink);
+  list.AddText({left, at.y + (layout.is_compact() ? 0.5F * (size.y - em()) : 0.3F * em())}, ink, card.name.c_str());
+  if (layout.is_compact()) return is_pressed;
+  list.AddText(ImGui::GetFont(), kSmallText * em(), {left, at.y + 1.5F * em()}, color_of(ImGuiCol_Text, 0.8F),
+               card.few.c_str());
   return is_pressed;
 }
 
@@ -99,21 +138,55 @@ std::string capital(std::string word) {
   return word;
 }
 
+/// Cards in a row, or in rows that are as long as the window is wide. Returns which one was pressed.
+std::optional<std::size_t> draw_card_row(const char* name, const std::vector<Card>& cards) {
+  const CardLayout layout = card_layout();
+  const ImVec2 at = ImGui::GetCursorPos();
+  if (!layout.is_compact()) {
+    ImGui::SetCursorPosY(at.y + 0.5F * (layout.height - em()));
+    faint(name);
+    ImGui::SetCursorPosY(at.y);
+  }
+  std::optional<std::size_t> pressed;
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    const std::size_t column = i % layout.columns;
+    if (column != 0) ImGui::SameLine();
+    const float step = layout.width + ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SetCursorPosX(at.x + layout.name + static_cast<float>(column) * step);
+    if (draw_card(app::formatted("###{}{}", name, i).c_str(), cards[i], layout)) pressed = i;
+  }
+  return pressed;
+}
+
+void draw_body_cards(Viewer& viewer, FileList& files) {
+  std::vector<Card> cards;
+  for (std::size_t i = 0; i < app::kStartingBodies.size(); ++i) {
+    const app::StartingBodyRow& row = app::kStartingBodies[i];
+    cards.push_back({static_cast<Icon>(static_cast<std::size_t>(Icon::kSkin) + i), capital(row.name), row.few, row.text,
+                     viewer.view().title == row.text});
+  }
+  cards.push_back({Icon::kFolder, "Open...", "a file of yours", "A mesh, a scene or a recording of your own", false});
+  const std::optional<std::size_t> pressed = draw_card_row("Bodies", cards);
+  if (pressed && *pressed < app::kStartingBodies.size()) viewer.open(static_cast<app::StartingBody>(*pressed));
+  if (pressed && *pressed == app::kStartingBodies.size()) files.open();
+}
+
+void draw_exercise_cards(Viewer& viewer) {
+  std::vector<Card> cards;
+  for (std::size_t i = 0; i < app::kStartingExercises.size(); ++i) {
+    const app::StartingExerciseRow& row = app::kStartingExercises[i];
+    cards.push_back({static_cast<Icon>(static_cast<std::size_t>(Icon::kStraightCut) + i), row.name, row.few, row.text,
+                     viewer.view().title == row.title});
+  }
+  const std::optional<std::size_t> pressed = draw_card_row("Exercises", cards);
+  if (pressed) viewer.open(static_cast<app::StartingExercise>(*pressed));
+}
+
 void draw_cards(Viewer& viewer, FileList& files) {
   const float screen = ImGui::GetMainViewport()->Size.y;
-  if (begin_panel("bodies", {0.5F, 1 - kBottom * em() / screen}, 0, 2 * kBottom * em())) {
-    const app::SessionView& view = viewer.view();
-    for (std::size_t i = 0; i < app::kStartingBodies.size(); ++i) {
-      const app::StartingBodyRow& row = app::kStartingBodies[i];
-      const Icon icon = static_cast<Icon>(static_cast<std::size_t>(Icon::kSkin) + i);
-      if (i > 0) ImGui::SameLine();
-      const std::string id = app::formatted("###body{}", i);
-      if (card(id.c_str(), icon, capital(row.name), row.text, view.title == row.text)) {
-        viewer.open(static_cast<app::StartingBody>(i));
-      }
-    }
-    ImGui::SameLine();
-    if (card("###open", Icon::kFolder, "Open...", "A mesh, a scene or a recording of your own", false)) files.open();
+  if (begin_panel("bodies", {0.5F, 1 - kTimeBar * em() / screen}, 0, 0.6F * screen)) {
+    draw_body_cards(viewer, files);
+    draw_exercise_cards(viewer);
     if (const std::optional<std::filesystem::path> file = files.draw()) viewer.open(*file);
   }
   ImGui::End();
@@ -140,7 +213,7 @@ void draw_time_line(const app::SessionView& view) {
 
 void draw_time_bar(Viewer& viewer, const PanelContext& context, bool& shows_bodies) {
   const app::SessionView& view = viewer.view();
-  if (begin_panel("time bar", {0.5F, 1}, 0, 2 * kBottom * em())) {
+  if (begin_panel("time bar", {0.5F, 1}, 0, 2 * kTimeBar * em())) {
     action_icon(viewer, context, Action::kUndo, Icon::kUndo);
     ImGui::SameLine();
     action_icon(viewer, context, Action::kRedo, Icon::kRedo);
@@ -148,7 +221,11 @@ void draw_time_bar(Viewer& viewer, const PanelContext& context, bool& shows_bodi
     action_icon(viewer, context, Action::kPause, view.is_paused ? Icon::kGo : Icon::kPause);
     ImGui::SameLine();
     if (view.is_replay) {
+      // As high as the icons beside it.
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                          {ImGui::GetStyle().FramePadding.x, 0.5F * (kButtonSide - 1) * em()});
       replay_line(viewer, context);
+      ImGui::PopStyleVar();
     } else {
       draw_time_line(view);
     }
@@ -157,7 +234,7 @@ void draw_time_bar(Viewer& viewer, const PanelContext& context, bool& shows_bodi
     ImGui::SameLine();
     action_icon(viewer, context, Action::kScreenshot, Icon::kPicture);
     ImGui::SameLine();
-    if (icon_button("###other bodies", Icon::kBodies, shows_bodies, "Other bodies to cut"))
+    if (icon_button("###other bodies", Icon::kBodies, shows_bodies, "Other bodies to cut, and exercises"))
       shows_bodies = !shows_bodies;
   }
   ImGui::End();
@@ -257,8 +334,8 @@ void FirstPanels::draw(Viewer& viewer, const PanelContext& context) {
   strokes_ = view.figures.strokes;
   // An exercise says what to do where the cards would lie; they wait behind their button.
   const bool is_exercise = view.scene && view.scene->exercise;
-  if (is_exercise && !was_exercise_) shows_bodies_ = false;
-  was_exercise_ = is_exercise;
+  if (is_exercise && view.session != session_) shows_bodies_ = false;
+  session_ = view.session;
   draw_ghost_hand(viewer, context);
   draw_tool_column(viewer, context);
   draw_pills(viewer, context);

@@ -163,6 +163,38 @@ void draw_body(Icon icon, Pen& p) {
   }
 }
 
+void draw_exercise_icon(Icon icon, Pen& p) {
+  switch (icon) {
+    case Icon::kStraightCut:
+      p.line({{3, 12}, {21, 12}});
+      p.line({{3, 8}, {3, 16}});
+      p.line({{21, 8}, {21, 16}});
+      break;
+    case Icon::kUpToLayer:
+      p.line({{2, 8}, {22, 8}});
+      p.line({{2, 15}, {22, 15}});
+      p.line({{12, 2}, {12, 14}});
+      p.line({{9, 11}, {12, 14}, {15, 11}});
+      p.curve({2, 20}, {8, 17.5F}, {15, 22.5F}, {22, 19.5F});
+      break;
+    case Icon::kSlit:
+      p.line({{2, 5}, {22, 5}});
+      p.line({{2, 19}, {22, 19}});
+      p.curve({5, 11}, {9, 7.5F}, {15, 7.5F}, {19, 11});
+      p.curve({5, 11}, {9, 14.5F}, {15, 14.5F}, {19, 11});
+      break;
+    case Icon::kCore:
+      p.circle({12, 12}, 8.5F);
+      p.disc({12, 12}, 3.6F);
+      break;
+    default:
+      p.curve({2, 12}, {7, 4}, {17, 4}, {22, 12});
+      p.curve({2, 12}, {7, 20}, {17, 20}, {22, 12});
+      p.disc({12, 12}, 2.8F);
+      break;
+  }
+}
+
 void draw_other(Icon icon, Pen& p) {
   switch (icon) {
     case Icon::kPicture:
@@ -215,6 +247,7 @@ void draw_icon(ImDrawList& list, Icon icon, const ImVec2& corner, float side, Im
   if (icon <= Icon::kStaple) return draw_tool(icon, pen);
   if (icon <= Icon::kRestart) return draw_time(icon, pen);
   if (icon >= Icon::kSkin && icon <= Icon::kVertebra) return draw_body(icon, pen);
+  if (icon >= Icon::kStraightCut && icon <= Icon::kEllipse) return draw_exercise_icon(icon, pen);
   draw_other(icon, pen);
 }
 

@@ -8,7 +8,8 @@
 
 namespace incise_view {
 
-/// The first ones are the tools, in the order of `ToolKind`.
+/// The first ones are the tools, in the order of `ToolKind`. From kSkin on come the bodies in the order of
+/// `StartingBody`, from kStraightCut on the exercises in that of `StartingExercise`.
 enum class Icon : std::uint8_t {
   kTurn,
   kScalpel,
@@ -35,6 +36,11 @@ enum class Icon : std::uint8_t {
   kLiver,
   kVein,
   kVertebra,
+  kStraightCut,
+  kUpToLayer,
+  kSlit,
+  kCore,
+  kEllipse,
   kFolder,
   kHand,
 };

@@ -44,6 +44,7 @@ app::ViewerOptions options_of(const Arguments& arguments, bool is_software) {
   options.keeps_view = arguments.has_view;
   options.shades_hollows = options.has_shadows = !is_software;
   options.mouse_is_hand = arguments.device == "mouse" || incise_apps::is_haply(arguments.device);
+  options.keeps_tool = incise_apps::is_haply(arguments.device);
   options.free_share = kFreeShare;
   options.research_share = kResearchShare;
   return options;

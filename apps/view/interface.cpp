@@ -29,6 +29,7 @@ void use_theme(app::Theme theme) {
     style.Colors[ImGuiCol_Text] = {0.08F, 0.08F, 0.10F, 1};
     style.Colors[ImGuiCol_TextDisabled] = {0.34F, 0.35F, 0.38F, 1};
   }
+  style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_ButtonActive];  // text is written on bars
   style.WindowRounding = 6;
   style.FrameRounding = 4;
   style.GrabRounding = 4;

@@ -14,7 +14,9 @@
 
 namespace incise_view {
 
-inline constexpr float kMargin = 0.6F;  // around panels, in heights of text
+inline constexpr float kMargin = 0.6F;      // around panels, in heights of text
+inline constexpr float kToolColumn = 4.3F;  // icons of tools, and the way to what is beside them, likewise
+inline constexpr float kTimeBar = 4.6F;     // with what lies above it, likewise
 
 /// The height of text, which all sizes go by.
 [[nodiscard]] float em();
@@ -41,11 +43,13 @@ void action_button(incise::app::Viewer& viewer, const PanelContext& context, inc
 class FirstPanels {
  public:
   void draw(incise::app::Viewer& viewer, const PanelContext& context);
+  /// Whether cards of bodies and exercises lie where an exercise says what to do.
+  [[nodiscard]] bool shows_cards() const { return shows_bodies_; }
 
  private:
   FileList files_;
-  bool shows_bodies_ = true, was_exercise_ = false;
-  std::uint64_t strokes_ = 0;  // when it was last drawn
+  bool shows_bodies_ = true;
+  std::uint64_t strokes_ = 0, session_ = 0;  // when it was last drawn
 };
 /// Every figure.
 void draw_research_panels(incise::app::Viewer& viewer, const PanelContext& context);

@@ -26,7 +26,8 @@ namespace {
 constexpr float kToolsWidth = 13.5F, kFiguresWidth = 19;  // of the panels
 constexpr float kHistogramHeight = 4.2F, kForceHeight = 3.2F, kLegendHeight = 0.8F;
 constexpr float kTimeHalfWidth = 15.5F, kTimeHeight = 11;
-constexpr float kToolColumn = 4.3F;  // icons of tools, and the way to what is beside them
+constexpr float kBarHalfWidth = 16.2F, kReplayHalfWidth = 24;  // of the bar of time without Research
+constexpr float kReplayHigher = 0.8F;                          // that bar, where a recording is played
 constexpr float kExerciseWidth = 25, kNarrowExerciseWidth = 20.5F;
 constexpr int kLogLines = 5;
 
@@ -107,6 +108,9 @@ void rows(const char* name, const std::vector<app::HudRow>& lines) {
 
 void stage_table(const app::Hud& hud) {
   begin_columns("stages", 3);
+  ImGui::TableSetupColumn("stage", ImGuiTableColumnFlags_WidthFixed, 2.2F * em());
+  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, 5.2F * em());
+  ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthStretch);
   for (const app::StageRow& row : hud.stages()) {
     ImGui::TableNextColumn();
     faint(row.label);
@@ -277,10 +281,13 @@ void draw_probe(const app::SessionView& view) {
   ImGui::End();
 }
 
-/// The same to the right of the column of tools.
-ImVec2 beside_tools(float width) {
-  ImVec2 at = lower_left(width);
-  const float room = ImGui::GetMainViewport()->Size.x - 2 * kMargin * em() - width;
+/// The same to the right of the column of tools, beside or above the bar of time.
+ImVec2 beside_tools(float width, bool is_replay) {
+  const ImVec2 screen = ImGui::GetMainViewport()->Size;
+  const float half = (is_replay ? kReplayHalfWidth : kBarHalfWidth) * em();
+  const bool is_narrow = 2 * (kToolColumn * em() + width + half) > screen.x;
+  ImVec2 at(0, is_narrow ? 1 - (kTimeBar + (is_replay ? kReplayHigher : 0)) * em() / screen.y : 1);
+  const float room = screen.x - 2 * kMargin * em() - width;
   if (room > 0) at.x = std::min(1.0F, kToolColumn * em() / room);
   return at;
 }
@@ -293,6 +300,7 @@ void gauge(const app::ExerciseGauge& g) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 0.8F * em());
   ImGui::Dummy(size);
+  hint("Green: as it is asked for. A mark tells where the blade is");
   const auto x = [&](double value) { return at.x + size.x * static_cast<float>(std::clamp(value / g.most, 0.0, 1.0)); };
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + size.x, at.y + size.y);
@@ -349,7 +357,7 @@ void draw_exercise(Viewer& viewer, const PanelContext& context) {
   const app::ViewerState& state = std::as_const(viewer).state();
   const bool is_research = state.is_research;
   const float width = (is_research ? kExerciseWidth : kNarrowExerciseWidth) * em();
-  const ImVec2 at = is_research ? lower_left(width) : beside_tools(width);
+  const ImVec2 at = is_research ? lower_left(width) : beside_tools(width, view.is_replay);
   if (begin_panel("exercise", at, width, 0.6F * ImGui::GetMainViewport()->Size.y)) {
     ImGui::PushTextWrapPos(0);
     faint("Exercise: " + exercise.name);
@@ -422,7 +430,9 @@ void draw_help(app::ViewerState& state) {
     text("Shift+drag: grasp, whatever the tool. Drop a scene, a mesh or a recording on the window to open it.");
     ImGui::Separator();
     ImGui::Columns(2, nullptr, false);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0.22F * em()});
     key_columns();
+    ImGui::PopStyleVar();
     ImGui::Columns(1);
   }
   ImGui::End();
@@ -451,7 +461,8 @@ void Panels::draw(Viewer& viewer, const PanelContext& context) {
     } else {
       first_->draw(viewer, context);
     }
-    if (state.panels == app::Panels::kAll) draw_exercise(viewer, context);
+    const bool has_cards = !state.is_research && first_->shows_cards();
+    if (state.panels == app::Panels::kAll && !has_cards) draw_exercise(viewer, context);
     draw_probe(viewer.view());
     draw_legend(state);
   }

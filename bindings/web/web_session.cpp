@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/hands/scene_hand_tools.h"
 #include "app/scene/view_names.h"
 #include "app/view/drapes.h"
 #include "app/view/scene_camera.h"
@@ -27,18 +28,8 @@ namespace {
 
 constexpr const char* kRecording = "recording.jsonl";
 
-double stiffest(const app::Scene& scene) {
-  double young = scene.options.materials.fallback.young;
-  for (const auto& entry : scene.options.materials.by_region) young = std::max(young, entry.material.young);
-  return young;
-}
-
 double shortest(const incise::Box& body) {
   return body.is_empty() ? 1 : std::max((body.hi - body.lo).minCoeff(), 0.01 * (body.hi - body.lo).maxCoeff());
-}
-
-app::ToolSettings settings_of(const app::Session& session, const incise::Box& body) {
-  return app::settings_for(body, stiffest(session.scene()), session.scene().options.body.length_unit);
 }
 
 void push(std::vector<float>& row, const Eigen::Vector3f& point) {
@@ -109,7 +100,7 @@ void WebSession::lay_drapes() {
 void WebSession::begin_anew() {
   refresh();
   body_ = app::bounds_of(picture_.surface);
-  tools_.reset(settings_of(session_, body_));
+  tools_.reset(app::settings_for(session_.scene(), body_));
   set_depth(depth_share_);
   queue_.clear();
 }

@@ -25,8 +25,9 @@ uniform bool is_behind;
 noperspective out vec2 place;  // pixels along the line from its start, and across
 flat out vec2 sizes;           // length and half width in pixels
 flat out uvec2 look;           // style, dashed
-const float kNearer = 8e-4;    // lines on a surface come before it
-const float kMuchNearer = 6e-3;  // rims of wounds: lips may overlap
+// Shares of the way to the eye, whatever lies between the nearest and the furthest of the scene.
+const float kNearer = 5e-4;      // lines on a surface come before it
+const float kMuchNearer = 4e-3;  // rims of wounds: lips may overlap
 
 void main() {
   gl_Position = vec4(2, 2, 2, 1);  // seen by nobody
@@ -46,7 +47,8 @@ void main() {
   place = vec2(end * size + (2.0 * end - 1.0) * reach, side * reach);
   sizes = vec2(size, 0.5 * width);
   look = traits.xz;
-  gl_Position = vec4(p / (0.5 * pixels) * at.w, at.z - (is_behind ? 0.0 : traits.y == 2u ? kMuchNearer : kNearer) * at.w, at.w);
+  float nearer = is_behind ? 0.0 : traits.y == 2u ? kMuchNearer : kNearer;
+  gl_Position = vec4(p / (0.5 * pixels) * at.w, at.z + nearer * to_clip[3][2], at.w);
 }
 )";
 

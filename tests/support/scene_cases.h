@@ -104,6 +104,7 @@ inline Json full_scene() {
   scene["view"] = {{"from", {1, -2, 3}}, {"up", {0, 0, 2}},       {"target", {0.5, 0.4, 0.9}}, {"distance", 4.5},
                    {"zoom", 1.5},        {"color", "region"},     {"wireframe", true},         {"opacity", 0.25},
                    {"theme", "light"},   {"clip", {0, 1, 0, 0.1}}};
+  scene["hand"] = {{"tool", "punch"}, {"depth", 0.4}, {"angle", -20}, {"ring", 0.15}, {"grip", 0.25}};
   scene["exercise"] = {
       {"name", "a cut"},
       {"instructions", "Cut along the line."},

@@ -12,8 +12,12 @@ namespace {
 
 constexpr double kPushPerNotch = 0.5;                      // of the hook's radius
 constexpr double kNearestShare = 0.2, kFarthestShare = 5;  // of the depth of what was grasped
-constexpr double kJaw = 0.5, kForcepsLength = 3;           // of the hook's radius, as drawn
-constexpr double kLeastCosine = 1e-3;                      // of a ray to the middle of the view: none are in a picture
+constexpr double kLeastSteep = 0.3;                        // cosine of a ray to a surface that a hook is led along
+constexpr double kFarthestAlong = 2;                       // of the depth of what was grasped, on that way
+constexpr double kJaw = 0.5;                               // of the hook's radius, as drawn
+// Aside by up, of what pulls: a hook's shaft lies low and hides no wound; a retractor's handle is bent already.
+constexpr double kHookLean = 2, kRetractorLean = 0.7;
+constexpr double kLeastCosine = 1e-3;  // of a ray to the middle of the view: none are in a picture
 
 double depth_of(const Camera& camera, const Vec3& point) {
   return (camera.eye() - point).dot(camera.backward());
@@ -28,7 +32,26 @@ void Grasp::take(const Camera& camera) {
   depth_ = first_depth_ = depth_of(camera, hook_.position);
 }
 
+Grasp::Grasp(const Hook& hook, const Camera& camera, const Vec3& normal) : Grasp(hook, camera) {
+  normal_ = normal;
+}
+
+/// Where a ray meets the plane along the surface through the hook, if it meets it steeply, and not far beyond what was
+/// grasped.
+std::optional<Vec3> Grasp::along_surface(const Ray& ray) const {
+  const double cosine = -ray.direction.dot(normal_);
+  if (cosine < kLeastSteep) return std::nullopt;
+  const double way = (ray.origin - hook_.position).dot(normal_) / cosine;
+  if (!(way > kNearestShare * first_depth_ && way < kFarthestAlong * first_depth_)) return std::nullopt;
+  return Vec3(ray.origin + way * ray.direction);
+}
+
 void Grasp::move(const Ray& ray, const Camera& camera) {
+  if (const std::optional<Vec3> place = along_surface(ray)) {
+    hook_.position = *place;
+    depth_ = depth_of(camera, *place);
+    return;
+  }
   const double cosine = -ray.direction.dot(camera.backward());
   if (cosine > kLeastCosine) hook_.position = ray.origin + depth_ / cosine * ray.direction;
 }
@@ -46,15 +69,6 @@ void Grasp::draw(Marks& marks) const {
   marks.balls.push_back({to, Ink::kHook, 6, true});
 }
 
-void draw_forceps(const Hook& hook, const Camera& camera, Marks& marks) {
-  const Vec3 handle = hook.position + kForcepsLength * hook.radius * (camera.backward() + 0.6 * camera.right());
-  for (const double side : {-1.0, 1.0}) {
-    const Vec3 tip = hook.position + side * kJaw * (1 - hook.closed) * hook.radius * camera.right();
-    const Vec3 back = handle + side * kJaw * hook.radius * camera.upward();
-    marks.lines.push_back({tip.cast<float>(), back.cast<float>(), Ink::kHook, 4, true, false});
-  }
-}
-
 Instrument instrument_at(const Hook& hook, const Vec3& grasped, const HeldBy& by, const Camera& camera) {
   Instrument made;
   made.kind = by.kind;
@@ -69,8 +83,9 @@ Instrument instrument_at(const Hook& hook, const Vec3& grasped, const HeldBy& by
   const Vec3 pull = hook.position - grasped;
   const Vec3 flat = pull - pull.dot(by.normal) * by.normal;
   made.ahead = flat;
+  const double most = by.kind == InstrumentKind::kHook ? kHookLean : kRetractorLean;
   const double lean = hook.radius > 0 ? std::min(1.0, flat.norm() / hook.radius) : 0;
-  made.up = (by.normal + 0.7 * lean * flat.stableNormalized()).normalized();
+  made.up = (by.normal + most * lean * flat.stableNormalized()).normalized();
   return made;
 }
 

@@ -14,10 +14,14 @@ namespace incise {
 inline namespace v0 {
 namespace app {
 
-/// A hook in the hand: it moves in the plane across the view through what it grasped.
+/// A hook in the hand: it moves in the plane across the view through what it grasped, or along the surface there.
 class Grasp {
  public:
   Grasp(const Hook& hook, const Camera& camera);
+  /// @param normal  unit, of the surface that it moves along: a hand that pulls a lip aside pulls it along the skin,
+  /// and
+  ///                not into the body. Where the surface is seen too flat for that, it moves across the view.
+  Grasp(const Hook& hook, const Camera& camera, const Vec3& normal);
 
   /// Another hand, or another view, takes it where it is.
   void take(const Camera& camera);
@@ -31,17 +35,18 @@ class Grasp {
   void draw(Marks& marks) const;
 
  private:
+  [[nodiscard]] std::optional<Vec3> along_surface(const Ray& ray) const;
+
   Hook hook_;
-  Vec3 grasped_;        // where it took hold
-  double depth_;        // of the hook before the eye
-  double first_depth_;  // of what was grasped
+  Vec3 grasped_;                // where it took hold
+  double depth_;                // of the hook before the eye
+  double first_depth_;          // of what was grasped
+  Vec3 normal_ = Vec3::Zero();  // of the surface that it moves along; zero: across the view
 };
 
 /// The nearest of some pins to a place of the picture, within `reach` pixels: its index.
 [[nodiscard]] std::optional<std::size_t> find_pin(const std::vector<Hook>& pins, const Camera& camera,
                                                   const Viewport& viewport, const Vec2& pixel, double reach);
-/// Two jaws at a hook, as far apart as it is open, held towards the viewer.
-void draw_forceps(const Hook& hook, const Camera& camera, Marks& marks);
 /// The instrument that a hook in the hand is, and where it was put on.
 struct HeldBy {
   InstrumentKind kind = InstrumentKind::kForceps;

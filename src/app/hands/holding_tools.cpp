@@ -54,7 +54,6 @@ class GraspTool final : public HandTool {
   }
   void draw(const Camera& camera, Marks& marks) const override {
     if (grasp_) grasp_->draw(marks);
-    if (grasp_) draw_forceps(grasp_->hook(), camera, marks);
     if (grasp_) marks.instruments.push_back(instrument_at(grasp_->hook(), grasp_->grasped(), by_, camera));
   }
   void draw_hover(const SurfaceHit& hit, const ToolSettings& settings, const Camera& camera,
@@ -88,8 +87,9 @@ class StayingTool final : public HandTool {
       return;
     }
     const ToolSettings& s = moment.settings;
-    held_.emplace_back(new_hook(moment, *place.hit, share_ * s.grasp_radius, kFirmness * s.grasp_stiffness),
-                       moment.camera);
+    const Hook hook = new_hook(moment, *place.hit, share_ * s.grasp_radius, kFirmness * s.grasp_stiffness);
+    const Vec3 along = place.is_wall ? Vec3(Vec3::Zero()) : place.hit->normal;
+    held_.emplace_back(hook, moment.camera, along);
     by_.push_back({kind_, place.hit->normal, millimetre_of(s)});
     moving_ = held_.size() - 1;
   }

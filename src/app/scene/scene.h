@@ -14,6 +14,7 @@
 
 #include "app/scene/exercise.h"
 #include "app/scene/half_space.h"
+#include "app/scene/hand_preset.h"
 #include "app/scene/scene_stroke.h"
 #include "app/scene/scene_view.h"
 #include "incise/core/result.h"
@@ -133,6 +134,7 @@ struct Scene {
   SceneSettle settle;
   std::uint64_t seed = 0;
   std::optional<SceneView> view;     ///< how it is first seen; unset: as every body without a word about it
+  std::optional<HandPreset> hand;    ///< what a person begins with
   std::optional<Exercise> exercise;  ///< what a trainee shall do
 };
 

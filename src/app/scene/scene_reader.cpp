@@ -754,14 +754,45 @@ class SceneViewReader : public SceneExerciseReader {
   }
 };
 
-/// The whole scene. Its readers come one on top of the other, since an exercise names the strokes before it.
-class SceneReader : public SceneViewReader {
+/// What a person begins with.
+class SceneHandReader : public SceneViewReader {
  public:
   using SceneViewReader::SceneViewReader;
 
+  bool read_hand(const JsonValue* value) {
+    if (value == nullptr) return true;
+    HandPreset& hand = scene_.hand.emplace();
+    constexpr Range kTilt{-HandPreset::kMostTilt, HandPreset::kMostTilt};
+    return read_.is_object(*value, "hand", {"tool", "depth", "angle", "ring", "grip"}) &&
+           read_hand_tool(*value, hand.tool) && read_if(*value, "depth", kBoundedAbove0, hand.depth) &&
+           read_if(*value, "angle", kTilt, hand.angle) && read_if(*value, "ring", kBoundedAbove0, hand.ring) &&
+           read_if(*value, "grip", kBoundedAbove0, hand.grip);
+  }
+
+ private:
+  bool read_hand_tool(const JsonValue& hand, std::string& tool) {
+    if (!read_.optional_text(hand, "hand", "tool", tool)) return false;
+    const bool is_known = std::find(kHandTools.begin(), kHandTools.end(), tool) != kHandTools.end();
+    if (is_known || hand.find("tool") == nullptr) return true;
+    std::string all;
+    for (const std::string_view name : kHandTools) all += (all.empty() ? "" : ", ") + std::string(name);
+    return read_.fail(*hand.find("tool"), "hand.tool", "must be one of " + all);
+  }
+  bool read_if(const JsonValue& hand, std::string_view key, const Range& range, std::optional<double>& out) {
+    const JsonValue* value = hand.find(key);
+    return value == nullptr || read_.ranged(*value, under("hand", key), range, out.emplace());
+  }
+};
+
+/// The whole scene. Its readers come one on top of the other, since an exercise names the strokes before it.
+class SceneReader : public SceneHandReader {
+ public:
+  using SceneHandReader::SceneHandReader;
+
   Result<Scene> run(const JsonValue& root) {
     if (read_header(root) && read_body(root) && read_options(root) && read_hands(root) &&
-        read_exercise(root.find("exercise")) && read_frames(root) && read_view(root.find("view"))) {
+        read_exercise(root.find("exercise")) && read_frames(root) && read_view(root.find("view")) &&
+        read_hand(root.find("hand"))) {
       return std::move(scene_);
     }
     return read_.error();
@@ -774,7 +805,7 @@ class SceneReader : public SceneViewReader {
                root, "", {"format",        "version",     "name",    "model",   "length_unit", "materials", "gravity",
                           "damping",       "attachments", "tools",   "hooks",   "strokes",     "frames",    "duration",
                           "frame_seconds", "settle",      "seed",    "solver",  "cut",         "maintain",  "contact",
-                          "view",          "exercise",    "sutures", "stretch", "spare"}) &&
+                          "view",          "exercise",    "sutures", "stretch", "spare",       "hand"}) &&
            read_.optional_text(root, "", "name", scene_.name) &&
            read_.optional_whole(root, "", "seed", 0, std::numeric_limits<std::uint64_t>::max(), scene_.seed);
   }

@@ -200,6 +200,16 @@ Json json_of(const SceneView& view) {
   return root;
 }
 
+Json json_of(const HandPreset& hand) {
+  Json root = Json::object();
+  if (!hand.tool.empty()) root["tool"] = hand.tool;
+  add_if(hand.depth, "depth", root);
+  add_if(hand.angle, "angle", root);
+  add_if(hand.ring, "ring", root);
+  add_if(hand.grip, "grip", root);
+  return root;
+}
+
 /// The ideal as one blade: its times are the scene's already, and nothing is put off.
 Json json_of_ideal(const std::vector<SceneStroke>& strokes) {
   Json root = json_of(strokes.front());
@@ -288,6 +298,7 @@ Json scene_tree(const Scene& scene) {
   root["seed"] = scene.seed;
   add_options(scene.options, root);
   if (scene.view) root["view"] = json_of(*scene.view);
+  if (scene.hand) root["hand"] = json_of(*scene.hand);
   if (scene.exercise) root["exercise"] = json_of(*scene.exercise);
   return root;
 }

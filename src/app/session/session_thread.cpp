@@ -92,7 +92,7 @@ struct SessionThread::State {
   void look_at_session();
   void begin_session();
   void open(const std::filesystem::path& path);
-  void open(StartingBody body);
+  void open(const Result<Scene>& scene);
   void frame();
   void take_device(HandState& now);
   void feel();
@@ -215,9 +215,8 @@ void SessionThread::State::open(const std::filesystem::path& path) {
   tell("Opened " + path.filename().string());
 }
 
-void SessionThread::State::open(StartingBody body) {
-  busy(std::string("Making the ") + kStartingBodies[static_cast<std::size_t>(body)].name);
-  const Result<Scene> scene = scene_of(body);
+/// A scene that was made here.
+void SessionThread::State::open(const Result<Scene>& scene) {
   if (!scene.ok()) return tell(scene.error().message);
   Result<Session> opened = Session::open(*scene, options.session);
   if (!opened.ok()) return tell(opened.error().message);
@@ -415,7 +414,16 @@ void SessionThread::open(const std::filesystem::path& path) {
   state_->post([s = state_.get(), path] { s->open(path); });
 }
 void SessionThread::open(StartingBody body) {
-  state_->post([s = state_.get(), body] { s->open(body); });
+  state_->post([s = state_.get(), body] {
+    s->busy(std::string("Making the ") + kStartingBodies[static_cast<std::size_t>(body)].name);
+    s->open(scene_of(body));
+  });
+}
+void SessionThread::open(StartingExercise exercise) {
+  state_->post([s = state_.get(), exercise] {
+    s->busy(std::string("Opening the exercise ") + kStartingExercises[static_cast<std::size_t>(exercise)].name);
+    s->open(scene_of(exercise));
+  });
 }
 void SessionThread::pause(bool is_paused) {
   state_->post([s = state_.get(), is_paused] { s->options.is_paused = is_paused; });

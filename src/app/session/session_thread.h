@@ -13,6 +13,7 @@
 #include "app/session/quality_monitor.h"
 #include "app/session/session.h"
 #include "app/session/starting_body.h"
+#include "app/session/starting_exercise.h"
 #include "app/session/validity_monitor.h"
 #include "app/view/surface_view.h"
 
@@ -73,8 +74,9 @@ class SessionThread {
 
   void set_hands(const HandState& hands);
   void open(const std::filesystem::path& path);
-  /// One of the bodies that need no file.
+  /// One of the bodies, or of the exercises, that need no file.
   void open(StartingBody body);
+  void open(StartingExercise exercise);
   void pause(bool is_paused);
   void step();  ///< one frame, and pauses
   void reset();

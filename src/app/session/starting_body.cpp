@@ -36,7 +36,8 @@ Material tissue(double density, double young, double toughness) {
   return material;
 }
 
-constexpr double kCutAlong = 31.3;  // y of the cut: between two rows of vertices
+constexpr double kCutAlong = 31.3;   // y of the cut: between two rows of vertices
+constexpr double kShownDepth = 4.6;  // mm of the cut, through the skin into the fat: shallower ones hardly open
 
 /// A blade goes in, along and out; tip and upper end of its edge at each time.
 SceneStroke demonstrated_stroke() {
@@ -45,7 +46,8 @@ SceneStroke demonstrated_stroke() {
   };
   SceneStroke made;
   made.stroke.name = "incision";
-  for (const Key& key : {Key{2.0, 24, 36}, Key{2.5, 26, 19.4}, Key{4.1, 58, 19.4}, Key{4.5, 61, 36}}) {
+  for (const Key& key :
+       {Key{2.0, 24, 36}, Key{2.5, 26, 24 - kShownDepth}, Key{4.1, 58, 24 - kShownDepth}, Key{4.5, 61, 36}}) {
     made.stroke.times.push_back(key.time);
     made.stroke.edges.push_back(
         {Vec3(key.x, kCutAlong, key.tip + 7), Vec3(key.x, kCutAlong, key.tip + 3.5), Vec3(key.x, kCutAlong, key.tip)});
@@ -94,9 +96,8 @@ double liver(const Vec3& at) {
 }
 
 double vein(const Vec3& at) {
-  const Vec3 bent = at - Vec3(0, 2.5 * std::sin(at.x() / 14), 0);
-  const double across = std::hypot(bent.y(), bent.z());
-  return std::max({across - 9.5, 6 - across, std::abs(at.x()) - 34});
+  const double across = std::hypot(at.y() - vein_bend(at.x()), at.z());
+  return std::max({across - kVeinRadius, 6 - across, std::abs(at.x()) - 34});
 }
 
 double vertebra(const Vec3& at) {
@@ -134,6 +135,7 @@ Scene organ_scene(StartingBody organ, const fs::path& mesh, const Box& body) {
   scene.has_materials_by_name = false;
   scene.options.body.length_unit = kOrganUnit;
   scene.options.engine.maintain.work_units = 20'000;
+  scene.hand.emplace().tool = "scalpel";
   SceneView& view = scene.view.emplace();
   Material& material = scene.options.materials.fallback;
   if (organ == StartingBody::kLiver) {
@@ -159,6 +161,10 @@ Scene organ_scene(StartingBody organ, const fs::path& mesh, const Box& body) {
 }
 
 }  // namespace
+
+double vein_bend(double x) {
+  return 2.5 * std::sin(x / 14);
+}
 
 Scene skin_patch() {
   Scene scene;
@@ -189,6 +195,7 @@ Scene skin_patch() {
   view.from = Vec3(0.35, -1, 0.9);
   view.has_drapes = true;
   view.is_demonstration = true;
+  scene.hand = HandPreset{"scalpel", kShownDepth, {}, {}, {}};
   return scene;
 }
 

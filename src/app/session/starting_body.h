@@ -18,16 +18,21 @@ enum class StartingBody : std::uint8_t { kSkin, kLiver, kVein, kVertebra, kCount
 
 struct StartingBodyRow {
   const char* name;  ///< for people: "skin"
-  const char* text;  ///< a few words about it
+  const char* few;   ///< a few words that fit below the name
+  const char* text;  ///< more of them: the title of its scene
 };
 
 /// In the order of `StartingBody`.
 inline constexpr std::array<StartingBodyRow, static_cast<std::size_t>(StartingBody::kCount)> kStartingBodies = {{
-    {"skin", "Skin over fat and muscle, on drapes"},
-    {"liver", "A soft organ with two lobes"},
-    {"vein", "A tube with a thin wall, held at both ends"},
-    {"vertebra", "Spongy bone with an arch and processes"},
+    {"skin", "fat and muscle", "Skin over fat and muscle, on drapes"},
+    {"liver", "soft, two lobes", "A soft organ with two lobes"},
+    {"vein", "a thin wall", "A tube with a thin wall, held at both ends"},
+    {"vertebra", "spongy bone", "Spongy bone with an arch and processes"},
 }};
+
+inline constexpr double kVeinRadius = 9.5;  ///< mm, of the vein outside; its middle lies at y = `vein_bend`, z = 0
+/// How far the vein is bent aside at a place along it, both in mm.
+[[nodiscard]] double vein_bend(double x);
 
 /// The patch: skin over fat over muscle, 84 × 60 × 24 mm. After two seconds its script makes an incision and draws it
 /// open, as a demonstration.

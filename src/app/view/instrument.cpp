@@ -96,17 +96,18 @@ void add_forceps(const Frame& f, double opening, std::vector<SolidCorner>& out) 
   }
 }
 
-/// A shaft that ends in half a ring, whose point is the tip.
+/// A shaft that ends in half a ring, whose point is the tip: it comes over the lip that it pulls, and lies above the
+/// skin where it leans.
 void add_hook(const Frame& f, std::vector<SolidCorner>& out) {
   constexpr double kRadius = 3.2;
   std::vector<BarSection> way;
   for (int i = 0; i <= 8; ++i) {
     const double turn = std::numbers::pi * i / 8;
     const double thick = f.mm * (0.15 + 0.75 * std::min(1.0, i / 5.0));
-    way.push_back({f.at(kRadius * (1 - std::cos(turn)), 0, -kRadius * std::sin(turn)), thick, thick});
+    way.push_back({f.at(-kRadius * (1 - std::cos(turn)), 0, -kRadius * std::sin(turn)), thick, thick});
   }
   for (const auto& [z, thick] : {std::pair{20.0, 1.0}, {60.0, 1.3}, {64.0, 2.6}, {120.0, 2.8}, {124.0, 1.6}}) {
-    way.push_back({f.at(2 * kRadius, 0, z), f.mm * thick, f.mm * thick});
+    way.push_back({f.at(-2 * kRadius, 0, z), f.mm * thick, f.mm * thick});
   }
   add_bar(way, f.side, 8, f.made_of(kSteel), out);
 }

@@ -17,7 +17,7 @@ void FirstSteps::take_over() {
   is_counted_ = false;
 }
 
-void FirstSteps::see(std::uint64_t strokes, bool holds, bool is_demonstrating) {
+void FirstSteps::see(std::uint64_t strokes, Hold hold, bool is_demonstrating) {
   // A demonstration that is taken over ends its stroke first: what it has cut is not the person's.
   if (is_demonstrating || step_ == Step::kDone || step_ == Step::kWatch) return;
   if (!is_counted_) {
@@ -25,19 +25,24 @@ void FirstSteps::see(std::uint64_t strokes, bool holds, bool is_demonstrating) {
     is_counted_ = true;
   }
   if (step_ == Step::kCut && strokes > strokes_) step_ = Step::kOpen;
-  if (step_ == Step::kOpen && holds) {
-    step_ = Step::kUndo;
+  if (step_ == Step::kOpen || step_ == Step::kOpenAgain) {
+    if (step_ == Step::kOpen && was_dragged_ && hold == Hold::kNone) step_ = Step::kOpenAgain;
+    was_dragged_ = hold == Hold::kDrag;
     strokes_ = strokes;
+    if (hold == Hold::kStays) step_ = Step::kUndo;
   }
-  if (step_ == Step::kUndo && strokes < strokes_) step_ = Step::kDone;
+  if (step_ == Step::kUndo && strokes < strokes_) step_ = Step::kLetGo;
+  if (step_ == Step::kLetGo && hold == Hold::kNone) step_ = Step::kDone;
 }
 
 std::string_view FirstSteps::text() const {
-  constexpr std::array<std::string_view, 5> kTexts = {
+  constexpr std::array<std::string_view, 7> kTexts = {
       "Press on the skin and drag: you hold the scalpel",
       "Press on the skin and drag: you hold the scalpel",
-      "Now open it: hold Shift, take a lip and drag it aside. A hook (7) stays where you let go",
-      "Ctrl+Z, or the arrow below, takes the cut back",
+      "Now open it: take the hook (7), press on a lip and drag it aside",
+      "It closes when you let go. The hook (7) stays: press on a lip and drag it aside",
+      "It stays open. Ctrl+Z, or the arrow below, takes the cut back",
+      "A click on a hook lets it go",
       "",
   };
   return kTexts[static_cast<std::size_t>(step_)];

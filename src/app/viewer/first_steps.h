@@ -15,17 +15,24 @@ class FirstSteps {
   void begin(bool is_demonstrated);
   /// The first input: the demonstration is over.
   void take_over();
-  /// What there is now: strokes in the body, and whether a hand holds tissue.
-  void see(std::uint64_t strokes, bool holds, bool is_demonstrating);
+  /// How a hand holds tissue.
+  enum class Hold : std::uint8_t {
+    kNone,
+    kDrag,   ///< while the button is down
+    kStays,  ///< by hooks and retractors that were let go
+  };
+  /// What there is now: strokes in the body, and how a hand holds tissue.
+  void see(std::uint64_t strokes, Hold hold, bool is_demonstrating);
 
   [[nodiscard]] std::string_view text() const;
 
  private:
-  enum class Step : std::uint8_t { kWatch, kCut, kOpen, kUndo, kDone };
+  enum class Step : std::uint8_t { kWatch, kCut, kOpen, kOpenAgain, kUndo, kLetGo, kDone };
 
   Step step_ = Step::kDone;
   std::uint64_t strokes_ = 0;  // at the beginning of the step
   bool is_counted_ = false;
+  bool was_dragged_ = false;  // tissue, in this step
 };
 
 }  // namespace app

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/hands/scene_hand_tools.h"
 #include "app/scene/view_names.h"
 #include "app/text/formatted.h"
 #include "app/view/drapes.h"
@@ -41,14 +42,6 @@ fs::path free_name(const fs::path& folder, const std::string& stem, const std::s
   return folder / (stem + extension);
 }
 
-double stiffest(const Scene& scene) {
-  double young = scene.options.materials.fallback.young;
-  for (const Materials::Entry& entry : scene.options.materials.by_region) {
-    young = std::max(young, entry.material.young);
-  }
-  return young;
-}
-
 }  // namespace
 
 struct Viewer::State {
@@ -73,6 +66,7 @@ struct Viewer::State {
   fs::path attempt;  // the recording of what was scored last
   std::uint64_t scores_seen = 0;
   Vec3 clip_normal = Vec3::UnitX();
+  std::optional<Theme> chosen_theme;  // by the person, for all bodies
   FirstSteps first_steps;
   bool is_demonstrating = false;
   Cursor cursor = Cursor::kArrow;
@@ -81,6 +75,7 @@ struct Viewer::State {
     return {viewport, &session.view().surface, session.view().body};
   }
   [[nodiscard]] Viewport free_part(const Viewport& viewport) const;
+  [[nodiscard]] FirstSteps::Hold hold() const;
   void begin_session(const Viewport& viewport);
   void end_demonstration();
   void choose_cursor(const PointerEvent& event);
@@ -181,6 +176,10 @@ void Viewer::open(const fs::path& path) {
 
 void Viewer::open(StartingBody body) {
   state_->session.open(body);
+}
+
+void Viewer::open(StartingExercise exercise) {
+  state_->session.open(exercise);
 }
 
 void Viewer::notify(const std::string& text) {
@@ -375,6 +374,7 @@ bool Viewer::State::act_on_view(Action action) {
       return true;
     case Action::kTheme:
       view.theme = view.theme == Theme::kDark ? Theme::kLight : Theme::kDark;
+      chosen_theme = view.theme;
       return true;
     default:
       return false;
@@ -458,7 +458,7 @@ bool Viewer::update(const Viewport& viewport, double now) {
     s.session_seen = view.session;
     if (s.notices_seen != view.notices) s.say(view.notice);
     s.notices_seen = view.notices;
-    s.first_steps.see(view.figures.strokes, !s.tools.hands().hooks.empty(), s.is_demonstrating);
+    s.first_steps.see(view.figures.strokes, s.hold(), s.is_demonstrating);
     s.is_changed = true;
   }
   if (!s.shown.notice.empty() && now > s.notice_until) {
@@ -473,6 +473,11 @@ bool Viewer::update(const Viewport& viewport, double now) {
   return true;
 }
 
+FirstSteps::Hold Viewer::State::hold() const {
+  if (tools.hands().hooks.empty()) return FirstSteps::Hold::kNone;
+  return tools.is_busy() ? FirstSteps::Hold::kDrag : FirstSteps::Hold::kStays;
+}
+
 /// What panels leave free. A body that fits into a part of the picture is seen in it as a camera of that part sees it,
 /// but for the field of view, which is that of the whole height.
 Viewport Viewer::State::free_part(const Viewport& viewport) const {
@@ -485,11 +490,19 @@ Viewport Viewer::State::free_part(const Viewport& viewport) const {
 void Viewer::State::begin_session(const Viewport& viewport) {
   const SessionView& view = session.view();
   const Scene& scene = *view.scene;
-  tools.reset(settings_for(view.body, stiffest(scene), scene.options.body.length_unit));
   const std::pair scene_now(view.title, view.figures.tets_at_start);
-  if (scene_seen != scene_now) {  // the same scene from its start keeps the person's view
+  const bool is_same = scene_seen == scene_now;  // from its start: it keeps the person's view, tool and settings
+  is_demonstrating = scene.view && scene.view->is_demonstration && !view.is_replay;
+  tools.reset(is_same ? tools.settings() : settings_for(scene, view.body));
+  // What a demonstration tells a person to do is told of its tool, also where it begins again.
+  const std::optional<ToolKind> tool = is_same && !is_demonstrating ? std::nullopt : tool_for(scene);
+  if (tool && !options.keeps_tool) tools.choose(*tool);
+  if (!is_same) {
     picture.camera = camera_of(scene, view.body, free_part(viewport));
-    if (!options.keeps_view) shown.options = view_options_of(scene);
+    const ViewOptions asked = view_options_of(scene);
+    if (!options.keeps_view) shown.options = asked;
+    shown.options.look = asked.look;  // the body's, whatever is kept
+    shown.options.theme = chosen_theme.value_or(shown.options.theme);
     shown.options.shows_occlusion = options.shades_hollows;
     shown.options.shows_shadows = options.has_shadows;
     shown.is_clipped = false;
@@ -501,7 +514,6 @@ void Viewer::State::begin_session(const Viewport& viewport) {
   if (has_drapes) {
     picture.ground = std::make_shared<const std::vector<SolidCorner>>(drapes_around(view.body, picture.camera.up));
   }
-  is_demonstrating = scene.view && scene.view->is_demonstration && !view.is_replay;
   first_steps.begin(is_demonstrating);
   show_surface();
   session.set_hands(tools.hands());

@@ -37,6 +37,7 @@ struct ViewerOptions {
   bool shades_hollows = true;  ///< at first; it costs a renderer without a graphics processor much
   bool has_shadows = true;     ///< at first
   bool mouse_is_hand = true;   ///< false: no tool but the probe takes the mouse, whose left drags turn the view
+  bool keeps_tool = false;     ///< whatever a scene puts into the hand: a device has the blade
   Vec2 free_share =
       Vec2::Ones();  ///< of the picture, around its middle, that panels leave free: bodies are framed there
   Vec2 research_share = Vec2::Ones();  ///< the same with the panels of research
@@ -74,6 +75,7 @@ class Viewer {
   /// A file was dropped, or named.
   void open(const std::filesystem::path& path);
   void open(StartingBody body);
+  void open(StartingExercise exercise);
   /// Says something to the person for a few seconds, at `now` s.
   void notify(const std::string& text);
 

@@ -170,6 +170,16 @@ TEST(StayingHooks, HoldWhereTheyAreLetGo) {
   EXPECT_TRUE(cube.tools().hands().hooks.empty());
 }
 
+TEST(StayingHooks, PullAlongTheSkinAndNotIntoIt) {
+  for (const ToolKind tool : {ToolKind::kHook, ToolKind::kRetractor}) {
+    TouchedCube cube;
+    cube.tools().choose(tool);
+    cube.drag(cube.pixel(top(0.5, 0.5)), cube.pixel(top(0.5, 0.2)), 10);
+    ASSERT_EQ(cube.tools().hands().hooks.size(), 1U);
+    EXPECT_LT((cube.tools().hands().hooks[0].position - top(0.5, 0.2)).norm(), 1e-3 * kSide);
+  }
+}
+
 TEST(StayingHooks, GivenUpTheyAreGone) {
   TouchedCube cube;
   cube.tools().choose(ToolKind::kHook);

@@ -112,9 +112,38 @@ TEST(Scene, reads_the_exercise_and_its_ideal) {
   EXPECT_EQ(other.tolerances.depth, 0.125);
 }
 
+TEST(Scene, reads_what_is_in_hand) {
+  const app::HandPreset hand = parsed(full_scene()).hand.value();
+  EXPECT_EQ(hand.tool, "punch");
+  EXPECT_EQ(hand.depth, 0.4);
+  EXPECT_EQ(hand.angle, -20);
+  EXPECT_EQ(hand.ring, 0.15);
+  EXPECT_EQ(hand.grip, 0.25);
+  Json json = least_scene();
+  json["hand"] = Json::object();
+  const app::HandPreset empty = parsed(json).hand.value();
+  EXPECT_TRUE(empty.tool.empty());
+  EXPECT_FALSE(empty.depth || empty.angle || empty.ring || empty.grip);
+}
+
+TEST(Scene, refuses_what_no_hand_can_have) {
+  const std::vector<std::pair<Json, std::string>> cases = {
+      {{{"tool", "saw"}}, "hand.tool must be one of orbit, scalpel"},
+      {{{"tool", ""}}, "hand.tool must be one of"},
+      {{{"depth", 0}}, "hand.depth"},
+      {{{"angle", 69}}, "hand.angle"},
+      {{{"ring", -1}}, "hand.ring"},
+      {{{"grip", "wide"}}, "hand.grip"}};
+  for (const auto& [hand, told] : cases) {
+    Json json = least_scene();
+    json["hand"] = hand;
+    EXPECT_NE(error_of(json).find(told), std::string::npos) << error_of(json);
+  }
+}
+
 TEST(Scene, without_view_and_exercise_is_written_without_them) {
   const Json written = Json::parse(app::to_json(parsed(least_scene())));
-  EXPECT_FALSE(written.contains("view") || written.contains("exercise"));
+  EXPECT_FALSE(written.contains("view") || written.contains("exercise") || written.contains("hand"));
   Json json = least_scene();
   json["view"] = Json::object();
   const std::string text = app::to_json(parsed(json));
@@ -563,6 +592,7 @@ TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
       {"/spare/0", "/properties/spare/items"},
       {"/strokes/0", "/$defs/scene_stroke"},
       {"/view", "/properties/view"},
+      {"/hand", "/properties/hand"},
       {"/exercise", "/properties/exercise"},
       {"/exercise/tolerances", "/properties/exercise/properties/tolerances"},
       {"/exercise/divide", "/properties/exercise/properties/divide"},

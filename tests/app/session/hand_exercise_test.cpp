@@ -11,12 +11,17 @@
 #include <vector>
 
 #include "app/hands/hand_queue.h"
+#include "app/hands/scene_hand_tools.h"
 #include "app/hands/tools.h"
+#include "app/scene/scene_simulation.h"
 #include "app/session/session.h"
+#include "app/session/starting_exercise.h"
 #include "app/view/scene_camera.h"
 #include "app/view/surface_view.h"
+#include "incise/mesh/bounds.h"
 #include "incise/mesh/validate.h"
 #include "support/campaign.h"
+#include "support/folder.h"
 
 namespace incise::app::hand_exercise_test {
 namespace {
@@ -53,18 +58,14 @@ Scene exercise(bool is_curved) {
 /// did when it comes to it.
 class Trainee {
  public:
-  /// @param angle  of the scalpel to the left of upright, degrees.
-  explicit Trainee(const Manner& manner, const Scene& scene, double angle = 0)
+  /// With what the scene puts into the hand.
+  explicit Trainee(const Manner& manner, const Scene& scene)
       : manner_(manner),
         session_(Session::open(scene).value()),
         view_(session_.mesh(), session_.engine().journal()),
-        body_{{0, 0, 0}, scene.model.box.size} {
+        body_(rest_bounds(session_.mesh())) {
     look();
-    tools_.set(settings_for(body_, 4000, 1e-3));
-    ToolSettings settings = tools_.settings();
-    settings.depth = session_.scene().exercise->depth;
-    settings.angle = angle * M_PI / 180;
-    tools_.set(settings);
+    tools_.set(settings_for(session_.scene(), body_));
     camera_ = camera_of(session_.scene(), body_, kWindow);
   }
 
@@ -133,6 +134,30 @@ TEST_P(HandOnExercise, MakesTheIncision) {
   EXPECT_TRUE(validate(trainee.session().mesh(), ValidateLevel::kGeometry).ok);
 }
 
+/// Of a hand that draws along the line with what the scene puts into it.
+ExerciseScore score_by_hand(const Scene& scene) {
+  Trainee trainee({"usual", 3, 1, 60, false}, scene);
+  const ExerciseScore score = trainee.draw();
+  EXPECT_TRUE(score.is_passed) << to_text(score);
+  EXPECT_TRUE(validate(trainee.session().mesh(), ValidateLevel::kGeometry).ok);
+  return score;
+}
+
+TEST(HandOnStartingExercise, does_it_with_what_is_in_hand) {
+  const incise_test::Folder folder;
+  for (const StartingExercise exercise : {StartingExercise::kFat, StartingExercise::kVein}) {
+    const ExerciseScore score = score_by_hand(scene_of(exercise, folder / "").value());
+    EXPECT_GE(score.points, kMust) << to_text(score);
+  }
+}
+
+/// Thin tissue goes along with the blade: an end of the line is missed, or cut beyond. The wall is opened all the same.
+TEST(HandOnVenotomy, opens_the_front_wall_alone_with_what_is_in_hand) {
+  const Scene scene = read_scene(std::string(INCISE_SCENES) + "/train_vein.json").value();
+  if (!find_model(scene).ok()) GTEST_SKIP() << "script/models vessel makes the vein";
+  score_by_hand(scene);
+}
+
 /// A part of a closed line, and as much beyond both of its ends.
 std::vector<Vec3> arc_of(const std::vector<Vec3>& line, std::size_t from, std::size_t to, double beyond) {
   std::vector<Vec3> arc(line.begin() + static_cast<std::ptrdiff_t>(from),
@@ -150,7 +175,7 @@ TEST(HandOnExcision, TakesTheLesionOffWithItsMargin) {
   const Scene scene = read_scene(std::string(INCISE_SCENES) + "/train_excision.json").value();
   const std::vector<Vec3> line = scene.exercise->target;
   const std::size_t corner = line.size() / 2;
-  Trainee trainee({"two arcs", 4, 1, 60, false}, scene, scene.exercise->angle);
+  Trainee trainee({"two arcs", 4, 1, 60, false}, scene);
   trainee.draw(arc_of(line, 0, corner, 2.5));
   const ExerciseScore score = trainee.draw(arc_of(line, corner, line.size() - 1, 2.5));
   EXPECT_GE(score.points, kMust) << to_text(score);

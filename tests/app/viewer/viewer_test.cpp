@@ -155,7 +155,8 @@ TEST_F(ViewerTest, panels_leave_the_body_a_narrower_part) {
 
 TEST_F(ViewerTest, a_scene_says_how_it_is_seen_unless_the_view_is_kept) {
   Json scene = still_scene();
-  scene["view"] = {{"theme", "light"}, {"color", "region"}, {"wireframe", true}, {"clip", {1, 0, 0, 0.25}}};
+  scene["view"] = {
+      {"theme", "light"}, {"color", "region"}, {"wireframe", true}, {"clip", {1, 0, 0, 0.25}}, {"look", "vessel"}};
   show(opened(scene));
   EXPECT_EQ(state().options.theme, app::Theme::kLight);
   EXPECT_EQ(state().options.color, app::ColorBy::kRegion);
@@ -170,8 +171,80 @@ TEST_F(ViewerTest, a_scene_says_how_it_is_seen_unless_the_view_is_kept) {
   show(opened(scene), options);
   EXPECT_EQ(state().options.theme, app::Theme::kDark);
   EXPECT_EQ(state().options.color, app::ColorBy::kStroke);
+  EXPECT_EQ(state().options.look, app::TissueLook::kVessel) << "it is the body's";
   EXPECT_FALSE(state().options.shows_occlusion);
   EXPECT_FALSE(state().is_clipped);
+}
+
+TEST_F(ViewerTest, the_theme_that_a_person_chose_stays_whatever_is_opened) {
+  act(Action::kTheme);
+  ASSERT_EQ(state().options.theme, app::Theme::kLight);
+  Json scene = still_scene();
+  scene["name"] = "another";
+  viewer_->open(folder_.write("another.json", scene.dump()));
+  ASSERT_TRUE(sees_session(2));
+  EXPECT_EQ(state().options.theme, app::Theme::kLight);
+}
+
+// --- what is in hand
+
+TEST_F(ViewerTest, a_scene_puts_a_tool_of_its_settings_into_the_hand) {
+  Json scene = still_scene();
+  scene["hand"] = {{"tool", "punch"}, {"depth", 0.3}, {"ring", 0.2}};
+  act(app::action_of(ToolKind::kGrasp));
+  show(opened(scene));
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kPunch);
+  EXPECT_EQ(viewer_->tools().settings().depth, 0.3);
+  EXPECT_EQ(viewer_->tools().settings().punch_radius, 0.2);
+}
+
+TEST_F(ViewerTest, the_tool_stays_where_a_scene_does_not_name_one) {
+  act(app::action_of(ToolKind::kHook));
+  Json scene = still_scene();
+  scene["name"] = "another";
+  viewer_->open(folder_.write("another.json", scene.dump()));
+  ASSERT_TRUE(sees_session(2));
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kHook);
+}
+
+TEST_F(ViewerTest, the_same_scene_from_its_start_keeps_tool_and_settings) {
+  Json scene = still_scene();
+  scene["hand"] = {{"tool", "punch"}, {"depth", 0.3}};
+  show(opened(scene));
+  act(app::action_of(ToolKind::kScalpel));
+  act(Action::kDeeper);
+  act(Action::kReset);
+  ASSERT_TRUE(sees_session(2));
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kScalpel);
+  EXPECT_NEAR(viewer_->tools().settings().depth, 0.33, 1e-12);
+}
+
+TEST_F(ViewerTest, a_demonstration_that_begins_again_has_its_tool_in_hand) {
+  Json scene = still_scene();
+  scene["view"] = {{"demonstration", true}};
+  scene["hand"] = {{"tool", "scalpel"}};
+  show(opened(scene));
+  act(app::action_of(ToolKind::kHook));
+  act(Action::kReset);
+  ASSERT_TRUE(sees_session(2));
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kScalpel);
+}
+
+TEST_F(ViewerTest, where_a_device_has_the_blade_the_mouse_keeps_its_tool) {
+  Json scene = still_scene();
+  scene["hand"] = {{"tool", "punch"}};
+  app::ViewerOptions options;
+  options.keeps_tool = true;
+  show(opened(scene), options);
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kScalpel);
+}
+
+TEST_F(ViewerTest, an_exercise_that_needs_no_file_opens_with_its_tool) {
+  viewer_->open(app::StartingExercise::kCore);
+  ASSERT_TRUE(sees_session(2));
+  ASSERT_TRUE(view().scene->exercise.has_value());
+  EXPECT_EQ(view().title, app::kStartingExercises[static_cast<std::size_t>(app::StartingExercise::kCore)].title);
+  EXPECT_EQ(viewer_->tools().tool(), ToolKind::kPunch);
 }
 
 // --- pictures
