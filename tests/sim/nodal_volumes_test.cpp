@@ -73,7 +73,8 @@ double elastic_of(DeformableBody::State& s) {
   const std::vector<float> old = pressures_of(s);
   s.find_pressures();
   double energy = s.pressed_energy();
-  for (const auto& part : s.awake_rows) energy += detail::energy_share(s.descent(), part);
+  std::vector<std::uint32_t> turned;
+  for (const auto& part : s.awake_rows) energy += detail::energy_share(s.descent(), part, turned);
   for (std::size_t row = 0; row < old.size(); ++row) s.floats[4 * row + 3] = old[row];
   return energy;
 }

@@ -134,9 +134,13 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   });
   const detail::Descent d = descent();
   find_pressures();
-  double elastic = detail::energy_share(d, rows_of(resting));
+  std::vector<std::uint32_t> beside;  // tets that are inside out have a corner that is awake
+  double elastic = detail::energy_share(d, rows_of(resting), beside);
   std::array<double, detail::SweepOrder::kParts> of_parts{};
-  const auto find = [&](std::size_t part) { of_parts[part] = detail::energy_share(d, awake_rows[part]); };
+  const auto find = [&](std::size_t part) {
+    turned_rows[part].clear();
+    of_parts[part] = detail::energy_share(d, awake_rows[part], turned_rows[part]);
+  };
   pair.run([&] { find(0); }, [&] { find(1); });
   find(2);
   for (const double part : of_parts) elastic += part;
@@ -155,8 +159,9 @@ detail::EnergyNow DeformableBody::State::energy_now() {
 
 /// Takes from the motion what a step has added to the energy; where that was not all, the step goes less far.
 void DeformableBody::State::keep_energy(const detail::EnergyNow& before, double dt) {
-  const detail::EnergyNow now = energy_now();
-  const double excess = now.total - before.total - now.noise - before.noise;
+  detail::EnergyNow now = energy_now();
+  untangle(before, now);
+  const double excess = now.excess_over(before);
   if (!(excess > 0)) return;
   const double kept = excess < now.motion ? std::sqrt(1 - excess / now.motion) : 0;
   for_each_awake([&](std::uint32_t slot) {

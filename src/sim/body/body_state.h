@@ -41,6 +41,11 @@ struct EnergyNow {
   double total = 0;
   double motion = 0;  ///< its kinetic part, without that of free pieces as rigid bodies
   double noise = 0;   ///< by which rounding may change it
+
+  /// What has been added to it since `before`, beyond rounding.
+  [[nodiscard]] double excess_over(const EnergyNow& before) const {
+    return total - before.total - noise - before.noise;
+  }
 };
 
 /// A part of the body that hangs together through vertices.
@@ -166,6 +171,8 @@ struct DeformableBody::State {
   std::vector<std::uint32_t> resting;  // vertices that are held or asleep and share tets with what is awake, or more
   IdArray<VertexId, std::uint8_t> is_resting;  // scratch, zero between calls
   std::vector<detail::Drift> drifts;           // by group: how the free ones move as rigid bodies
+  std::array<std::vector<std::uint32_t>, detail::SweepOrder::kParts> turned_rows;  // awake, of tets that are inside out
+  std::vector<std::pair<VertexId, Vec3>> turned_from;  // by `turn_all_back`, what moved, as it moved: where it was
 
   JournalCursor cursor;
 
@@ -306,6 +313,12 @@ struct DeformableBody::State {
   [[nodiscard]] double pressed_energy() const;
   void keep_energy(const detail::EnergyNow& before, double dt);
   void step_back(double most, double dt);
+  [[nodiscard]] bool may_turn_back(VertexId v) const;
+  void add_turned_around(VertexId v, bool slivers, std::vector<TetId>& found) const;
+  double turn_back(TetId t);
+  bool turn_all_back(bool slivers);
+  void turn_all_over();
+  void untangle(const detail::EnergyNow& before, detail::EnergyNow& now);
   void find_turns(std::vector<detail::Drift>& found) const;
   void move_rigidly(std::vector<detail::Drift> moved);
 

@@ -62,6 +62,18 @@ inline constexpr unsigned kCarriedRounds = 3;
 /// Poisson's ratio 0.49 on a grid and on jittered ones); above 5 sweeps are slow.
 inline constexpr double kSharedBend = 3;
 
+// --- tets that a step left inside out (`untangle`)
+
+/// The share of its volume at rest that such a tet is given; no unit. With 0.01 more of them turn over again.
+inline constexpr double kLeastVolume = 0.1;
+/// No corner goes further for one of them at once, in its reach (a quarter of its edges); no unit.
+inline constexpr double kTurningReach = 0.5;
+/// Each time those around what moved are looked at as well. In soft bodies that are cut, 8 left one in two of them, 30
+/// one in ten.
+inline constexpr unsigned kTurningSweeps = 30;
+/// In one step, so that a body that is torn into slivers takes some milliseconds at most.
+inline constexpr std::size_t kMostTurns = 4000;
+
 }  // namespace detail
 }  // namespace v0
 }  // namespace incise

@@ -64,6 +64,10 @@ Metric normed(const Metric& m) {
 
 }  // namespace
 
+bool is_thinner(const std::array<Vec3, 4>& p, double thinnest) {
+  return softening(p, thinnest) < 1;
+}
+
 void add_fibres(const std::array<Vec3, 4>& p, const Vec3& direction, double young, double thinnest, Element& element) {
   const double volume6 = six_volumes(p);
   const Vec3 unit = direction.normalized();

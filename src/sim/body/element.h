@@ -60,6 +60,9 @@ struct Stiffened {
 [[nodiscard]] Element slopes_of(const std::array<Vec3, 4>& p, double lambda, double mu, double thinnest,
                                 double crumb = 0, double shared = 0, double stiffening = 0);
 
+/// Whether the least altitude of a tet is below a share of its longest edge.
+[[nodiscard]] bool is_thinner(const std::array<Vec3, 4>& p, double thinnest);
+
 /// Gives a tet at rest fibres of stiffness `young` (energy per cubed length) along `direction`, of any length but 0.
 void add_fibres(const std::array<Vec3, 4>& p, const Vec3& direction, double young, double thinnest, Element& element);
 

@@ -683,21 +683,33 @@ void pressures_of_all(const Descent& d, std::span<const std::uint32_t> vertices)
 
 /// What a block of tissue that does not stiffen has by its volumes.
 template <class Near>
-[[gnu::always_inline]] inline Lanes swelling_energy(const TetLanes& tets, const Near& near) {
+[[gnu::always_inline]] inline Lanes swelling_energy(const TetLanes& tets, const Near& near, Lanes& volume6) {
   Lanes ax, ay, az, bx, by, bz, cx, cy, cz;
   near.corner(tets.a.data(), ax, ay, az);
   near.corner(tets.b.data(), bx, by, bz);
   near.corner(tets.c.data(), cx, cy, cz);
-  const Lanes volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+  volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
   const Lanes half = load(tets.bulk.data()) * volume6 * all(0.5F);
   return (half - absolute(load(tets.pressure.data()))) * volume6;
 }
+
+/// What a vertex has of the energy of its tets, and whether any of them is inside out.
+struct EnergyOfStar {
+  double energy;
+  bool is_turned;
+};
 
 /// Eight energies in double precision: of single places, without more rounding. In a grid all stars are rounded alike,
 /// so that rounding adds up to what a light load stores.
 struct WideLanes {
   double sums[kLanes] = {};
+  double least[kLanes] = {};  // six times a volume, or 0
 
+  [[nodiscard]] inline bool is_turned() const {
+    double all_least = 0;
+    for (const double one : least) all_least = std::min(all_least, one);
+    return all_least < 0;
+  }
   [[nodiscard]] inline double total() const {
     return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
   }
@@ -729,13 +741,14 @@ inline void add_swelling_energy(const TetLanes& tets, const Near& near, WideLane
     const double cx = wide(6), cy = wide(7), cz = wide(8);
     const double volume6 = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
     const double half = static_cast<double>(tets.bulk[i]) * volume6 * 0.5;
+    into.least[i] = std::min(into.least[i], volume6);
     into.sums[i] += (half - std::abs(static_cast<double>(tets.pressure[i]))) * volume6;
   }
 }
 
 /// A corner's share in a tet's energy: a quarter of what its volume takes, half of what its own edges do, so that all
 /// four make it up.
-inline double star_energy(const Descent& d, std::uint32_t vertex) {
+inline EnergyOfStar star_energy(const Descent& d, std::uint32_t vertex) {
   WideLanes swelling, stretch;
   read_star(
       d, vertex,
@@ -743,13 +756,13 @@ inline double star_energy(const Descent& d, std::uint32_t vertex) {
           INCISE_INLINED { add_stretch_energy(near, x, y, z, stretch); },
       [&](const TetLanes& tets, std::uint32_t /*i*/, const auto& near)
           INCISE_INLINED { add_swelling_energy(tets, near, swelling); });
-  return 0.25 * (swelling.total() - stretch.total());
+  return {0.25 * (swelling.total() - stretch.total()), swelling.is_turned()};
 }
 
 /// The same where tissue stiffens: a quarter of each tet's energy.
 template <bool kHasFibres>
-inline double stiff_star_energy(const Descent& d, std::uint32_t vertex) {
-  Lanes energy = all(0);
+inline EnergyOfStar stiff_star_energy(const Descent& d, std::uint32_t vertex) {
+  Lanes energy = all(0), least = all(0);
   const std::size_t first = d.stars[d.slots[vertex]].first;
   read_star(
       d, vertex, [](const NearLanes&, const Lanes&, const Lanes&, const Lanes&) INCISE_INLINED {},
@@ -760,7 +773,9 @@ inline double stiff_star_energy(const Descent& d, std::uint32_t vertex) {
         near.corner(tets.c.data(), cx, cy, cz);
         const Lanes ux = bx - ax, uy = by - ay, uz = bz - az, wx = cx - ax, wy = cy - ay, wz = cz - az;
         const Lanes vx = wx - ux, vy = wy - uy, vz = wz - uz;
-        Lanes swelling = swelling_energy(tets, near);
+        Lanes volume6;
+        Lanes swelling = swelling_energy(tets, near, volume6);
+        least = least_of_two(least, volume6);
         if constexpr (kHasFibres) {
           const FibreLanes fibres(d.fibres[first + i], ax, ay, az, bx, by, bz, cx, cy, cz);
           swelling = swelling + fibres.energy();
@@ -771,16 +786,19 @@ inline double stiff_star_energy(const Descent& d, std::uint32_t vertex) {
         energy = energy + stiff.energy();
       });
   float s[4];
-  sum_lanes(energy, energy, energy, energy, s);
-  return 0.25 * static_cast<double>(s[0]);
+  sum_lanes(energy, least, energy, energy, s);
+  return {0.25 * static_cast<double>(s[0]), s[1] < 0};
 }
 
-void add_energies(const Descent& d, std::span<const std::uint32_t> order, double& sum) {
+void add_energies(const Descent& d, std::span<const std::uint32_t> order, double& sum,
+                  std::vector<std::uint32_t>& turned) {
   const auto add = [&](const auto& energy_of) {
     for (std::size_t i = 0; i < order.size(); ++i) {
       fetch_ahead(
           d, [&](std::size_t k) { return order[k]; }, i, order.size());
-      sum += energy_of(order[i]);
+      const EnergyOfStar star = energy_of(order[i]);
+      sum += star.energy;
+      if (star.is_turned) turned.push_back(order[i]);
     }
   };
   if (d.fibres != nullptr) {
@@ -927,9 +945,9 @@ void find_slopes(const Descent& descent, std::span<const std::uint32_t> order, f
   INCISE_DISPATCH(slopes_of_all)(descent, order, slopes);
 }
 
-double energy_share(const Descent& descent, std::span<const std::uint32_t> order) {
+double energy_share(const Descent& descent, std::span<const std::uint32_t> order, std::vector<std::uint32_t>& turned) {
   double sum = 0;
-  INCISE_DISPATCH(add_energies)(descent, order, sum);
+  INCISE_DISPATCH(add_energies)(descent, order, sum, turned);
   return sum;
 }
 

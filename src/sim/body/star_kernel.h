@@ -122,8 +122,10 @@ void sweep(const Descent& descent, std::span<const std::uint32_t> order, bool is
 void pick_starts(const Descent& descent, std::span<const std::uint32_t> order);
 /// Writes the slopes of the energies of vertices, 4 numbers per vertex slot; moves nothing.
 void find_slopes(const Descent& descent, std::span<const std::uint32_t> order, float* slopes);
-/// The share of vertices in the elastic energy of their tets, not counted from rest; without that of pressures.
-[[nodiscard]] double energy_share(const Descent& descent, std::span<const std::uint32_t> order);
+/// The share of vertices in the elastic energy of their tets, not counted from rest; without that of pressures. Adds
+/// to `turned` those of the vertices that have a tet which is inside out, as far as single precision tells.
+[[nodiscard]] double energy_share(const Descent& descent, std::span<const std::uint32_t> order,
+                                  std::vector<std::uint32_t>& turned);
 /// The quadratic of one vertex, its inertia and pulls included.
 [[nodiscard]] Quadratic quadratic_of(const Descent& descent, std::uint32_t vertex);
 
