@@ -11,7 +11,7 @@ namespace paper {
 
 /// What maintenance leaves as it is: the tets around the front of an incision that may go on, and their vertices. A
 /// collision point that moved off the blade's sheet, or a vertex beside it that went to its other side, would leave a
-/// bridge when the incision goes on. By default nothing.
+/// bridge when the incision goes on. And the tets at vertices where the input touched itself. By default those alone.
 class Held {
  public:
   Held() = default;

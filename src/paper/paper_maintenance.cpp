@@ -31,9 +31,7 @@ MaintainStatistics maintain(TetMesh& mesh, Journal& journal, const std::vector<V
   using namespace paper;
   const auto tets_before = static_cast<std::int64_t>(mesh.tet_count());
   MaintainStatistics done;
-  if (mesh.touched_itself_at_load()) {
-    return done;  // stars there are not whole: neither the paper's conditions nor the link condition see all of them
-  }
+  if (mesh.overlaps_at_load()) return done;  // what lies around an edge cannot be told there
   if (options.merge) {
     const StageZone zone(times, Stage::kMerge);
     const std::vector<TetId> tets = find_tets_at(mesh, unmerged);

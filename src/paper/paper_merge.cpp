@@ -267,7 +267,8 @@ class EdgeMerger : private PaperStage {
     return (at(1) - at(0)).cross(at(2) - at(0));
   }
   /// Whether the worst of the changed tets is not bad-shaped, or no worse than the worst was, those that vanish
-  /// included.
+  /// included. Where the edge is tiny, they may be several times worse: a layer that a cut leaves beside a plane of
+  /// vertices is merged corner by corner, and gets thinner on the way.
   bool keeps_quality(const Vec3& place) {
     double before = kBadShape, after = 0;
     for (const TetId tet : plan_.ring) {
@@ -277,7 +278,11 @@ class EdgeMerger : private PaperStage {
       before = std::max(before, meter_.of(tet));
       after = std::max(after, meter_.of_moved(tet, moved, place));
     });
-    return after <= before;
+    return after <= (is_tiny() ? kMostWorse : 1.0) * before;
+  }
+  [[nodiscard]] bool is_tiny() const {
+    const double most = kTinyEdge * typical_;
+    return (mesh_.rest(plan_.from) - mesh_.rest(plan_.into)).squaredNorm() < most * most;
   }
   /// Whether tets that stand upright now stay so, with the merged vertex where it will stand.
   [[nodiscard]] bool keeps_standing(const Vec3& place) const {

@@ -353,6 +353,18 @@ TEST(Merge, eliminates_all_ill_shaped_and_small_tets_of_figure_7) {
   EXPECT_EQ(after.small, 0U);
 }
 
+/// Layers of a thousandth to a hundred-thousandth of an edge are merged away corner by corner, though some of their
+/// tets get worse on the way: nothing of them is left.
+TEST(Merge, eliminates_layers_however_thin) {
+  for (const double beside : {2e-3, 1e-3, 3e-4, 1e-4, 1e-5, -2e-3, -3e-4, -1e-5}) {
+    CutBody body = cut_as_paper(kuhn_cube(5), {{Vec3(1, 0, 0), 0.4 + beside}});
+    EXPECT_GT(count_worse(body.mesh, kBadRatio), 100U) << beside;
+    merge(body);
+    EXPECT_EQ(count_worse(body.mesh, 20), 0U) << beside;
+    EXPECT_EQ(body.mesh.tet_count(), 750U) << beside;
+  }
+}
+
 /// The same of other walls: most of each kind.
 TEST(Merge, eliminates_most_ill_shaped_and_small_tets) {
   std::size_t bad_before = 0, bad_after = 0;

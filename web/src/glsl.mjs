@@ -39,7 +39,7 @@ export const withTraits = (vertex, from) => replaced(vertex, [[`in ${from} trait
 export function lineShader({ vertex, fragment }) {
   const flat = replaced(withTraits(vertex, 'uvec3'), [
     ['noperspective out', 'out'],
-    ['traits.y == 2u ? kMuchNearer : kNearer) * at.w, at.w);', 'traits.y == 2u ? kMuchNearer : kNearer) * at.w, at.w);\n  gl_Position /= at.w;'],
+    ['nearer * to_clip[3][2], at.w);', 'nearer * to_clip[3][2], at.w);\n  gl_Position /= at.w;'],
   ]);
   return { vertexShader: HEAD + flat, fragmentShader: HEAD + replaced(fragment, [['noperspective in', 'in']]) };
 }

@@ -204,6 +204,9 @@ class TetMesh {
   /// cannot be divided without making more of the defect. Cost: O(log of the number of such edges).
   [[nodiscard]] bool is_overshared_at_load(VertexId a, VertexId b) const;
 
+  /// Whether there were such edges: the input overlapped itself. Cost: O(1).
+  [[nodiscard]] bool overlaps_at_load() const { return !overshared_edges_.empty(); }
+
   /// Calls `visit(TetId)` for every live tet, ascending.
   template <class Visit>
   void for_each_tet(Visit&& visit) const {
