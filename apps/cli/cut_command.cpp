@@ -197,6 +197,14 @@ std::string shown(double number) {
   return text.str();
 }
 
+Box box_of(const Stroke& stroke) {
+  Box box;
+  for (const std::vector<Vec3>& edge : stroke.edges) {
+    for (const Vec3& point : edge) box.extend(point);
+  }
+  return box;
+}
+
 /// Says which strokes met nothing, and where a plane would have.
 void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::JobReport& report, const Box& body,
                     const Terminal& terminal) {
@@ -211,9 +219,13 @@ void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::Jo
     return terminal.warning("the plane " + a.plane + " misses the mesh: nothing was cut; its box has d from " +
                             shown(at - reach) + " to " + shown(at + reach) + " along that normal");
   }
+  app::JobReport of_misses = report;
+  if (report.cut.incision_faces > 0) {  // others may go on within a tet that is open already
+    std::erase_if(of_misses.missed, [&](std::uint64_t i) { return box_of(job.strokes[i]).overlaps(body); });
+  }
   std::vector<std::string> names;
   for (const Stroke& stroke : job.strokes) names.push_back(stroke.name);
-  warn_of_misses(a.blade, report, names, terminal);
+  warn_of_misses(a.blade, of_misses, names, terminal);
 }
 
 /// The picture and the surface that were asked for.

@@ -33,6 +33,14 @@ Status write_results(const MeshOutput& output, const ReportOutput& report, const
   return write_report(report, result.report, terminal);
 }
 
+/// Tets without volume are sound neighbours, so that the contract holds, but nobody can simulate on them.
+void warn_of_flat(const app::JobReport& report, const Terminal& terminal) {
+  const std::uint64_t before = report.quality_before.flat_tets, after = report.quality_after.flat_tets;
+  if (after <= before) return;
+  terminal.warning(std::to_string(after - before) +
+                   " more tets than before are flat, which incise check calls invalid; --profile incise leaves none");
+}
+
 /// What became of a mesh that a job left invalid; `work` names the job.
 std::string broken_text(const std::string& output, const std::string& work, const app::JobReport& report) {
   if (!report.broken) {
@@ -89,6 +97,7 @@ int finish_job(const MeshOutput& output, const ReportOutput& report, const std::
     return fail(terminal, status.error(), status.error().code == ErrorCode::kBadArgument ? kUsage : kFailure);
   }
   if (!report.is_on_stdout()) terminal.summary(app::to_text(result.report), output.is_stdout());
+  warn_of_flat(result.report, terminal);
   if (result.report.change.ok && output.is_wanted() && is_empty(result)) {
     return fail(terminal, "nothing is left of the mesh, so that " + output.file + " was not written", kFailure);
   }

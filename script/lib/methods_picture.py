@@ -12,7 +12,7 @@ from pathlib import Path
 
 COLOURS = {"1": "#009e73", "5": "#0072b2", "20": "#d55e00"}
 LEFT, TOP, WIDTH, GAP_X, STEP, GAP_Y = 128, 74, 218, 26, 17, 44
-HEAD = ("body", "planes", "method", "pieces", "volume lost, %", "tets added", "L/r: min", "mean", "max", "> 200, %",
+HEAD = ("body", "planes", "method", "pieces", "volume lost, %", "tets added", "L/r: min", "mean", "max", "> 200, %", "flat",
         "dihedral: min, °", "max, °", "wall off, mean", "max", "µs / cut tet")
 
 
