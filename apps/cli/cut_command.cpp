@@ -214,18 +214,18 @@ void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::Jo
     const Vec3 middle = (body.lo + body.hi) / 2, half = (body.hi - body.lo) / 2;
     const double at = normal.dot(middle), reach = normal.cwiseAbs().dot(half);
     if (std::abs(parse_plane(a.plane)->offset - at) < reach) {
-      return terminal.warning("the plane " + a.plane + " cut nothing: no tet of the mesh is whole there");
+      return terminal.warning("the plane " + a.plane + " cut nothing: no tet lies across it");
     }
     return terminal.warning("the plane " + a.plane + " misses the mesh: nothing was cut; its box has d from " +
                             shown(at - reach) + " to " + shown(at + reach) + " along that normal");
   }
-  app::JobReport of_misses = report;
+  std::vector<std::uint64_t> missed = report.missed;
   if (report.cut.incision_faces > 0) {  // others may go on within a tet that is open already
-    std::erase_if(of_misses.missed, [&](std::uint64_t i) { return box_of(job.strokes[i]).overlaps(body); });
+    std::erase_if(missed, [&](std::uint64_t i) { return box_of(job.strokes[i]).overlaps(body); });
   }
   std::vector<std::string> names;
   for (const Stroke& stroke : job.strokes) names.push_back(stroke.name);
-  warn_of_misses(a.blade, of_misses, names, terminal);
+  warn_of_misses(a.blade, missed, names, terminal);
 }
 
 /// The picture and the surface that were asked for.

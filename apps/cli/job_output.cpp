@@ -81,10 +81,10 @@ Result<io::LoadedMesh> load(const std::string& mesh, const Terminal& terminal) {
   return loaded;
 }
 
-void warn_of_misses(const std::string& file, const app::JobReport& report, const std::vector<std::string>& names,
-                    const Terminal& terminal) {
-  if (report.missed.empty()) return;
-  const std::size_t first = report.missed.front(), more = report.missed.size() - 1;
+void warn_of_misses(const std::string& file, const std::vector<std::uint64_t>& missed,
+                    const std::vector<std::string>& names, const Terminal& terminal) {
+  if (missed.empty()) return;
+  const std::size_t first = missed.front(), more = missed.size() - 1;
   const std::string name = first < names.size() ? names[first] : "";
   terminal.warning(file + ": stroke " + std::to_string(first) + (name.empty() ? "" : " \"" + name + "\"") +
                    (more > 0 ? " and " + std::to_string(more) + " more" : "") +

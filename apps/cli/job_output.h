@@ -31,8 +31,8 @@ std::optional<ExitCode> refuse_outputs(const MeshOutput& mesh, bool has_json_on_
 /// Reads a mesh to work on, and says what was mended on the way.
 incise::Result<incise::io::LoadedMesh> load(const std::string& mesh, const Terminal& terminal);
 
-/// Warns of strokes of `file` that opened nothing; `names`: of the strokes, as far as they have any.
-void warn_of_misses(const std::string& file, const incise::app::JobReport& report,
+/// Warns of strokes of `file` that opened nothing, by number; `names`: of the strokes, as far as they have any.
+void warn_of_misses(const std::string& file, const std::vector<std::uint64_t>& missed,
                     const std::vector<std::string>& names, const Terminal& terminal);
 
 /// Writes what a job gave and says how it went; `work` names it in messages. Returns the exit code.

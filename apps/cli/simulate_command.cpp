@@ -179,7 +179,7 @@ Status write_page(const SimulateArguments& a, const app::Scene& scene, const app
 
 int finish_run(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
   print_notes(report.job.notes, report.job.input, terminal);
-  if (report.job.cut.incision_faces <= 0) warn_of_misses(a.scene, report.job, {}, terminal);
+  if (report.job.cut.incision_faces <= 0) warn_of_misses(a.scene, report.job.missed, {}, terminal);
   if (!a.output.empty() && report.job.change.ok) terminal.wrote(a.output, "series, with its folder");
   if (!a.record.empty()) terminal.wrote(a.record, "recording");
   if (const Status status = write_report(a, report, terminal); !status.ok()) {
