@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cut/pinched_edges.h"
+#include "cut/spacing.h"
 #include "incise/mesh/verbs.h"
 #include "paper/coincidence.h"
 #include "paper/constants.h"
@@ -13,6 +14,7 @@
 #include "paper/crossing.h"
 #include "paper/dividable.h"
 #include "paper/flat_tets.h"
+#include "paper/paper_crumbs.h"
 #include "paper/sheet_sides.h"
 
 namespace incise {
@@ -30,6 +32,8 @@ Status SheetCut::cut(const CutContext& context, const SheetSoFar& sheet, std::ui
   front.take(context.mesh, sheet.whole(), near_, walker_);
   keep_between_sides(context.mesh, front.own(), near_.coincidence, sheet, subdivision.incision);
   keep_flat_tets_joined(context.mesh, near_, front.own(), sheet.whole(), tag, walker_, subdivision.incision);
+  statistics.crumbs_kept +=
+      keep_paper_crumbs(context.mesh, typical_spacing(context.mesh), subdivision.incision, crumbs_);
   separate(transaction, subdivision, tag, statistics, context.times);
   statistics.new_vertices += growth(0, transaction.new_vertices().size());
   if (context.journal.append_if_changed(transaction.commit())) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "cut/crumbs.h"
 #include "cut/cut_context.h"
 #include "cut/split_template.h"
 #include "incise/core/result.h"
@@ -51,6 +52,7 @@ class SheetCut {
   Neighbourhood near_;
   SplitTemplates templates_;
   StarWalker walker_;
+  CrumbScratch crumbs_;
 };
 
 }  // namespace v0

@@ -123,6 +123,11 @@ TEST(CliMesh, a_cut_stops_at_a_region_by_its_name) {
   const Outcome missing = run({"cut", mesh, "--blade", blade, "--stop-at", "liver", "-o", cut});
   EXPECT_EQ(missing.code, 3);
   EXPECT_NE(missing.err.find("called \"liver\"; there are core"), std::string::npos) << missing.err;
+  const Outcome absent = run({"cut", mesh, "--blade", blade, "--stop-at", "77", "-o", folder / "absent.msh"});
+  EXPECT_EQ(absent.code, 3);
+  EXPECT_NE(absent.err.find("stop_at: no tet of the model is in region 77; there are regions 1, 2"), std::string::npos)
+      << absent.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "absent.msh"));
   // The blade file may say so itself: the same cut, by name or number.
   const std::string text = read(blade);
   for (const char* stop : {R"("Core")", "2", R"(2,"core")"}) {

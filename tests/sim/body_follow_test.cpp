@@ -8,6 +8,7 @@
 
 #include "incise/mesh/star.h"
 #include "moving_body.h"
+#include "support/campaign.h"
 
 namespace incise::test::body_follow_test {
 namespace {
@@ -92,11 +93,13 @@ void expect_kept(TetSoup soup, const Materials& materials, std::uint64_t seed, u
 }
 
 TEST(BodyFollow, MassAndMomentumAreKeptThroughCutsMaintenanceAndUndo) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) expect_kept(jittered_cube(4, seed), {tissue(5e3), {}}, seed, 25);
+  for (std::uint64_t seed = 1; seed <= of_campaign(2U, 6U); ++seed)
+    expect_kept(jittered_cube(4, seed), {tissue(5e3), {}}, seed, 25);
 }
 
 TEST(BodyFollow, MassAndMomentumAreKeptWithRegionsOfOtherDensity) {
-  for (std::uint64_t seed = 11; seed <= 14; ++seed) expect_kept(two_regions(4, seed), heavy_and_light(), seed, 25);
+  for (std::uint64_t seed = 11; seed <= of_campaign(12U, 14U); ++seed)
+    expect_kept(two_regions(4, seed), heavy_and_light(), seed, 25);
 }
 
 void expect_same_as_fresh(TetSoup soup, const Materials& materials, std::uint64_t seed) {
@@ -110,19 +113,19 @@ void expect_same_as_fresh(TetSoup soup, const Materials& materials, std::uint64_
 }
 
 TEST(BodyFollow, DataAreThoseOfABodyMadeAnew) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= of_campaign(2U, 6U); ++seed) {
     expect_same_as_fresh(jittered_cube(4, seed), {tissue(5e3), {}}, seed);
   }
 }
 
 TEST(BodyFollow, DataOfABodyWithRegionsAreThoseOfOneMadeAnew) {
-  for (std::uint64_t seed = 11; seed <= 14; ++seed) {
+  for (std::uint64_t seed = 11; seed <= of_campaign(12U, 14U); ++seed) {
     expect_same_as_fresh(two_regions(4, seed), heavy_and_light(), seed);
   }
 }
 
 TEST(BodyFollow, SweepsVisitEachVertexOnceAndKeepTheTwoPartsApart) {
-  for (std::uint64_t seed = 21; seed <= 24; ++seed) {
+  for (std::uint64_t seed = 21; seed <= of_campaign(22U, 24U); ++seed) {
     SCOPED_TRACE(seed);
     BodyOptions options = weightless();
     options.sleep_below = 1e-3;
@@ -142,7 +145,7 @@ TEST(BodyFollow, SweepsVisitEachVertexOnceAndKeepTheTwoPartsApart) {
 TEST(BodyFollow, MassesAreThoseOfABodyMadeAnewWhereNothingIsMaintained) {
   EngineOptions options;
   options.maintain.merge = options.maintain.improve = false;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= of_campaign(2U, 4U); ++seed) {
     SCOPED_TRACE(seed);
     MovingBody moving(jittered_cube(4, seed), {tissue(5e3), {}}, weightless(), options);
     stir(moving);
@@ -204,7 +207,7 @@ bool has_skin_across(const TetMesh& mesh, VertexId vertex) {
 
 /// A birth at a blade's front may have its parents beside the wall: it is free although it lies in it.
 TEST(BodyFollow, HoldsComeBackWithUndoAndRedo) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= of_campaign(2U, 4U); ++seed) {
     SCOPED_TRACE(seed);
     MovingBody moving(jittered_cube(4, seed), {tissue(20e3), {}});
     moving.hold_where(0);
@@ -237,7 +240,7 @@ TEST(BodyFollow, CopiesOfSpringHeldVerticesAreHeldAlike) {
 }
 
 TEST(BodyFollow, PullsAtVerticesThatDiedPullNoMore) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= of_campaign(2U, 3U); ++seed) {
     MovingBody moving(jittered_cube(4, seed), {tissue(5e3), {}}, weightless());
     std::vector<Pull> pulls;
     moving.mesh().for_each_vertex([&](VertexId v) {
@@ -284,7 +287,7 @@ TEST(BodyFollow, ACutOfABodyThatWasMovedRigidlyLeavesItUndeformed) {
 
 /// What undo and redo put in place goes where the body is, not where the mesh was when it was cut.
 TEST(BodyFollow, UndoAndRedoPutVerticesWhereTheBodyIsNow) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= of_campaign(2U, 4U); ++seed) {
     SCOPED_TRACE(seed);
     BodyOptions options = weightless();
     options.crumb = std::numeric_limits<double>::min();  // none: what only resists stretch would shrink

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "moving_body.h"
+#include "support/campaign.h"
 
 namespace incise::test::body_ties_test {
 namespace {
@@ -209,7 +210,7 @@ TEST(BodyTies, LengthsAreInMetresWhateverTheUnit) {
 
 TEST(BodyTies, NoEnergyIsGained) {
   for (const bool pushes : {true, false}) {
-    for (const double stiffness : {20.0, 1e3, 1e5}) {
+    for (const double stiffness : of_campaign<std::vector<double>>({1e3}, {20.0, 1e3, 1e5})) {
       BodyOptions options;
       options.sleep_below = 0;
       TwoBlocks blocks(options);

@@ -5,7 +5,7 @@ import { watchLife } from 'incise/life';
 
 const MOST_DEATHS = 3; // of workers: a further one would die, too
 
-/** Events: `begun` {renderer, level}, `drawn` {ms}, `level` {level}, `lost`, `restored`, `unable` (no WebGL 2, or worker after worker died), and `replaced` after its worker died. */
+/** Events: `begun` {renderer, level}, `drawn` {ms}, `level` {level}, `lost`, `restored`, `unable` ({why}: what stopped worker after worker; none without WebGL 2), and `replaced` after its worker died. */
 export class Drawing extends EventTarget {
   #holder;
   #worker = null;
@@ -32,7 +32,7 @@ export class Drawing extends EventTarget {
     this.#worker.onmessage = ({ data }) => this.#hear(data);
     this.#worker.onerror = (event) => {
       event.preventDefault();
-      this.#replace();
+      this.#replace(event.message);
     };
     const offscreen = canvas.transferControlToOffscreen();
     this.#worker.postMessage({ type: 'begin', canvas: offscreen, ...this.#state }, [offscreen]);
@@ -41,13 +41,17 @@ export class Drawing extends EventTarget {
   async #startHere(canvas) {
     const { Drawer } = await import('./drawer.mjs');
     this.#drawer = new Drawer((message) => this.#hear(message));
-    this.#drawer.hear({ type: 'begin', canvas, ...this.#state });
+    try {
+      this.#drawer.hear({ type: 'begin', canvas, ...this.#state });
+    } catch (error) {
+      this.dispatchEvent(new CustomEvent('unable', { detail: { why: error.message } }));
+    }
   }
 
-  #replace() {
+  #replace(why = 'its worker died') {
     this.#endWatch();
     this.#worker.terminate();
-    if (++this.#deaths > MOST_DEATHS) return this.dispatchEvent(new CustomEvent('unable'));
+    if (++this.#deaths > MOST_DEATHS) return this.dispatchEvent(new CustomEvent('unable', { detail: { why } }));
     this.isBusy = false;
     this.#start();
     this.dispatchEvent(new CustomEvent('replaced'));

@@ -400,6 +400,11 @@ function onLoaded({ detail }) {
   setTheme(theme).catch(failed);
 }
 
+function onUnable(why) {
+  if (why) return cover(`The drawing stopped: ${why}`, 'It was started again, and stopped again. Load the page anew, or use another browser.');
+  cover('This browser offers no WebGL 2, with which Incise draws.', 'Turn hardware acceleration on in its settings, or use a current Firefox, Chrome, Edge or Safari.');
+}
+
 function startDrawing(look) {
   const [width, height] = sizeOfView(), wanted = new URLSearchParams(location.search).get('look');
   const level = ['full', 'plain', 'coarse'].find((each) => each === wanted); // by itself as good as the machine can draw it
@@ -415,7 +420,7 @@ function startDrawing(look) {
     ++measured.drawingReplaced;
     want(true);
   });
-  hear('unable', () => cover('This browser offers no WebGL 2, with which Incise draws.', 'Turn hardware acceleration on in its settings, or use a current Firefox, Chrome, Edge or Safari.'));
+  hear('unable', ({ detail }) => onUnable(detail.why));
 }
 
 async function openFirst() {

@@ -27,6 +27,11 @@ double volume_tolerance(LabMethod method) {
   return keeps_volume(method) ? 1e-12 : std::numeric_limits<double>::infinity();
 }
 
+/// Methods divide, move and snap anew where a stroke goes over an earlier one, though nothing opens.
+bool missed(LabMethod method, const CutStatistics& cut) {
+  return method == LabMethod::kRemoval ? cut.cut_tets == 0 : opened_nothing(cut);
+}
+
 Status cut_all(TetMesh& mesh, const CutJob& job, JobReport& report) {
   const std::uint32_t earlier = highest_tag(mesh);
   Journal journal;
@@ -38,7 +43,7 @@ Status cut_all(TetMesh& mesh, const CutJob& job, JobReport& report) {
     if (!cut.ok()) return in_stroke(cut.error(), job, i);
     StepSamples samples;
     samples.add(watch.ms(), {});
-    if (cut->cut_tets == 0 && cut->incision_faces == 0) report.missed.push_back(i);
+    if (missed(*job.method, *cut)) report.missed.push_back(i);
     report.cut += *cut;
     add_operation({}, samples, report);
     if (job.progress) job.progress(i + 1, job.strokes.size());

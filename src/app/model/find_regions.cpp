@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 namespace incise {
 inline namespace v0 {
@@ -29,6 +30,19 @@ Result<std::vector<std::int32_t>> find_regions(const std::string& name, const io
   }
   if (!regions.empty()) return regions;
   return Error{ErrorCode::kBadFile, "no region of the model is called \"" + name + "\"; " + list_of(names)};
+}
+
+Status check_regions(const std::vector<std::int32_t>& regions, const TetMesh& mesh) {
+  std::set<std::int32_t> there;
+  mesh.for_each_tet([&](TetId tet) { there.insert(mesh.region(tet)); });
+  for (const std::int32_t region : regions) {
+    if (there.contains(region)) continue;
+    std::string list;
+    for (const std::int32_t other : there) list += (list.empty() ? "" : ", ") + std::to_string(other);
+    return Error{ErrorCode::kBadFile,
+                 "no tet of the model is in region " + std::to_string(region) + "; there are regions " + list};
+  }
+  return {};
 }
 
 }  // namespace app

@@ -89,6 +89,9 @@ Result<std::vector<Stroke>> held_strokes(const std::vector<BladeStroke>& blade, 
     strokes.push_back(blade[i].stroke);
     if (!stops(blade[i])) continue;
     std::vector<std::int32_t> regions = blade[i].stop_at;
+    if (const Status there = check_regions(regions, mesh); !there.ok()) {
+      return Error{ErrorCode::kBadFile, stroke_name(blade, i) + ": stop_at: " + there.error().message, {i}};
+    }
     for (const std::string& name : blade[i].stop_names) {
       const Result<std::vector<std::int32_t>> found = find_regions(name, names);
       if (!found.ok())

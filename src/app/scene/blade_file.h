@@ -46,7 +46,7 @@ struct BladeStroke {
 [[nodiscard]] Result<std::vector<Stroke>> read_blade(const std::filesystem::path& path);
 
 /// The strokes as the blade may go through a mesh at rest: those that stop at regions are held outside of them.
-/// Errors: kBadFile, naming the stroke, for a name that no region has, and as `hold_outside`.
+/// Errors: kBadFile, naming the stroke, for a name or number that no region has, and as `hold_outside`.
 [[nodiscard]] Result<std::vector<Stroke>> held_strokes(const std::vector<BladeStroke>& blade, const TetMesh& mesh,
                                                        const io::RegionNames& names);
 

@@ -91,6 +91,7 @@ bool DeformableBody::State::turn_all_back(bool slivers) {
     }
     turned.swap(next);
   }
+  sort_out(turned);
   contact.note_jump(way);
   if (turned.size() < before) return true;
   if (way > 0) turn_all_over();

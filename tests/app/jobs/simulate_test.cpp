@@ -470,6 +470,23 @@ TEST(ShippedSceneAsPaper, is_cut_where_the_blade_is_pushed_aside_as_it_touches_d
   EXPECT_EQ(run(scene).report.job.pieces.size(), 2U);
 }
 
+/// In tissue this soft the strips of some frames pass a vertex on both sides: nine crumbs came off.
+TEST(ShippedSceneAsPaper, leaves_no_crumbs_in_soft_tissue) {
+  Json json = Json::parse(read(INCISE_SCENES "/sim_bone.json"));
+  json["materials"]["default"]["young"] = 3439.2952132783316;
+  json["strokes"][0]["stretch"] = 1.3990334751926918;
+  json["strokes"][0]["blade"][0]["edges"] = Json::parse(R"([
+      {"t": 0, "points": [[56.585158168510446, -7.398525399135383, 43.41941861764576],
+                          [52.2667818981172, 40.34115792209906, 45.924266472417685]]},
+      {"t": 1.6, "points": [[61.29199464611343, -4.049875118161597, -12.287602768072214],
+                            [56.973618375720186, 43.68980820307284, -9.782754913300293]]}])");
+  app::Scene scene = parsed(json);
+  scene.options.engine.cut.profile = Profile::kPaper;
+  const app::JobReport report = run(scene).report.job;
+  EXPECT_EQ(report.pieces.size(), 2U);
+  EXPECT_GT(report.cut.crumbs_kept, 0U);
+}
+
 }  // namespace
 
 }  // namespace simulate_test
