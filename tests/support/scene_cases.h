@@ -70,7 +70,7 @@ inline Json full_scene() {
          {"path",
           {{{"t", 0.1}, {"from", {0, 0, 2}}, {"to", {1, 0, 2}}},
            {{"t", 0.3}, {"from", {0, 0, 1}}, {"to", {1, 0, 1}}}}}}}}};
-  scene["spare"] = {{{"tool", "scissors"}, {"stop_at", {3}}}, {{"stop_at", {3, 4}}}};
+  scene["spare"] = {{{"tool", "scissors"}, {"stop_at", {3}}}, {{"stop_at", {3, 0}}}};
   scene["hooks"] = {{{"name", "hook"},
                      {"radius", 0.3},
                      {"stiffness", 50},

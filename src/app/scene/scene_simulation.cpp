@@ -79,21 +79,22 @@ Status resolve_materials(const io::RegionNames& names, Scene& scene) {
 
 /// Of what has `stop_at` and `stop_names`; `key` is what they are called in a scene.
 template <class Item>
-Status resolve_regions(const io::LoadedMesh& model, const char* key, Item& item) {
+Status resolve_regions(const io::RegionNames& names, const char* key, Item& item) {
   for (const std::string& name : item.stop_names) {
-    const Result<std::vector<std::int32_t>> regions = find_regions(name, model.region_names);
+    const Result<std::vector<std::int32_t>> regions = find_regions(name, names);
     if (!regions.ok()) return Error{ErrorCode::kBadFile, std::string(key) + ": " + regions.error().message};
     item.stop_at.insert(item.stop_at.end(), regions->begin(), regions->end());
   }
   item.stop_names.clear();
-  const Status there = check_regions(item.stop_at, model.mesh);
-  return there.ok() ? there : Error{ErrorCode::kBadFile, std::string(key) + ": " + there.error().message};
+  return {};
 }
 
 template <class Item>
 Status resolve_stops(const io::LoadedMesh& model, std::vector<Item>& items) {
   for (Item& item : items) {
-    if (Status status = resolve_regions(model, "stop_at", item); !status.ok()) return status;
+    if (Status status = resolve_regions(model.region_names, "stop_at", item); !status.ok()) return status;
+    const Status there = check_regions(item.stop_at, model.mesh);
+    if (!there.ok()) return Error{ErrorCode::kBadFile, "stop_at: " + there.error().message};
   }
   return {};
 }
@@ -110,19 +111,19 @@ std::string called(const io::RegionNames& names, const std::vector<std::int32_t>
   return all;
 }
 
-Status resolve_goal(const io::LoadedMesh& model, const char* key, ExerciseRegions& goal) {
-  Status status = resolve_regions(model, key, goal);
-  if (goal.name.empty()) goal.name = called(model.region_names, goal.stop_at);
+Status resolve_goal(const io::RegionNames& names, const char* key, ExerciseRegions& goal) {
+  Status status = resolve_regions(names, key, goal);
+  if (goal.name.empty()) goal.name = called(names, goal.stop_at);
   return status;
 }
 
 Status resolve_exercise(const io::LoadedMesh& model, Exercise& exercise) {
   Status status;
-  if (exercise.divide) status = resolve_goal(model, "exercise.divide", *exercise.divide);
+  if (exercise.divide) status = resolve_goal(model.region_names, "exercise.divide", *exercise.divide);
   for (ExerciseSpare& spare : exercise.spare) {
-    if (status.ok()) status = resolve_goal(model, "exercise.spare", spare);
+    if (status.ok()) status = resolve_goal(model.region_names, "exercise.spare", spare);
   }
-  if (exercise.remove && status.ok()) status = resolve_goal(model, "exercise.remove", *exercise.remove);
+  if (exercise.remove && status.ok()) status = resolve_goal(model.region_names, "exercise.remove", *exercise.remove);
   return status.ok() ? resolve_stops(model, exercise.ideal) : status;
 }
 

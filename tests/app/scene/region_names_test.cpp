@@ -67,6 +67,15 @@ TEST(RegionNames, that_are_not_there_are_told_with_those_that_are) {
       << tissue.error().message;
 }
 
+TEST(RegionNames, numbers_of_regions_to_stop_at_must_be_there) {
+  app::Scene scene = parse(scene_with(R"({"default": {"young": 20000}})", R"(, "spare": [{"stop_at": [1, 77]}])"));
+  const auto loaded = app::take_model(scene);
+  ASSERT_FALSE(loaded.ok());
+  EXPECT_NE(loaded.error().message.find("stop_at: no tet of the model is in region 77; there are regions"),
+            std::string::npos)
+      << loaded.error().message;
+}
+
 constexpr const char* kPress = R"(, "gravity": [0, 0, 0], "attachments": [{"below": [0, 0, 1, 0.1]}], "strokes": [{
     "blade": [{"name": "press", "edges": [{"t": 0, "points": [[4.1, -1, 9], [4.1, 9, 9]]},
                                           {"t": 1, "points": [[4.1, -1, 1], [4.1, 9, 1]]}]}], "stop_at": ["LEFT kidney"]}])";
