@@ -214,7 +214,9 @@ void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::Jo
     const Vec3 middle = (body.lo + body.hi) / 2, half = (body.hi - body.lo) / 2;
     const double at = normal.dot(middle), reach = normal.cwiseAbs().dot(half);
     if (std::abs(parse_plane(a.plane)->offset - at) < reach) {
-      return terminal.warning("the plane " + a.plane + " cut nothing: no tet lies across it");
+      const bool is_across = report.cut.cut_tets > 0 || report.cut.snapped_vertices > 0;
+      return terminal.warning("the plane " + a.plane +
+                              " cut nothing: " + (is_across ? "no face came open" : "no tet lies across it"));
     }
     return terminal.warning("the plane " + a.plane + " misses the mesh: nothing was cut; its box has d from " +
                             shown(at - reach) + " to " + shown(at + reach) + " along that normal");

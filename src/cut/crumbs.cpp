@@ -173,6 +173,10 @@ class CrumbFinder {
     if (largest == nullptr) return false;
     const TetId home = home_behind(*largest);
     homes_[largest->crumb] = home;
+    if (rules_.hangs_on_one_face) {
+      is_dropped_[largest->face] = true;
+      return true;
+    }
     const std::vector<TetId> piece = piece_around(home);
     for (const Border& border : borders_) {
       const TetId behind = home_behind(border);

@@ -27,6 +27,8 @@ struct CrumbRules {
   /// where it is thinner than half of it: where a blade comes back beside its cut, or grazes skin, shavings would fall.
   /// In length units; 0: none is.
   double thin = 0.0;
+  /// Whether a crumb hangs on its largest face alone: what is beside it may be two pieces before the stroke is through.
+  bool hangs_on_one_face = false;
   /// Where set: whether a face was open before. A crumb does not hang on such a one.
   std::function<bool(const IncisionFace&)> stands_open = {};
   /// Where set: whether a tet of a crumb and one behind its face are of two pieces. A crumb hangs on its own one only.

@@ -15,6 +15,8 @@ double typical_spacing(const TetMesh& mesh);
 /// The same before the body was cut, as far as the mesh still tells: of tets without a vertex on a wall, where an
 /// eighth of those that are looked at are such; else of all.
 double uncut_spacing(const TetMesh& mesh);
+/// The mean volume of tets likewise, in length units cubed.
+double uncut_volume(const TetMesh& mesh);
 
 /// How long edges around a place may have been before cuts made them `length` long, in a mesh whose typical edge before
 /// it was cut is `spacing` long: that, but by a factor of 8 longer at most, for a mesh may be finer in places.

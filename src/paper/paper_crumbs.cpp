@@ -2,39 +2,36 @@
 #include "paper/paper_crumbs.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "cut/spacing.h"
+#include "paper/constants.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
-double longest_edge_squared(const TetMesh& mesh, TetId tet) {
-  const TetVertices& v = mesh.vertices(tet);
-  double longest = 0;
-  for (unsigned a = 0; a < 4; ++a) {
-    for (unsigned b = a + 1; b < 4; ++b) longest = std::max(longest, (mesh.rest(v[b]) - mesh.rest(v[a])).squaredNorm());
-  }
-  return longest;
-}
-
-/// Of a tet and of those beside it.
-double longest_edge_about(const TetMesh& mesh, TetId tet) {
-  double longest = longest_edge_squared(mesh, tet);
+/// The volume of the largest tet among one and those that are up to some faces away from it, walls not passed.
+double largest_volume_about(const TetMesh& mesh, TetId tet, unsigned faces) {
+  double largest = mesh.rest_volume(tet);
+  if (faces == 0) return largest;
   for (const Link link : mesh.links(tet)) {
-    if (!link.is_boundary()) longest = std::max(longest, longest_edge_squared(mesh, link.side().tet()));
+    if (!link.is_boundary()) {
+      largest = std::max(largest, largest_volume_about(mesh, link.side().tet(), faces - 1));
+    }
   }
-  return std::sqrt(longest);
+  return largest;
 }
 
 }  // namespace
 
-std::uint64_t keep_paper_crumbs(const TetMesh& mesh, double spacing, std::vector<IncisionFace>& incision,
-                                CrumbScratch& scratch) {
+std::uint64_t keep_paper_crumbs(const TetMesh& mesh, std::vector<IncisionFace>& incision, CrumbScratch& scratch) {
+  const double least = paper::kCrumbOfMean * uncut_volume(mesh);
   CrumbRules rules;
-  rules.limit = [&mesh, spacing](TetId tet) {
-    return crumb_limit(std::max(longest_edge_about(mesh, tet), 0.5 * spacing));
+  rules.limit = [&mesh, least](TetId tet) {
+    return std::max(least, paper::kCrumb * largest_volume_about(mesh, tet, paper::kCrumbReach));
   };
+  rules.hangs_on_one_face = true;
   std::vector<IncisionFace> dropped;
   return keep_crumbs(mesh, rules, incision, dropped, scratch);
 }

@@ -383,7 +383,9 @@ Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
     stroke_.gone_on_from.clear();
   }
   const std::uint64_t cut_before = context.statistics.cut_tets;
-  Status status = sheet_cut_.cut(context, SheetSoFar(*move.strip, strips_before(*move.strip)), stroke_.tag, front_);
+  const Crumbs crumbs = stroke_.is_in_material ? Crumbs::kStay : Crumbs::kComeOff;
+  Status status =
+      sheet_cut_.cut(context, SheetSoFar(*move.strip, strips_before(*move.strip)), stroke_.tag, front_, crumbs);
   context.statistics.cut_tets = cut_before + sheet_cut_.divided_tets();  // few are crossed wholly in one frame
   stroke_.has_cut = stroke_.has_cut || sheet_cut_.divided_tets() > 0;
   stroke_.sheet.add(std::move(move.strip));

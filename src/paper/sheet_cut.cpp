@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cut/pinched_edges.h"
-#include "cut/spacing.h"
 #include "incise/mesh/verbs.h"
 #include "paper/coincidence.h"
 #include "paper/constants.h"
@@ -20,7 +19,8 @@
 namespace incise {
 inline namespace v0 {
 
-Status SheetCut::cut(const CutContext& context, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front) {
+Status SheetCut::cut(const CutContext& context, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front,
+                     Crumbs crumbs) {
   CutStatistics& statistics = context.statistics;
   const std::size_t tets_before = context.mesh.tet_count();
   Transaction transaction(context.mesh);
@@ -32,8 +32,9 @@ Status SheetCut::cut(const CutContext& context, const SheetSoFar& sheet, std::ui
   front.take(context.mesh, sheet.whole(), near_, walker_);
   keep_between_sides(context.mesh, front.own(), near_.coincidence, sheet, subdivision.incision);
   keep_flat_tets_joined(context.mesh, near_, front.own(), sheet.whole(), tag, walker_, subdivision.incision);
-  statistics.crumbs_kept +=
-      keep_paper_crumbs(context.mesh, typical_spacing(context.mesh), subdivision.incision, crumbs_);
+  if (crumbs == Crumbs::kStay) {
+    statistics.crumbs_kept += keep_paper_crumbs(context.mesh, subdivision.incision, crumbs_);
+  }
   separate(transaction, subdivision, tag, statistics, context.times);
   statistics.new_vertices += growth(0, transaction.new_vertices().size());
   if (context.journal.append_if_changed(transaction.commit())) {

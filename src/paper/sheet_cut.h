@@ -17,6 +17,9 @@
 namespace incise {
 inline namespace v0 {
 
+/// Whether what a cut closes in, and is far smaller than an element, comes off, or stays attached.
+enum class Crumbs : std::uint8_t { kComeOff, kStay };
+
 /// Cuts along one sheet, or along what one frame adds to it, as the paper does: sections 2.2 to 2.4. Keeps scratch
 /// memory.
 class SheetCut {
@@ -28,7 +31,8 @@ class SheetCut {
   /// points of this sheet and those of `front`, which is brought up to date. Walls get `tag`. Appends up to two journal
   /// steps: the cut, and the repair of edges that two fans of tets share. Errors: kOutOfMemory where ids would run out;
   /// the mesh is then as before. Cost: one pass over the mesh, then O(cut tets · rounds).
-  Status cut(const CutContext& context, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front);
+  Status cut(const CutContext& context, const SheetSoFar& sheet, std::uint32_t tag, IncisionFront& front,
+             Crumbs crumbs = Crumbs::kComeOff);
   /// The tets that the last cut divided, crossed wholly or in part.
   [[nodiscard]] std::uint64_t divided_tets() const { return divided_tets_; }
   /// The incision faces that the last cut left joined: a later frame may open them.
