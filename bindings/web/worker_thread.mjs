@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What worker.mjs starts: a session that runs at the pace of the clock and shows its frames to the page.
+import { Beat } from './beat.mjs';
 import { load } from './index.mjs';
 import { holdLife } from './life.mjs';
 
@@ -8,13 +9,12 @@ const STILL = 2e-5; // of the body's size, in a frame
 const IDLE_FRAMES = 600; // after the last hand, whatever still trembles
 const SPREAD = 3; // frames
 const REPLAY_SECONDS = 12; // that a recording takes at most
-const LATEST_MS = 50; // that frames make up for
 const PLAY_MS = 100; // at a time: what is asked for in between is answered
 const KEEP_SHARE = 0.05; // of the time, that recordings are written in
 
 let incise, session, size = 1, viewport = [960, 640, 640];
 let events = [], last, stillFrames = 0, replayed = false;
-let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, timer = 0, due = 0, perFrame = 1;
+let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, perFrame = 1;
 let isBusy = false, isUnseen = false, isKept = true, nextKeep = 0;
 let rate = { frames: 0, since: 0, value: 0, longest: 0 };
 
@@ -195,7 +195,6 @@ function goOn() {
   hasMoved = false;
 }
 
-/** Frames keep the beat of the clock: a late one does not delay those after it, unless it was so late that they would be a rush. */
 function tick() {
   try {
     if (session && isShown) goOn();
@@ -203,10 +202,9 @@ function tick() {
     if (isFatal(error)) return say('broken', { error: errorOf(error) });
     say('failed', { error: errorOf(error) });
   }
-  const now = performance.now();
-  due = Math.max(due + (session ? 1000 * session.figures().frameSeconds : 16), now - LATEST_MS);
-  timer = setTimeout(tick, Math.max(0, due - now));
+  beat.wait(session ? 1000 * session.figures().frameSeconds : 16);
 }
+const beat = new Beat(tick);
 
 const answers = {
   open,
@@ -273,7 +271,6 @@ try {
   say('loaded', { version: incise.version, look: incise.look('dark') });
   warmUp();
   say('warm');
-  clearTimeout(timer);
   tick();
 } catch (error) {
   say('broken', { error: errorOf(error) });

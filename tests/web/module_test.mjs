@@ -350,6 +350,22 @@ test('the bytes of the module may be handed over', async () => {
   assert.equal(located.version, module.version);
 });
 
+test('an engine that lacks SIMD, or exceptions of its own, is given the build that does without both', async () => {
+  const { validate } = WebAssembly;
+  const holds = (bytes, part) => bytes.some((_, i) => part.every((byte, k) => bytes[i + k] === byte));
+  const vectors = [253, 15], tries = [6, 64]; // i8x16.splat; try without a result
+  try {
+    for (const lacks of [vectors, tries]) {
+      WebAssembly.validate = (bytes) => !holds(bytes, lacks) && validate(bytes);
+      const asked = [];
+      await load({ locateFile: (name) => asked.push(name) && 'file:///nowhere' }).catch(() => {});
+      assert.deepEqual(asked, ['incise_plain.wasm']);
+    }
+  } finally {
+    WebAssembly.validate = validate;
+  }
+});
+
 test('index.d.mts declares what the module has, and no more', () => {
   const typescript = createRequire(at('web/package.json'))('typescript');
   const source = typescript.createSourceFile('index.d.mts', read('build/npm/index.d.mts').toString(), typescript.ScriptTarget.Latest);

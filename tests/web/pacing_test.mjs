@@ -71,3 +71,18 @@ test('of frames one is drawn and one waits; the next is wanted when that goes on
   frames.pass();
   assert.equal(wanted, 2);
 });
+
+test('where one processor computes and draws, the next frame is wanted when a picture is done', () => {
+  const shown = [];
+  let wanted = 0;
+  const drawing = { isBusy: false, show: (frame) => (shown.push(frame), (drawing.isBusy = true)) };
+  const frames = new Frames(drawing, () => ++wanted);
+  frames.isAhead = false;
+  frames.take('a');
+  assert.deepEqual([shown, wanted], [['a'], 0]);
+  drawing.isBusy = false;
+  frames.pass();
+  assert.deepEqual([shown, wanted], [['a'], 1]);
+  frames.take('b');
+  assert.deepEqual([shown, wanted], [['a', 'b'], 1]);
+});

@@ -7,6 +7,15 @@ const SLOW_MS = 30; // a picture that takes longer
 const SLOW_PICTURES = 10; // of the last `OF_PICTURES`: less is drawn from then on
 const OF_PICTURES = 14;
 
+/** Who draws; '' where the browser does not tell. Asked before there is a picture: a context's samples are chosen when it is made. */
+function rendererHere() {
+  const context = contextOf(globalThis.OffscreenCanvas ? new OffscreenCanvas(1, 1) : document.createElement('canvas'), false);
+  const names = context?.getExtension('WEBGL_debug_renderer_info');
+  const renderer = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return renderer;
+}
+
 export class Drawer {
   #tell;
   #picture;
@@ -40,15 +49,15 @@ export class Drawer {
       this.#tell({ type: 'restored' });
       this.#ask();
     });
-    const context = contextOf(canvas);
+    const renderer = rendererHere(), isSoftware = SOFTWARE.test(renderer);
+    const best = level ?? LEVELS[isSoftware ? 1 : 0];
+    const context = contextOf(canvas, !isSoftware || best === 'full'); // four samples are most of what a processor has to do
     if (!context) return this.#tell({ type: 'unable' });
     this.#picture = new Picture(canvas, context, look);
-    const names = context.getExtension('WEBGL_debug_renderer_info');
-    const renderer = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
     this.#canFall = !level;
-    this.#picture.setLevel(level ?? LEVELS[SOFTWARE.test(renderer) ? 1 : 0]);
+    this.#picture.setLevel(best);
     this.#picture.resize(...size);
-    this.#tell({ type: 'begun', renderer, level: this.#picture.level });
+    this.#tell({ type: 'begun', renderer, isSoftware, level: this.#picture.level });
   }
 
   #take({ frame }) {

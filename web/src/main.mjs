@@ -6,6 +6,7 @@ import { icon } from './icons.mjs';
 import { Keeper } from './keeper.mjs';
 import { KeyHand } from './keyboard.mjs';
 import { LONGEST_LINK, fromFragment, toFragment } from './link.mjs';
+import { grouped } from './numbers.mjs';
 import { Frames, batches, inTurn, newest } from './pacing.mjs';
 import { Panel } from './panel.mjs';
 import bodies from '../bodies.json';
@@ -106,7 +107,7 @@ async function open(what, id) {
   }
   await setUp();
   if (opened.isReplay) say(isStill ? 'Playing the recording; its end is shown.' : 'Playing the recording of a link or file.');
-  else say(`${measured.tets.toLocaleString('en')} tets. ${hintOf(tool)}`);
+  else say(`${grouped(measured.tets)} tets. ${hintOf(tool)}`);
 }
 
 /** A session is there. */
@@ -407,7 +408,10 @@ function startDrawing(look) {
   frames = new Frames(drawing, () => isReady && want());
   const hear = (type, what) => drawing.addEventListener(type, what);
   hear('drawn', onDrawn);
-  hear('begun', ({ detail }) => Object.assign(measured, { renderer: detail.renderer, level: detail.level }));
+  hear('begun', ({ detail }) => {
+    frames.isAhead = !detail.isSoftware;
+    Object.assign(measured, { renderer: detail.renderer, level: detail.level });
+  });
   hear('level', ({ detail }) => (measured.level = detail.level));
   hear('lost', () => say('The picture was lost; it comes back by itself.'));
   hear('restored', () => say('The picture is back.', 3));

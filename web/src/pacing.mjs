@@ -46,23 +46,31 @@ export function inTurn() {
   };
 }
 
-/** Frames from who computes to who draws: at most one is drawn and one waits, and the next is wanted only when that goes on. */
+/**
+ * Frames from who computes to who draws: at most one is drawn and one waits, and the next is wanted when that goes on. Where the
+ * same processor computes and draws none waits: the next is wanted when a picture is done, so that it is of then, and frames are computed in between.
+ */
 export class Frames {
   #waiting = null;
+  isAhead = true;
   constructor(drawing, want) {
     this.drawing = drawing;
     this.want = want;
   }
   take(frame) {
     this.#waiting = frame;
-    this.pass();
+    this.#show();
   }
   /** To be called when drawing has become free, too. */
   pass() {
-    if (!this.#waiting || this.drawing.isBusy) return;
+    if (!this.#show() && !this.isAhead) this.want();
+  }
+  #show() {
+    if (!this.#waiting || this.drawing.isBusy) return false;
     const frame = this.#waiting;
     this.#waiting = null;
     this.drawing.show(frame);
-    this.want();
+    if (this.isAhead) this.want();
+    return true;
   }
 }

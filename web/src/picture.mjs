@@ -13,7 +13,7 @@ const TISSUE = 0; // of `Frame.color`
 export const LEVELS = ['full', 'plain', 'coarse'];
 
 /** What a picture is drawn with; null where the browser has no WebGL 2. */
-export const contextOf = (canvas) => canvas.getContext('webgl2', { antialias: true, alpha: false, powerPreference: 'high-performance' });
+export const contextOf = (canvas, antialias) => canvas.getContext('webgl2', { antialias, alpha: false, powerPreference: 'high-performance' });
 
 export class Picture {
   /** @param context  of WebGL 2, as `contextOf` makes it */
