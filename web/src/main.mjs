@@ -21,6 +21,7 @@ const TOOLS = [
   { name: 'Retractor', label: 'Retractor', hint: 'Drag a lip aside: the retractor stays and holds it. A click on it lets go.' },
   { name: 'Pin', label: 'Pin', hint: 'Click on tissue to hold it there; click the pin to let go.' },
 ];
+const REST_MS = 20; // between two pictures of a processor, which has frames to compute as well
 const LARGEST_FILE = 200e6; // bytes; a mesh of some two million tets
 
 /** For tests and the curious: what the page measured of itself. */
@@ -409,7 +410,7 @@ function startDrawing(look) {
   const hear = (type, what) => drawing.addEventListener(type, what);
   hear('drawn', onDrawn);
   hear('begun', ({ detail }) => {
-    frames.isAhead = !detail.isSoftware;
+    frames.restMs = detail.isSoftware ? REST_MS : 0;
     Object.assign(measured, { renderer: detail.renderer, level: detail.level });
   });
   hear('level', ({ detail }) => (measured.level = detail.level));

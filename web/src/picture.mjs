@@ -4,13 +4,12 @@ import {
   BufferGeometry, Color, Data3DTexture, DataTexture, DoubleSide, GLSL3, LinearFilter, Matrix4, Mesh, NearestFilter,
   PerspectiveCamera, RawShaderMaterial, RedFormat, RepeatWrapping, Scene, Vector2, WebGLRenderer,
 } from 'three';
+import { LEVELS } from './detail.mjs';
 import { GROUND, surfaceShader } from './glsl.mjs';
 import { Marks } from './marks.mjs';
 import { put } from './rows.mjs';
 
 const TISSUE = 0; // of `Frame.color`
-/** How much is drawn, from the best: with the grain of tissue; without; and with fewer pixels as well. */
-export const LEVELS = ['full', 'plain', 'coarse'];
 
 /** What a picture is drawn with; null where the browser has no WebGL 2. */
 export const contextOf = (canvas, antialias) => canvas.getContext('webgl2', { antialias, alpha: false, powerPreference: 'high-performance' });
