@@ -3,6 +3,7 @@
 import { Beat } from './beat.mjs';
 import { load } from './index.mjs';
 import { holdLife } from './life.mjs';
+import { Practice } from './practice.mjs';
 
 const STILL_FRAMES = 20; // without motion, and the body is said to be at rest
 const STILL = 2e-5; // of the body's size, in a frame
@@ -10,34 +11,18 @@ const IDLE_FRAMES = 600; // after the last hand, whatever still trembles
 const SPREAD = 3; // frames
 const REPLAY_SECONDS = 12; // that a recording takes at most
 const PLAY_MS = 100; // at a time: what is asked for in between is answered
+const PRACTICE_FRAMES = 100; // half a second's work, as long as nobody cuts
+const PRACTICE_MS = 5; // of each frame's time
 const KEEP_SHARE = 0.05; // of the time, that recordings are written in
 
-let incise, session, size = 1, viewport = [960, 640, 640];
+let incise, session, practice, size = 1, viewport = [960, 640, 640];
 let events = [], last, stillFrames = 0, replayed = false;
 let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, perFrame = 1;
-let isBusy = false, isUnseen = false, isKept = true, nextKeep = 0;
+let isBusy = false, isUnseen = false, hasShown = false, isKept = true, nextKeep = 0;
 let rate = { frames: 0, since: 0, value: 0, longest: 0 };
 
 const say = (type, data = {}, transfer = []) => postMessage({ type, ...data }, transfer);
 const errorOf = (error) => ({ message: error?.message ?? String(error), code: error?.code ?? 'Internal', ids: error?.ids ?? [] });
-
-/** Cuts a small cube, so that engines compile what cutting takes before a person cuts. */
-function warmUp() {
-  const scene = { format: 'incise-scene', version: 1, length_unit: 0.1, model: { box: { cells: [2, 2, 2], size: [1, 1, 1] } } };
-  const small = incise.Session.open(JSON.stringify(scene), 'warm.json');
-  small.resize(100, 100);
-  small.refresh();
-  small.pointer('press', 45, 40);
-  for (let i = 0; i < 4; ++i) {
-    small.pointer('move', 45 + 3 * i, 42 + 4 * i);
-    small.frame();
-    small.refresh();
-  }
-  small.pointer('release', 57, 58);
-  small.frame();
-  small.undo();
-  small.dispose();
-}
 
 function open({ bytes, name, files, up, resumes, isAtRest, isStill }) {
   const next = incise.Session.open(bytes, name, { files, up });
@@ -130,6 +115,7 @@ function keep() {
 
 function show(withSurface) {
   isWanted = false;
+  hasShown = true;
   const data = { figures: session.figures(), isReplay: session.isReplay, isAwake, color: incise.colors.indexOf(session.color) };
   if (session.isReplay) data.place = session.place();
   data.figures.rate = rate.value;
@@ -195,9 +181,20 @@ function goOn() {
   hasMoved = false;
 }
 
+/** Until somebody cuts, between the frames of a body that is seen. */
+function practise() {
+  if (practice?.isOver || !hasShown || session.isReplay || session.isBusy || events.length > 0) return;
+  const began = performance.now();
+  practice ??= new Practice(incise.Session, 5, PRACTICE_FRAMES);
+  while (!practice.isOver && performance.now() - began < PRACTICE_MS) practice.goOn();
+}
+
 function tick() {
   try {
-    if (session && isShown) goOn();
+    if (session && isShown) {
+      goOn();
+      practise();
+    }
   } catch (error) {
     if (isFatal(error)) return say('broken', { error: errorOf(error) });
     say('failed', { error: errorOf(error) });
@@ -269,7 +266,7 @@ holdLife((lock) => say('alive', { lock }));
 try {
   incise = await load();
   say('loaded', { version: incise.version, look: incise.look('dark') });
-  warmUp();
+  for (const first = new Practice(incise.Session, 2, 4); !first.isOver; ) first.goOn();
   say('warm');
   tick();
 } catch (error) {

@@ -9,6 +9,7 @@ import { after, test } from 'node:test';
 import { at, hasPlain, incise, read } from './support.mjs';
 
 const { InciseError, hasSimd, load } = await import(at('build/npm/index.mjs'));
+const { Practice } = await import(at('build/npm/practice.mjs'));
 const module = await load();
 const builds = hasPlain ? [module, await load({ simd: false })] : [module];
 const folder = mkdtempSync(join(tmpdir(), 'incise-'));
@@ -328,6 +329,21 @@ test('what is disposed of gives its memory back', () => {
     engine.cutPlane([1, 0, 0], 0.02);
     engine[Symbol.dispose ?? Symbol.for('Symbol.dispose')]();
   }
+});
+
+test('practice cuts a cube, takes each stroke back, and leaves nothing', () => {
+  let session;
+  const practice = new Practice({ open: (...what) => (session = module.Session.open(...what)) }, 5, 30);
+  const tets = [session.figures().tets];
+  while (!practice.isOver) {
+    practice.goOn();
+    if (!practice.isOver) tets.push(session.figures().tets);
+  }
+  assert.equal(tets.length, 30);
+  assert.ok(tets[24] > tets[0], tets.join(' '));
+  assert.equal(tets[25], tets[0]);
+  assert.ok(tets[29] > tets[0], tets.join(' '));
+  assert.throws(() => session.frame(), { code: 'BadArgument' });
 });
 
 test('a written mesh reads back', () => {
