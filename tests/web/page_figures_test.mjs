@@ -43,14 +43,27 @@ describe('figures of the page', { skip }, () => {
     }
   }
 
-  /** A stroke of two seconds: what was simulated and drawn in it. */
+  /** A stroke that takes so long, as a hand's does, however slowly the page answers. */
+  async function strokeFor(ms, [from, to]) {
+    const { mouse } = visit.page, began = Date.now();
+    await mouse.move(...visit.place(from));
+    await mouse.down();
+    for (let share = 0; share < 1;) {
+      share = Math.min(1, (Date.now() - began) / ms);
+      await mouse.move(...visit.place([0, 1].map((i) => from[i] + (to[i] - from[i]) * share)));
+      await new Promise((resolve) => setTimeout(resolve, 12));
+    }
+    await mouse.up();
+  }
+
+  /** A stroke of three seconds: what was simulated and drawn in it. */
   async function strokeOf(body) {
     visit.fetched.clear();
     await openPage({ path: `?body=${body}`, waits: false });
     await isReady();
     await visit.page.waitForTimeout(500);
     const before = await now();
-    await drag([0.4, 0.5], [0.62, 0.55], { steps: 100, pause: 16 });
+    await strokeFor(3000, [[0.4, 0.5], [0.62, 0.55]]);
     const after = await now(), seconds = (after.at - before.at) / 1000;
     return {
       tets: after.figures.tetsAtStart, cutTets: after.figures.cutTets, cuttableMs: Math.round(after.cuttableMs),

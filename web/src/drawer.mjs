@@ -55,7 +55,7 @@ export class Drawer {
     this.#detail = new Detail(level, isSoftware);
     this.#picture.setLevel(this.#detail.level);
     this.#picture.resize(...size);
-    this.#tell({ type: 'begun', renderer, isSoftware, level: this.#detail.level });
+    this.#tell({ type: 'begun', renderer, isSoftware, level: this.#detail.level }); // `isSoftware`: see `Frames.restMs`
   }
 
   #take({ frame }) {

@@ -5,7 +5,7 @@ import { watchLife } from 'incise/life';
 
 const MOST_DEATHS = 3; // of workers: a further one would die, too
 
-/** Events: `begun` {renderer, isSoftware, level}, `drawn` {ms}, `level` {level}, `lost`, `restored`, `unable` (no WebGL 2, or worker after worker died), and `replaced` after its worker died. */
+/** Events: `begun` {renderer, level}, `drawn` {ms}, `level` {level}, `lost`, `restored`, `unable` (no WebGL 2, or worker after worker died), and `replaced` after its worker died. */
 export class Drawing extends EventTarget {
   #holder;
   #worker = null;

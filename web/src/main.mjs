@@ -96,12 +96,13 @@ async function fetchParts(body) {
   return Object.fromEntries(files);
 }
 
-async function open(what, id) {
+async function open(what, id, ownName) {
   say('Opening…');
   measured.state = 'opening';
   const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
   try {
     take(await keeper.open({ ...what, isStill }), id);
+    if (ownName) own(ownName); // before its first frame is here
   } catch (error) {
     if (hasFrame) measured.state = 'ready'; // what was there is there still
     throw error;
@@ -143,8 +144,7 @@ async function openFile(file) {
   const body = bodies.find((each) => each.id === opened.id);
   const files = body ? await fetchParts(body) : {};
   delete files[file.name];
-  await open({ bytes, name: file.name, files }, '');
-  own(file.name);
+  await open({ bytes, name: file.name, files }, '', file.name);
 }
 
 /** Shows a body that is no row of the list. */
