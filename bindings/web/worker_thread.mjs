@@ -18,7 +18,7 @@ const KEEP_SHARE = 0.05; // of the time, that recordings are written in
 let incise, session, practice, size = 1, viewport = [960, 640, 640];
 let events = [], last, stillFrames = 0, replayed = false;
 let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, perFrame = 1;
-let isBusy = false, isUnseen = false, hasShown = false, isKept = true, nextKeep = 0;
+let isBusy = false, isUnseen = false, hasShown = false, isSeen = false, isKept = true, nextKeep = 0;
 let rate = { frames: 0, since: 0, value: 0, longest: 0 };
 
 const say = (type, data = {}, transfer = []) => postMessage({ type, ...data }, transfer);
@@ -174,7 +174,7 @@ function goOn() {
   if (session.isBusy || session.isReplay) wake();
   if (session.isBusy !== isBusy) isKept = false; // a drag began or ended
   isBusy = session.isBusy;
-  if (isAwake) advance();
+  if (isAwake && (isSeen || !hasShown)) advance(); // where one processor does it all the first picture comes first
   if (!session.isBusy && !session.isReplay) keep();
   if (!isWanted || (isUnseen && session.isReplay) || !(hasMoved || hadEvents || hasNewTriangles)) return;
   show(hasMoved);
@@ -183,7 +183,7 @@ function goOn() {
 
 /** Until somebody cuts, between the frames of a body that is seen. */
 function practise() {
-  if (practice?.isOver || !hasShown || session.isReplay || session.isBusy || events.length > 0) return;
+  if (practice?.isOver || !isSeen || session.isReplay || session.isBusy || events.length > 0) return;
   const began = performance.now();
   practice ??= new Practice(incise.Session, 5, PRACTICE_FRAMES);
   while (!practice.isOver && performance.now() - began < PRACTICE_MS) practice.goOn();
@@ -249,6 +249,7 @@ function choose(what) {
 onmessage = ({ data }) => {
   if (data.type === 'want') {
     isWanted = true;
+    isSeen = hasShown; // by a machine that draws slowly, which then asks for the next
     hasNewTriangles ||= Boolean(data.isWhole);
   } else if (data.type === 'shown') {
     isShown = data.isShown;
