@@ -47,7 +47,7 @@ function(incise_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;PUBLIC;PRIVATE;SOURCES" ${ARGN})
   add_library(incise_${name} STATIC ${ARG_SOURCES})
   add_library(incise::${name} ALIAS incise_${name})
-  set_target_properties(incise_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(incise_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ${incise_native})
   target_include_directories(incise_${name}
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
     PRIVATE ${PROJECT_SOURCE_DIR}/src)

@@ -23,7 +23,7 @@ export interface LoadOptions {
   locateFile?: (name: string) => string;
   /** The content of the `.wasm` file, for those who have it already; nothing is fetched then. */
   wasmBinary?: ArrayBuffer | ArrayBufferView;
-  /** Which build: by default the one with SIMD where the engine has it. */
+  /** Which build: by default the one with SIMD, where the engine has it and WebAssembly's own exceptions (Chrome 95, Firefox 100, Safari 16.4). */
   simd?: boolean;
   /** Hears what the module prints; by default nobody. */
   print?: (line: string) => void;

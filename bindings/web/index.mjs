@@ -14,10 +14,14 @@ export class InciseError extends Error {
 // A function that loads, adds a vector and drops the result: an engine without SIMD refuses it.
 const SIMD_PROBE = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0,
   253, 15, 253, 98, 11);
+// A function that tries nothing and catches all: an engine without exceptions of WebAssembly's own refuses it.
+const EXCEPTIONS_PROBE = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 8, 1, 6, 0, 6, 64, 25,
+  11, 11);
+const accepts = (probe) => typeof WebAssembly === 'object' && WebAssembly.validate(probe);
 
 /** Whether this engine has WebAssembly's SIMD instructions. */
 export function hasSimd() {
-  return typeof WebAssembly === 'object' && WebAssembly.validate(SIMD_PROBE);
+  return accepts(SIMD_PROBE);
 }
 
 // Bundlers look for exactly this form of URL and take the file along.
@@ -48,7 +52,7 @@ async function compile(build, { locateFile, wasmBinary }) {
 
 async function instantiate(options) {
   if (typeof WebAssembly !== 'object') throw new InciseError('this engine has no WebAssembly; use a newer one', 'Unsupported');
-  const build = options.simd ?? hasSimd() ? WITH_SIMD : PLAIN;
+  const build = options.simd ?? (hasSimd() && accepts(EXCEPTIONS_PROBE)) ? WITH_SIMD : PLAIN;
   const [module, { default: create }] = await Promise.all([compile(build, options), build.core()]);
   return new Promise((resolve, reject) => {
     const instantiateWasm = (imports, done) => {

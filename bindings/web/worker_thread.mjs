@@ -1,43 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // What worker.mjs starts: a session that runs at the pace of the clock and shows its frames to the page.
+import { Beat } from './beat.mjs';
 import { load } from './index.mjs';
 import { holdLife } from './life.mjs';
+import { Practice } from './practice.mjs';
 
 const STILL_FRAMES = 20; // without motion, and the body is said to be at rest
 const STILL = 2e-5; // of the body's size, in a frame
 const IDLE_FRAMES = 600; // after the last hand, whatever still trembles
 const SPREAD = 3; // frames
 const REPLAY_SECONDS = 12; // that a recording takes at most
-const LATEST_MS = 50; // that frames make up for
 const PLAY_MS = 100; // at a time: what is asked for in between is answered
+const PRACTICE_FRAMES = 100; // half a second's work, as long as nobody cuts
+const PRACTICE_MS = 5; // of each frame's time
 const KEEP_SHARE = 0.05; // of the time, that recordings are written in
 
-let incise, session, size = 1, viewport = [960, 640, 640];
+let incise, session, practice, size = 1, viewport = [960, 640, 640];
 let events = [], last, stillFrames = 0, replayed = false;
-let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, timer = 0, due = 0, perFrame = 1;
-let isBusy = false, isUnseen = false, isKept = true, nextKeep = 0;
+let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, perFrame = 1;
+let isBusy = false, isUnseen = false, hasShown = false, isSeen = false, isKept = true, nextKeep = 0;
 let rate = { frames: 0, since: 0, value: 0, longest: 0 };
 
 const say = (type, data = {}, transfer = []) => postMessage({ type, ...data }, transfer);
 const errorOf = (error) => ({ message: error?.message ?? String(error), code: error?.code ?? 'Internal', ids: error?.ids ?? [] });
-
-/** Cuts a small cube, so that engines compile what cutting takes before a person cuts. */
-function warmUp() {
-  const scene = { format: 'incise-scene', version: 1, length_unit: 0.1, model: { box: { cells: [2, 2, 2], size: [1, 1, 1] } } };
-  const small = incise.Session.open(JSON.stringify(scene), 'warm.json');
-  small.resize(100, 100);
-  small.refresh();
-  small.pointer('press', 45, 40);
-  for (let i = 0; i < 4; ++i) {
-    small.pointer('move', 45 + 3 * i, 42 + 4 * i);
-    small.frame();
-    small.refresh();
-  }
-  small.pointer('release', 57, 58);
-  small.frame();
-  small.undo();
-  small.dispose();
-}
 
 function open({ bytes, name, files, up, resumes, isAtRest, isStill }) {
   const next = incise.Session.open(bytes, name, { files, up });
@@ -130,6 +115,7 @@ function keep() {
 
 function show(withSurface) {
   isWanted = false;
+  hasShown = true;
   const data = { figures: session.figures(), isReplay: session.isReplay, isAwake, color: incise.colors.indexOf(session.color) };
   if (session.isReplay) data.place = session.place();
   data.figures.rate = rate.value;
@@ -188,25 +174,34 @@ function goOn() {
   if (session.isBusy || session.isReplay) wake();
   if (session.isBusy !== isBusy) isKept = false; // a drag began or ended
   isBusy = session.isBusy;
-  if (isAwake) advance();
+  if (isAwake && (isSeen || !hasShown)) advance(); // where one processor does it all the first picture comes first
   if (!session.isBusy && !session.isReplay) keep();
   if (!isWanted || (isUnseen && session.isReplay) || !(hasMoved || hadEvents || hasNewTriangles)) return;
   show(hasMoved);
   hasMoved = false;
 }
 
-/** Frames keep the beat of the clock: a late one does not delay those after it, unless it was so late that they would be a rush. */
+/** Until somebody cuts, between the frames of a body that is seen. */
+function practise() {
+  if (practice?.isOver || !isSeen || session.isReplay || session.isBusy || events.length > 0) return;
+  const began = performance.now();
+  practice ??= new Practice(incise.Session, 5, PRACTICE_FRAMES);
+  while (!practice.isOver && performance.now() - began < PRACTICE_MS) practice.goOn();
+}
+
 function tick() {
   try {
-    if (session && isShown) goOn();
+    if (session && isShown) {
+      goOn();
+      practise();
+    }
   } catch (error) {
     if (isFatal(error)) return say('broken', { error: errorOf(error) });
     say('failed', { error: errorOf(error) });
   }
-  const now = performance.now();
-  due = Math.max(due + (session ? 1000 * session.figures().frameSeconds : 16), now - LATEST_MS);
-  timer = setTimeout(tick, Math.max(0, due - now));
+  beat.wait(session ? 1000 * session.figures().frameSeconds : 16);
 }
+const beat = new Beat(tick);
 
 const answers = {
   open,
@@ -254,6 +249,7 @@ function choose(what) {
 onmessage = ({ data }) => {
   if (data.type === 'want') {
     isWanted = true;
+    isSeen = hasShown; // by a machine that draws slowly, which then asks for the next
     hasNewTriangles ||= Boolean(data.isWhole);
   } else if (data.type === 'shown') {
     isShown = data.isShown;
@@ -271,9 +267,8 @@ holdLife((lock) => say('alive', { lock }));
 try {
   incise = await load();
   say('loaded', { version: incise.version, look: incise.look('dark') });
-  warmUp();
+  for (const first = new Practice(incise.Session, 2, 4); !first.isOver; ) first.goOn();
   say('warm');
-  clearTimeout(timer);
   tick();
 } catch (error) {
   say('broken', { error: errorOf(error) });

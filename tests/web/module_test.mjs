@@ -9,6 +9,7 @@ import { after, test } from 'node:test';
 import { at, hasPlain, incise, read } from './support.mjs';
 
 const { InciseError, hasSimd, load } = await import(at('build/npm/index.mjs'));
+const { Practice } = await import(at('build/npm/practice.mjs'));
 const module = await load();
 const builds = hasPlain ? [module, await load({ simd: false })] : [module];
 const folder = mkdtempSync(join(tmpdir(), 'incise-'));
@@ -330,6 +331,21 @@ test('what is disposed of gives its memory back', () => {
   }
 });
 
+test('practice cuts a cube, takes each stroke back, and leaves nothing', () => {
+  let session;
+  const practice = new Practice({ open: (...what) => (session = module.Session.open(...what)) }, 5, 30);
+  const tets = [session.figures().tets];
+  while (!practice.isOver) {
+    practice.goOn();
+    if (!practice.isOver) tets.push(session.figures().tets);
+  }
+  assert.equal(tets.length, 30);
+  assert.ok(tets[24] > tets[0], tets.join(' '));
+  assert.equal(tets[25], tets[0]);
+  assert.ok(tets[29] > tets[0], tets.join(' '));
+  assert.throws(() => session.frame(), { code: 'BadArgument' });
+});
+
 test('a written mesh reads back', () => {
   const engine = module.Engine.open(bunny, 'bunny.mesh');
   engine.cutPlane([0, 1, 0], 5);
@@ -348,6 +364,22 @@ test('the bytes of the module may be handed over', async () => {
   const located = await load({ locateFile: (name) => asked.push(name) && new URL(`file://${at('build/npm')}/${name}`).href });
   assert.deepEqual(asked, ['incise_core.wasm']);
   assert.equal(located.version, module.version);
+});
+
+test('an engine that lacks SIMD, or exceptions of its own, is given the build that does without both', async () => {
+  const { validate } = WebAssembly;
+  const holds = (bytes, part) => bytes.some((_, i) => part.every((byte, k) => bytes[i + k] === byte));
+  const vectors = [253, 15], tries = [6, 64]; // i8x16.splat; try without a result
+  try {
+    for (const lacks of [vectors, tries]) {
+      WebAssembly.validate = (bytes) => !holds(bytes, lacks) && validate(bytes);
+      const asked = [];
+      await load({ locateFile: (name) => asked.push(name) && 'file:///nowhere' }).catch(() => {});
+      assert.deepEqual(asked, ['incise_plain.wasm']);
+    }
+  } finally {
+    WebAssembly.validate = validate;
+  }
 });
 
 test('index.d.mts declares what the module has, and no more', () => {

@@ -71,3 +71,19 @@ test('of frames one is drawn and one waits; the next is wanted when that goes on
   frames.pass();
   assert.equal(wanted, 2);
 });
+
+test('where one processor computes and draws, the next frame is wanted a while after a picture is done', () => {
+  const shown = [], rests = [];
+  let wanted = 0;
+  const drawing = { isBusy: false, show: (frame) => (shown.push(frame), (drawing.isBusy = true)) };
+  const frames = new Frames(drawing, () => ++wanted, (then, ms) => rests.push([then, ms]));
+  frames.restMs = 20;
+  frames.take('a');
+  assert.deepEqual([shown, rests], [['a'], []]);
+  drawing.isBusy = false;
+  frames.pass();
+  assert.deepEqual([wanted, rests.length, rests[0][1]], [0, 1, 20]);
+  rests[0][0]();
+  frames.take('b');
+  assert.deepEqual([shown, wanted, rests.length], [['a', 'b'], 1, 1]);
+});

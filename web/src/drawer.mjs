@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // Takes what drawing.mjs sends, in a worker or in the page itself: one picture at a time, and as much in it as the machine draws in time.
-import { LEVELS, Picture, contextOf } from './picture.mjs';
+import { Detail } from './detail.mjs';
+import { Picture, contextOf } from './picture.mjs';
 
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i; // processors that draw
-const SLOW_MS = 30; // a picture that takes longer
-const SLOW_PICTURES = 10; // of the last `OF_PICTURES`: less is drawn from then on
-const OF_PICTURES = 14;
+const STILL_MS = 250; // after a picture that nothing follows it is drawn with more detail
+
+/** Who draws; '' where the browser does not tell. Asked before there is a picture: a context's samples are chosen when it is made. */
+function rendererHere() {
+  const context = contextOf(globalThis.OffscreenCanvas ? new OffscreenCanvas(1, 1) : document.createElement('canvas'), false);
+  const names = context?.getExtension('WEBGL_debug_renderer_info');
+  const renderer = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return renderer;
+}
 
 export class Drawer {
   #tell;
   #picture;
   #canvas;
-  #canFall = true;
-  #times = [];
+  #detail;
   #isDrawing = false;
   #isDue = false;
+  #stillTimer = 0;
 
   constructor(tell) {
     this.#tell = tell;
@@ -40,15 +48,14 @@ export class Drawer {
       this.#tell({ type: 'restored' });
       this.#ask();
     });
-    const context = contextOf(canvas);
+    const renderer = rendererHere(), isSoftware = SOFTWARE.test(renderer);
+    const context = contextOf(canvas, !isSoftware || level === 'full'); // four samples are most of what a processor has to do
     if (!context) return this.#tell({ type: 'unable' });
     this.#picture = new Picture(canvas, context, look);
-    const names = context.getExtension('WEBGL_debug_renderer_info');
-    const renderer = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
-    this.#canFall = !level;
-    this.#picture.setLevel(level ?? LEVELS[SOFTWARE.test(renderer) ? 1 : 0]);
+    this.#detail = new Detail(level, isSoftware);
+    this.#picture.setLevel(this.#detail.level);
     this.#picture.resize(...size);
-    this.#tell({ type: 'begun', renderer, level: this.#picture.level });
+    this.#tell({ type: 'begun', renderer, isSoftware, level: this.#detail.level }); // `isSoftware`: see `Frames.restMs`
   }
 
   #take({ frame }) {
@@ -68,50 +75,47 @@ export class Drawer {
 
   /** A picture of what is there, as soon as the last one is done. */
   #ask() {
+    clearTimeout(this.#stillTimer);
     this.#isDue = true;
-    if (!this.#isDrawing) this.#draw();
+    if (!this.#isDrawing) this.#draw(false);
   }
 
-  #draw() {
+  #draw(isStill) {
     this.#isDrawing = true;
     requestAnimationFrame(() => {
-      this.#isDue = false;
+      if (!isStill) this.#isDue = false;
       const began = performance.now(), context = this.#picture.renderer.getContext();
-      if (context.isContextLost()) return this.#done(0);
-      this.#picture.draw();
+      if (context.isContextLost()) return this.#done(0, isStill);
+      this.#drawAt(isStill ? this.#detail.still : this.#detail.level);
       const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
       context.flush();
-      this.#await(context, fence, began);
+      this.#await(context, fence, began, isStill);
     });
   }
 
+  #drawAt(level) {
+    if (this.#picture.level !== level) this.#picture.setLevel(level);
+    this.#picture.draw();
+  }
+
   /** A picture is done when it is on the screen's side, not when it has been asked for. */
-  #await(context, fence, began) {
+  #await(context, fence, began, isStill) {
     const status = fence && !context.isContextLost() ? context.clientWaitSync(fence, 0, 0) : context.ALREADY_SIGNALED;
-    if (status === context.TIMEOUT_EXPIRED) return setTimeout(() => this.#await(context, fence, began));
+    if (status === context.TIMEOUT_EXPIRED) return setTimeout(() => this.#await(context, fence, began, isStill));
     if (fence) context.deleteSync(fence);
-    this.#done(performance.now() - began);
+    this.#done(performance.now() - began, isStill);
   }
 
-  #done(ms) {
+  #done(ms, isStill) {
     this.#isDrawing = false;
-    this.#judge(ms);
+    if (!isStill && this.#detail.judge(ms)) this.#tell({ type: 'level', level: this.#detail.level });
     this.#tell({ type: 'drawn', ms, hasBody: this.#picture.surface.visible });
-    if (this.#isDue) this.#draw();
-  }
-
-  #judge(ms) {
-    this.#times.push(ms);
-    if (this.#times.length > OF_PICTURES) this.#times.shift();
-    const next = LEVELS[LEVELS.indexOf(this.#picture.level) + 1];
-    if (!this.#canFall || !next || this.#times.filter((each) => each > SLOW_MS).length < SLOW_PICTURES) return;
-    this.#times = [];
-    this.#picture.setLevel(next);
-    this.#tell({ type: 'level', level: next });
+    if (this.#isDue) this.#draw(false);
+    else if (!isStill && this.#detail.still !== this.#detail.level) this.#stillTimer = setTimeout(() => this.#draw(true), STILL_MS);
   }
 
   async #shoot() {
-    this.#picture.draw(); // what was drawn before may be gone
+    this.#drawAt(this.#detail.still); // what was drawn before may be gone
     const blob = this.#canvas.convertToBlob ? await this.#canvas.convertToBlob() : await new Promise((resolve) => this.#canvas.toBlob(resolve));
     this.#tell({ type: 'shot', blob });
   }

@@ -6,6 +6,7 @@ import { icon } from './icons.mjs';
 import { Keeper } from './keeper.mjs';
 import { KeyHand } from './keyboard.mjs';
 import { LONGEST_LINK, fromFragment, toFragment } from './link.mjs';
+import { grouped } from './numbers.mjs';
 import { Frames, batches, inTurn, newest } from './pacing.mjs';
 import { Panel } from './panel.mjs';
 import bodies from '../bodies.json';
@@ -20,6 +21,7 @@ const TOOLS = [
   { name: 'Retractor', label: 'Retractor', hint: 'Drag a lip aside: the retractor stays and holds it. A click on it lets go.' },
   { name: 'Pin', label: 'Pin', hint: 'Click on tissue to hold it there; click the pin to let go.' },
 ];
+const REST_MS = 20; // between two pictures of a processor, which has frames to compute as well
 const LARGEST_FILE = 200e6; // bytes; a mesh of some two million tets
 
 /** For tests and the curious: what the page measured of itself. */
@@ -94,19 +96,20 @@ async function fetchParts(body) {
   return Object.fromEntries(files);
 }
 
-async function open(what, id) {
+async function open(what, id, ownName) {
   say('Opening…');
   measured.state = 'opening';
   const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
   try {
     take(await keeper.open({ ...what, isStill }), id);
+    if (ownName) own(ownName); // before its first frame is here
   } catch (error) {
     if (hasFrame) measured.state = 'ready'; // what was there is there still
     throw error;
   }
   await setUp();
   if (opened.isReplay) say(isStill ? 'Playing the recording; its end is shown.' : 'Playing the recording of a link or file.');
-  else say(`${measured.tets.toLocaleString('en')} tets. ${hintOf(tool)}`);
+  else say(`${grouped(measured.tets)} tets. ${hintOf(tool)}`);
 }
 
 /** A session is there. */
@@ -141,8 +144,7 @@ async function openFile(file) {
   const body = bodies.find((each) => each.id === opened.id);
   const files = body ? await fetchParts(body) : {};
   delete files[file.name];
-  await open({ bytes, name: file.name, files }, '');
-  own(file.name);
+  await open({ bytes, name: file.name, files }, '', file.name);
 }
 
 /** Shows a body that is no row of the list. */
@@ -412,7 +414,10 @@ function startDrawing(look) {
   frames = new Frames(drawing, () => isReady && want());
   const hear = (type, what) => drawing.addEventListener(type, what);
   hear('drawn', onDrawn);
-  hear('begun', ({ detail }) => Object.assign(measured, { renderer: detail.renderer, level: detail.level }));
+  hear('begun', ({ detail }) => {
+    frames.restMs = detail.isSoftware ? REST_MS : 0;
+    Object.assign(measured, { renderer: detail.renderer, level: detail.level });
+  });
   hear('level', ({ detail }) => (measured.level = detail.level));
   hear('lost', () => say('The picture was lost; it comes back by itself.'));
   hear('restored', () => say('The picture is back.', 3));

@@ -46,23 +46,34 @@ export function inTurn() {
   };
 }
 
-/** Frames from who computes to who draws: at most one is drawn and one waits, and the next is wanted only when that goes on. */
+/**
+ * Frames from who computes to who draws: at most one is drawn and one waits, and the next is wanted when that goes on. Where one
+ * processor computes and draws none waits, and the next is wanted a while after a picture is done: it is of then, and frames were computed in between.
+ */
 export class Frames {
   #waiting = null;
-  constructor(drawing, want) {
+  #later;
+  /** From a picture to when the next frame is wanted; 0: it waits already. */
+  restMs = 0;
+  constructor(drawing, want, later = setTimeout) {
     this.drawing = drawing;
     this.want = want;
+    this.#later = later;
   }
   take(frame) {
     this.#waiting = frame;
-    this.pass();
+    this.#show();
   }
   /** To be called when drawing has become free, too. */
   pass() {
-    if (!this.#waiting || this.drawing.isBusy) return;
+    if (!this.#show() && this.restMs > 0) this.#later.call(globalThis, () => this.want(), this.restMs);
+  }
+  #show() {
+    if (!this.#waiting || this.drawing.isBusy) return false;
     const frame = this.#waiting;
     this.#waiting = null;
     this.drawing.show(frame);
-    this.want();
+    if (this.restMs === 0) this.want();
+    return true;
   }
 }

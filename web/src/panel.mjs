@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel of figures: what a frame brings, and what is asked for once a second while it is shown.
 import { drawHistogram } from './histogram.mjs';
+import { grouped } from './numbers.mjs';
 
 const $ = (id) => document.getElementById(id);
 const show = (id, text) => ($(id).textContent = text);
@@ -29,7 +30,7 @@ export class Panel {
     if (!this.isShown || !this.#figures) return;
     this.#shownAt = performance.now();
     const { tetsAtStart, tets, strokes, force, peakForce, frameMs, rate } = this.#figures;
-    show('f-tets', `${tetsAtStart.toLocaleString('en')} → ${tets.toLocaleString('en')}`);
+    show('f-tets', `${grouped(tetsAtStart)} → ${grouped(tets)}`);
     show('f-strokes', strokes);
     show('f-force', `${force.toFixed(2)} N, peak ${peakForce.toFixed(2)}`);
     show('f-frame', `${frameMs.toFixed(1)} ms`);

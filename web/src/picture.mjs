@@ -4,16 +4,17 @@ import {
   BufferGeometry, Color, Data3DTexture, DataTexture, DoubleSide, GLSL3, LinearFilter, Matrix4, Mesh, NearestFilter,
   PerspectiveCamera, RawShaderMaterial, RedFormat, RepeatWrapping, Scene, Vector2, WebGLRenderer,
 } from 'three';
+import { LEVELS } from './detail.mjs';
 import { GROUND, surfaceShader } from './glsl.mjs';
 import { Marks } from './marks.mjs';
 import { put } from './rows.mjs';
 
 const TISSUE = 0; // of `Frame.color`
-/** How much is drawn, from the best: with the grain of tissue; without; and with fewer pixels as well. */
-export const LEVELS = ['full', 'plain', 'coarse'];
+const AFTER_SOLIDS = 1; // of the order in which things are drawn; see marks.mjs
+const RATIOS = { full: 2, plain: 1, coarse: 0.6 }; // pixels of the picture in one of the page, at most
 
 /** What a picture is drawn with; null where the browser has no WebGL 2. */
-export const contextOf = (canvas) => canvas.getContext('webgl2', { antialias: true, alpha: false, powerPreference: 'high-performance' });
+export const contextOf = (canvas, antialias) => canvas.getContext('webgl2', { antialias, alpha: false, powerPreference: 'high-performance' });
 
 export class Picture {
   /** @param context  of WebGL 2, as `contextOf` makes it */
@@ -41,10 +42,10 @@ export class Picture {
   makeGround() {
     const geometry = new BufferGeometry();
     geometry.setIndex([0, 1, 2]);
-    const material = new RawShaderMaterial({ glslVersion: GLSL3, ...GROUND, uniforms: this.uniforms, depthTest: false, depthWrite: false });
+    const material = new RawShaderMaterial({ glslVersion: GLSL3, ...GROUND, uniforms: this.uniforms, depthWrite: false });
     const mesh = new Mesh(geometry, material);
     mesh.frustumCulled = false;
-    mesh.renderOrder = -1;
+    mesh.renderOrder = AFTER_SOLIDS; // where the body is no ground is drawn
     this.scene.add(mesh);
   }
 
@@ -83,7 +84,7 @@ export class Picture {
   resize(width, height, ratio = 1) {
     this.size = [width, height];
     this.ratio = ratio;
-    this.renderer.setPixelRatio(this.level === 'full' ? Math.min(ratio, 2) : this.level === 'plain' ? Math.min(ratio, 1) : 0.6 * Math.min(ratio, 1));
+    this.renderer.setPixelRatio(Math.min(ratio, RATIOS[this.level]));
     this.renderer.setSize(width, height, false);
     this.uniforms.pixels.value.set(width, height);
   }
