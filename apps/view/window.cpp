@@ -16,6 +16,7 @@ namespace incise_view {
 namespace {
 
 using namespace incise;
+using app::InputEvent;
 using app::KeyPress;
 using app::PointerEvent;
 
@@ -100,7 +101,7 @@ std::optional<KeyPress> press_of(int key, int scancode, int mods) {
 
 struct Window::State {
   GLFWwindow* window = nullptr;
-  std::vector<WindowEvent> events;
+  std::vector<InputEvent> events;
   // Of the pointer, as its last event had it: asked for, it is where the pointer has got to meanwhile, and a window
   // that is late would take a whole drag for a click at its end.
   std::array<double, 2> place{};
@@ -130,6 +131,8 @@ struct Window::State {
   static void on_button(GLFWwindow* window, int button, int action, int mods);
   static void on_wheel(GLFWwindow* window, double x, double y);
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+  static void on_character(GLFWwindow* window, unsigned code);
+  static void on_enter(GLFWwindow* window, int is_inside);
   static void on_drop(GLFWwindow* window, int count, const char** paths);
 };
 
@@ -139,6 +142,8 @@ void Window::State::listen() {
   glfwSetMouseButtonCallback(window, on_button);
   glfwSetScrollCallback(window, on_wheel);
   glfwSetKeyCallback(window, on_key);
+  glfwSetCharCallback(window, on_character);
+  glfwSetCursorEnterCallback(window, on_enter);
   glfwSetDropCallback(window, on_drop);
 }
 
@@ -186,12 +191,21 @@ void Window::State::on_wheel(GLFWwindow* window, double x, double y) {
 }
 
 void Window::State::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-  if (action == GLFW_RELEASE) return;
-  if (const std::optional<KeyPress> press = press_of(key, scancode, mods)) of(window).events.emplace_back(*press);
+  app::KeyChange change{key, scancode, action, mods, {}};
+  if (action != GLFW_RELEASE) change.press = press_of(key, scancode, mods);
+  of(window).events.emplace_back(change);
+}
+
+void Window::State::on_character(GLFWwindow* window, unsigned code) {
+  of(window).events.emplace_back(app::TypedCharacter{code});
+}
+
+void Window::State::on_enter(GLFWwindow* window, int is_inside) {
+  if (is_inside == 0) of(window).events.emplace_back(app::PointerLeft{});
 }
 
 void Window::State::on_drop(GLFWwindow* window, int count, const char** paths) {
-  for (int i = 0; i < count; ++i) of(window).events.emplace_back(DroppedFile{paths[i]});
+  for (int i = 0; i < count; ++i) of(window).events.emplace_back(app::DroppedFile{paths[i]});
 }
 
 Result<Window> Window::open(const std::string& title, const app::Viewport& size, unsigned samples) {
@@ -230,7 +244,7 @@ bool Window::should_close() const {
 void Window::ask_to_close(bool closes) {
   glfwSetWindowShouldClose(state_->window, closes ? GLFW_TRUE : GLFW_FALSE);
 }
-std::vector<WindowEvent> Window::take_events() {
+std::vector<InputEvent> Window::take_events() {
   return std::exchange(state_->events, {});
 }
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Drives incise-view under Xvfb as a restless person would: random tools, drags, clicks, wheel, keys, undo, redo,
-# resizing and quitting, on one scene after another. A run fails where the program ends otherwise than it was asked to,
-# or says anything on stderr, as the sanitizers do.
+# opening files and bodies, resizing and quitting, on one scene after another. A run is 40 to 119 actions; it fails where
+# the program ends otherwise than it was asked to, or says anything on stderr, as the sanitizers do. runs.txt has a line
+# for each: seed, scene, actions, how many bodies were open one after the other, seconds, exit code.
 # With INCISE_SOAK_PRELOAD=LIBRARY the program alone has that library loaded first, and glibc checks its memory.
 # usage: window_soak.sh BIN-FOLDER WORK-FOLDER SECONDS SEED [RUNS]
 # It ends after SECONDS, or after RUNS runs where that comes first. A run that fails comes back with its seed and RUNS 1,
@@ -61,31 +62,40 @@ tell() { # tell ARGUMENT...: to the window by xdotool, and to the log
   printf '%s\n' "$*" >>actions.txt
   xdotool "$@" 2>/dev/null || true
 }
-drag() {
-  local button steps i x0 y0
+drag() { # in one go, as fast as a hand: a program for each move would take longer than the move
+  local button steps i x0 y0 moves
   pick 1 1 1 1 3 2
   button=$picked
   steps=$((1 + RANDOM % 12))
   place
   x0=$x y0=$y
   place
-  tell mousemove "$x0" "$y0" mousedown "$button"
+  moves=(mousemove "$x0" "$y0" mousedown "$button")
   for ((i = 1; i <= steps; ++i)); do
-    tell mousemove $((x0 + (x - x0) * i / steps)) $((y0 + (y - y0) * i / steps))
-    [ $((RANDOM % 4)) != 0 ] || sleep 0.02
-    [ $((RANDOM % 40)) != 0 ] || tell key ctrl+z # in the middle of a stroke
+    moves+=(mousemove $((x0 + (x - x0) * i / steps)) $((y0 + (y - y0) * i / steps)))
+    [ $((RANDOM % 2)) != 0 ] || moves+=(sleep 0.02)
+    [ $((RANDOM % 40)) != 0 ] || moves+=(key ctrl+z) # in the middle of a stroke
   done
-  tell mouseup "$button"
+  tell "${moves[@]}" mouseup "$button"
+}
+open_another() { # by the button of the bodies, then a card, which may be the list of files, then a line of that
+  local cards_x cards_y
+  pick "" "" bodies files
+  [ "$picked" = files ] || tell mousemove $((width / 2 + 207)) $((height - 36)) click 1
+  cards_x=$((width / 6 + RANDOM % (2 * width / 3))) cards_y=$((height - 75 - RANDOM % 85))
+  if [ "$picked" = files ]; then cards_x=$((width / 2 + open_card)) cards_y=$((height - 135)); fi
+  tell mousemove "$cards_x" "$cards_y" sleep 0.05 click 1
+  tell sleep 0.2 mousemove $((width / 2 - 100)) $((height / 2 - 140 + RANDOM % 150)) sleep 0.05 click 1
 }
 act() {
-  case $((RANDOM % 16)) in
+  case $((RANDOM % 17)) in
     0 | 1 | 2 | 3 | 4) drag ;;
     5) place; tell mousemove "$x" "$y" click 1 ;;
     6 | 7) pick 1 2 2 3 4 5 6 7 8 9 0 u j; tell key "$picked" ;;
     8) pick ctrl+z ctrl+z ctrl+z ctrl+shift+z; tell key "$picked" ;;
     9) pick 4 5; place; tell mousemove "$x" "$y" click "$picked" ;;
     10 | 11) pick w c x Page_Down Page_Up q t o b p h f plus minus Left Up period period n g i Return comma; tell key "$picked" ;;
-    12) pick space space r v s ctrl+plus ctrl+minus Escape Tab; tell key "$picked" ;;
+    12) pick space space r v s ctrl+plus ctrl+minus Escape Tab ctrl+e; tell key "$picked" ;;
     13) place; tell keydown shift mousemove "$x" "$y" mousedown 1 mousemove $((x + 40)) $((y + 20)) mouseup 1 keyup shift ;;
     14)
       [ $((RANDOM % 3)) = 0 ] || return 0
@@ -93,7 +103,15 @@ act() {
       tell windowsize "$id" "$width" "$height"
       ;;
     15) sleep "0.$((RANDOM % 5))" ;;
+    16) open_another ;;
   esac
+  xdotool getwindowname "$id" 2>/dev/null >>titles.txt || true
+}
+lay_out_files() { # what the list of files then offers: bodies, a scene, a recording, and what is none
+  ln -s "$root/tests/recordings/cube.mesh" "$root/scenes/sim_cube.json" "$root/scenes/train_core.json" .
+  ln -s "$root/tests/recordings/everything.jsonl" .
+  head -c 300 "$root/tests/recordings/cube.mesh" >broken.mesh
+  printf '{"name": 3}\n' >broken.json
 }
 
 scenes=("" "$root/scenes/sim_cube.json" "$root/scenes/train_skin.json" "$root/scenes/sim_skin.json")
@@ -104,10 +122,11 @@ done
 
 run() { # run SEED: one program, from start to end
   RANDOM=$1
-  local folder=$work/run-$1 scene status=0 i actions
+  local folder=$work/run-$1 scene status=0 i actions=0 began=$SECONDS bodies
   rm -rf -- "$folder"
   mkdir -p -- "$folder"
   cd -- "$folder"
+  lay_out_files
   pick "${scenes[@]}"
   scene=$picked
   width=1280 height=720
@@ -141,7 +160,10 @@ run() { # run SEED: one program, from start to end
   fi
   wait "$pid" || status=$?
   pid=
+  bodies=$(uniq titles.txt 2>/dev/null | grep -c . || true)
   cd -- "$work"
+  printf 'seed %s: %s, %s actions, %s bodies, %s s, exit %s\n' "$1" "${scene##*/}" "$actions" "$bodies" \
+    $((SECONDS - began)) "$status" >>runs.txt
   if [ "$status" != 0 ] || [ -s "$folder/said.txt" ] || [ -z "$id" ]; then
     say "seed $1 on '${scene:-no file}' ended with $status after $(cat "$folder"/actions.txt 2>/dev/null | wc -l) actions:"
     head -n 60 "$folder/said.txt" >&2
@@ -150,6 +172,7 @@ run() { # run SEED: one program, from start to end
   rm -rf -- "$folder"
 }
 
+open_card=380 # right of the middle, in a window of 1280 pixels
 runs=0
 failed=0
 while [ $SECONDS -lt "$seconds" ] && [ $runs -lt "$most_runs" ]; do
