@@ -25,6 +25,7 @@ uniform bool is_behind;
 noperspective out vec2 place;  // pixels along the line from its start, and across
 flat out vec2 sizes;           // length and half width in pixels
 flat out uvec2 look;           // style, dashed
+flat out float lift;           // of the line over the surface, in depths of the picture
 // Shares of the way to the eye, whatever lies between the nearest and the furthest of the scene.
 const float kNearer = 5e-4;      // lines on a surface come before it
 const float kMuchNearer = 4e-3;  // rims of wounds: lips may overlap
@@ -48,6 +49,7 @@ void main() {
   sizes = vec2(size, 0.5 * width);
   look = traits.xz;
   float nearer = is_behind ? 0.0 : traits.y == 2u ? kMuchNearer : kNearer;
+  lift = -0.5 * nearer * to_clip[3][2] / at.w;
   gl_Position = vec4(p / (0.5 * pixels) * at.w, at.z + nearer * to_clip[3][2], at.w);
 }
 )";
@@ -56,6 +58,7 @@ inline constexpr const char* kLineFragment = R"(
 noperspective in vec2 place;
 flat in vec2 sizes;
 flat in uvec2 look;
+flat in float lift;
 uniform bool is_behind;
 out vec4 color;
 
@@ -82,6 +85,8 @@ void main() {
   float opacity = max(ink, casing);
   if (opacity < 0.03) discard;
   color = vec4(mix(casings[style], inks[style], ink), is_behind ? 0.32 * ink : opacity);
+  // Soft edges lie deeper: where lines meet, the edge of one would else keep the ink of the next off.
+  gl_FragDepth = gl_FragCoord.z + (ink < 0.9 ? 0.75 * lift : 0.0);
 }
 )";
 
@@ -106,7 +111,7 @@ void main() {
     place = corner * (radius + kCasing + 1.0);
     view_position = c + vec3(place * pixel, 0);
     gl_Position = to_clip * vec4(view_position, 1);
-    vec4 front = to_clip * vec4(c + vec3(0, 0, r), 1);  // no half of it sinks into the surface
+    vec4 front = to_clip * vec4(c + vec3(0, 0, 3.0 * r), 1);  // no part of it sinks into the surface, however steep
     gl_Position.z = max(front.z / front.w, -0.999) * gl_Position.w;
     return;
   }
