@@ -125,8 +125,8 @@ void Application::frame() {
   }
 }
 
-/// Panels follow one step a frame; of the frames of a picture the last one is drawn. So nothing is lost to them, however
-/// slow pictures are.
+/// Panels follow one step a frame; of the frames of a picture the last one is drawn. So nothing is lost to them,
+/// however slow pictures are.
 void Application::take_events() {
   const std::vector<app::InputEvent> events = window_.take_events();
   if (!events.empty()) frames_to_draw_ = kSettlingFrames + 1;

@@ -97,8 +97,9 @@ void Interface::take(const app::DroppedFile& /*file*/) {}
 void Interface::show_pointer() const {
   ImGuiIO& io = ImGui::GetIO();
   const ImVec2& scale = io.DisplayFramebufferScale;
-  io.MousePos = is_outside_ ? ImVec2(-FLT_MAX, -FLT_MAX)
-                            : ImVec2(static_cast<float>(pixel_.x()) / scale.x, static_cast<float>(pixel_.y()) / scale.y);
+  io.MousePos = is_outside_
+                    ? ImVec2(-FLT_MAX, -FLT_MAX)
+                    : ImVec2(static_cast<float>(pixel_.x()) / scale.x, static_cast<float>(pixel_.y()) / scale.y);
   std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
   std::copy(is_down_.begin(), is_down_.end(), std::begin(io.MouseDown));
 }

@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace incise_view {
@@ -107,8 +108,8 @@ struct Window::State {
   std::array<double, 2> place{};
   std::array<int, 4> before_full{};  // place and size
   bool is_full = false;
-  app::Cursor cursor = app::Cursor::kArrow;
-  std::array<GLFWcursor*, 4> cursors{};  // by `app::Cursor`; null: the system's arrow
+  std::optional<app::Cursor> cursor;     // that is shown; at first whatever the system has
+  std::array<GLFWcursor*, 4> cursors{};  // by `app::Cursor`; null: not made yet
 
   State() = default;
   State(const State&) = delete;
@@ -282,9 +283,10 @@ void Window::set_full_screen(bool is_full) {
 
 void Window::show_cursor(app::Cursor cursor) {
   State& s = *state_;
-  if (cursor == s.cursor) return;
+  if (s.cursor == cursor) return;
   s.cursor = cursor;
   GLFWcursor*& made = s.cursors[static_cast<std::size_t>(cursor)];
+  if (made == nullptr && cursor == app::Cursor::kArrow) made = glfwCreateStandardCursor(GLFW_ARROW_CURSOR);
   if (made == nullptr && cursor == app::Cursor::kCross) made = glfwCreateStandardCursor(GLFW_CROSSHAIR_CURSOR);
   if (made == nullptr && cursor == app::Cursor::kHand) made = glfwCreateStandardCursor(GLFW_HAND_CURSOR);
   if (made == nullptr && cursor == app::Cursor::kBarred) made = make_barred_cursor();

@@ -25,8 +25,10 @@ command -v xdotool >/dev/null || { say "there is no xdotool"; exit 77; }
 export LSAN_OPTIONS="suppressions=$root/script/lib/window_leaks.txt:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}"
 
 pid=
+hand=
 server=
 end() {
+  [ -z "$hand" ] || kill "$hand" 2>/dev/null || true
   [ -z "$pid" ] || kill "$pid" 2>/dev/null || true
   [ -z "$server" ] || kill "$server" 2>/dev/null || true
 }
@@ -36,7 +38,7 @@ unset DISPLAY WAYLAND_DISPLAY XAUTHORITY
 Xvfb -displayfd 3 -screen 0 1280x800x24 +extension GLX -nolisten tcp -noreset 3>"$work/display.txt" >/dev/null 2>&1 &
 server=$!
 answers() { # whether the server has a number and takes clients
-  grep -q '^[0-9][0-9]*$' "$work/display.txt" || return 1
+  grep -qs '^[0-9][0-9]*$' "$work/display.txt" || return 1
   DISPLAY=:$(cat "$work/display.txt")
   export DISPLAY
   [ "$(xdotool getdisplaygeometry 2>/dev/null)" = "1280 800" ]
@@ -58,11 +60,8 @@ place() { # into `x` and `y`: mostly in the middle of the picture, where the bod
     x=$((width / 4 + RANDOM % (width / 2))) y=$((height / 4 + RANDOM % (height / 2)))
   fi
 }
-tell() { # tell ARGUMENT...: to the window by xdotool, and to the log
-  printf '%s\n' "$*" >>actions.txt
-  xdotool "$@" 2>/dev/null || true
-}
-drag() { # in one go, as fast as a hand: a program for each move would take longer than the move
+tell() { printf '%s\n' "$*" >>actions.txt; } # tell ARGUMENT...: what xdotool is to do
+drag() {
   local button steps i x0 y0 moves
   pick 1 1 1 1 3 2
   button=$picked
@@ -80,10 +79,13 @@ drag() { # in one go, as fast as a hand: a program for each move would take long
 }
 open_another() { # by the button of the bodies, then a card, which may be the list of files, then a line of that
   local cards_x cards_y
-  pick "" "" bodies files
-  [ "$picked" = files ] || tell mousemove $((width / 2 + 207)) $((height - 36)) click 1
+  # Whatever keys have hidden, the first panels are there then.
+  tell key Escape key Tab
+  if [ "$is_research" = 0 ]; then tell key Tab; fi
+  is_research=0
+  [ $((RANDOM % 3)) = 0 ] || tell mousemove $((width / 2 + 207)) $((height - 36)) click 1
   cards_x=$((width / 6 + RANDOM % (2 * width / 3))) cards_y=$((height - 75 - RANDOM % 85))
-  if [ "$picked" = files ]; then cards_x=$((width / 2 + open_card)) cards_y=$((height - 135)); fi
+  if [ $((RANDOM % 3)) = 0 ]; then cards_x=$((width / 2 + (width < 1068 ? 251 : 370))) cards_y=$((height - 138)); fi
   tell mousemove "$cards_x" "$cards_y" sleep 0.05 click 1
   tell sleep 0.2 mousemove $((width / 2 - 100)) $((height / 2 - 140 + RANDOM % 150)) sleep 0.05 click 1
 }
@@ -95,17 +97,17 @@ act() {
     8) pick ctrl+z ctrl+z ctrl+z ctrl+shift+z; tell key "$picked" ;;
     9) pick 4 5; place; tell mousemove "$x" "$y" click "$picked" ;;
     10 | 11) pick w c x Page_Down Page_Up q t o b p h f plus minus Left Up period period n g i Return comma; tell key "$picked" ;;
-    12) pick space space r v s ctrl+plus ctrl+minus Escape Tab ctrl+e; tell key "$picked" ;;
+    12) pick space space r v s ctrl+plus ctrl+minus Escape Tab ctrl+e; tell key "$picked"; [ "$picked" != Tab ] || is_research=$((1 - is_research)) ;;
     13) place; tell keydown shift mousemove "$x" "$y" mousedown 1 mousemove $((x + 40)) $((y + 20)) mouseup 1 keyup shift ;;
     14)
       [ $((RANDOM % 3)) = 0 ] || return 0
       width=$((320 + RANDOM % 900)) height=$((240 + RANDOM % 500))
       tell windowsize "$id" "$width" "$height"
       ;;
-    15) sleep "0.$((RANDOM % 5))" ;;
+    15) tell sleep "0.$((RANDOM % 10))" ;;
     16) open_another ;;
   esac
-  xdotool getwindowname "$id" 2>/dev/null >>titles.txt || true
+  tell sleep 0.05 getwindowname "$id"
 }
 lay_out_files() { # what the list of files then offers: bodies, a scene, a recording, and what is none
   ln -s "$root/tests/recordings/cube.mesh" "$root/scenes/sim_cube.json" "$root/scenes/train_core.json" .
@@ -120,18 +122,21 @@ for recording in "$root"/tests/recordings/*.jsonl; do
   [ ! -e "$recording" ] || scenes+=("$recording")
 done
 
+worked() { awk '{ print $14 + $15 }' "/proc/$pid/stat" 2>/dev/null || echo 0; } # hundredths of a second
+
 run() { # run SEED: one program, from start to end
   RANDOM=$1
-  local folder=$work/run-$1 scene status=0 i actions=0 began=$SECONDS bodies
+  local folder=$work/run-$1 scene status=0 i actions=0 began=$SECONDS bodies is_research=0 quit_by
   rm -rf -- "$folder"
   mkdir -p -- "$folder"
   cd -- "$folder"
   lay_out_files
   pick "${scenes[@]}"
   scene=$picked
-  width=1280 height=720
+  pick 1280x720 1280x720 960x600 800x600 640x400
+  width=${picked%x*} height=${picked#*x}
   env ${INCISE_SOAK_PRELOAD:+LD_PRELOAD="$INCISE_SOAK_PRELOAD" GLIBC_TUNABLES=glibc.malloc.check=3} \
-    "$bin/incise-view" ${scene:+"$scene"} >told.txt 2>said.txt &
+    "$bin/incise-view" --size "${width}x$height" ${scene:+"$scene"} >told.txt 2>said.txt &
   pid=$!
   id=
   for ((i = 0; i < 600; ++i)); do
@@ -142,21 +147,30 @@ run() { # run SEED: one program, from start to end
   done
   if [ -n "$id" ]; then
     xdotool windowfocus "$id" 2>/dev/null || true
-    actions=$((40 + RANDOM % 80))
-    for ((i = 0; i < actions; ++i)); do
-      kill -0 "$pid" 2>/dev/null || break
-      act
+    for ((i = 0; i < 600; ++i)); do # until it shows its body
+      [ "$(xdotool getwindowname "$id" 2>/dev/null)" = Incise ] && kill -0 "$pid" 2>/dev/null || break
+      sleep 0.1
     done
-    # It may be busy; it takes the key once it is not.
-    for ((i = 0; i < 60; ++i)); do
-      kill -0 "$pid" 2>/dev/null || break
-      tell key ctrl+q
+    actions=$((40 + RANDOM % 80))
+    for ((i = 0; i < actions; ++i)); do act; done
+    # By one program: starting one for each action takes longer than the action.
+    xdotool actions.txt >titles.txt 2>/dev/null &
+    hand=$!
+    while kill -0 "$hand" 2>/dev/null && kill -0 "$pid" 2>/dev/null; do sleep 0.2; done
+    kill "$hand" 2>/dev/null || true
+    wait "$hand" 2>/dev/null || true
+    hand=
+    # It may be busy; it takes the key once it is not. Half a minute is that of its own work: the machine may be busier.
+    quit_by=$(($(worked) + 3000))
+    for ((i = 0; i < 1200; ++i)); do
+      kill -0 "$pid" 2>/dev/null && [ "$(worked)" -lt $quit_by ] || break
+      xdotool key ctrl+q 2>/dev/null || true
       sleep 0.5
     done
   fi
   if kill -0 "$pid" 2>/dev/null; then
     kill -ABRT "$pid"
-    printf 'it did not quit in half a minute\n' >>said.txt
+    printf 'it did not quit\n' >>said.txt
   fi
   wait "$pid" || status=$?
   pid=
@@ -172,7 +186,6 @@ run() { # run SEED: one program, from start to end
   rm -rf -- "$folder"
 }
 
-open_card=380 # right of the middle, in a window of 1280 pixels
 runs=0
 failed=0
 while [ $SECONDS -lt "$seconds" ] && [ $runs -lt "$most_runs" ]; do

@@ -25,7 +25,6 @@ uniform bool is_behind;
 noperspective out vec2 place;  // pixels along the line from its start, and across
 flat out vec2 sizes;           // length and half width in pixels
 flat out uvec2 look;           // style, dashed
-flat out float lift;           // of the line over the surface, in depths of the picture
 // Shares of the way to the eye, whatever lies between the nearest and the furthest of the scene.
 const float kNearer = 5e-4;      // lines on a surface come before it
 const float kMuchNearer = 4e-3;  // rims of wounds: lips may overlap
@@ -49,7 +48,6 @@ void main() {
   sizes = vec2(size, 0.5 * width);
   look = traits.xz;
   float nearer = is_behind ? 0.0 : traits.y == 2u ? kMuchNearer : kNearer;
-  lift = -0.5 * nearer * to_clip[3][2] / at.w;
   gl_Position = vec4(p / (0.5 * pixels) * at.w, at.z + nearer * to_clip[3][2], at.w);
 }
 )";
@@ -58,7 +56,6 @@ inline constexpr const char* kLineFragment = R"(
 noperspective in vec2 place;
 flat in vec2 sizes;
 flat in uvec2 look;
-flat in float lift;
 uniform bool is_behind;
 out vec4 color;
 
@@ -85,8 +82,6 @@ void main() {
   float opacity = max(ink, casing);
   if (opacity < 0.03) discard;
   color = vec4(mix(casings[style], inks[style], ink), is_behind ? 0.32 * ink : opacity);
-  // Soft edges lie deeper: where lines meet, the edge of one would else keep the ink of the next off.
-  gl_FragDepth = gl_FragCoord.z + (ink < 0.9 ? 0.75 * lift : 0.0);
 }
 )";
 

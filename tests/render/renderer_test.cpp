@@ -239,13 +239,6 @@ app::Picture flat_sheet() {
   return picture;
 }
 
-/// Of a row of pixels across a line in the middle of the picture.
-int darkest_at(const incise::render::Image& image, int y) {
-  int darkest = 255;
-  for (int x = image.width / 2 - 3; x <= image.width / 2 + 3; ++x) darkest = std::min<int>(darkest, image.at(x, y)[0]);
-  return darkest;
-}
-
 app::Picture below_a_punch() {
   app::Picture picture = incise_test::sheet(8);
   app::Instrument punch;
@@ -327,29 +320,6 @@ TEST(Renderer, a_mark_on_tissue_that_is_seen_aslant_is_drawn_whole) {
   }
   EXPECT_GT(above, 200);
   EXPECT_NEAR(below, above, 0.15 * above);
-}
-
-TEST(Renderer, a_rim_of_several_edges_has_no_gap_where_they_meet) {
-  Drawing drawing(incise_test::kSmall, 0);
-  INCISE_SKIP_WITHOUT(drawing);
-  app::Picture picture = flat_sheet();
-  auto topology = incise_test::copy_of(picture.surface);
-  for (std::uint32_t i = 0; i < 8; ++i) topology->contour_edges.push_back({9 * i + 4, 9 * (i + 1) + 4});
-  picture.surface.topology = topology;
-  picture.camera.azimuth = 0.5 * std::numbers::pi;  // along them
-  expect_drawn(drawing, picture);
-  const incise::render::Image image = drawing.read();
-  const auto row = [&](double y) {
-    return static_cast<int>(to_pixel(picture.camera, incise_test::kSmall, {0.5, y, 0}).value().y());
-  };
-  const auto [first, last] = std::minmax(row(0.05), row(0.95));
-  int lightest = 0, darkest = 255;
-  for (int y = first; y <= last; ++y) {
-    lightest = std::max(lightest, darkest_at(image, y));
-    darkest = std::min(darkest, darkest_at(image, y));
-  }
-  EXPECT_LT(first, last - 20);
-  EXPECT_LE(lightest - darkest, 24);
 }
 
 }  // namespace renderer_test

@@ -509,7 +509,8 @@ void SessionThread::stop_recording() {
   state_->post([s = state_.get()] { s->stop_recording(); });
 }
 void SessionThread::start_or_stop_recording(const std::filesystem::path& path) {
-  state_->post([s = state_.get(), path] { s->session.is_recording() ? s->stop_recording() : s->start_recording(path); });
+  state_->post(
+      [s = state_.get(), path] { s->session.is_recording() ? s->stop_recording() : s->start_recording(path); });
 }
 void SessionThread::export_mesh(const std::filesystem::path& path) {
   state_->post([s = state_.get(), path] {

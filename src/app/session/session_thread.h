@@ -79,7 +79,7 @@ class SessionThread {
   void open(StartingExercise exercise);
   void pause(bool is_paused);
   void pause_or_go_on();  ///< whichever it does not do then
-  void step();  ///< one frame, and pauses
+  void step();            ///< one frame, and pauses
   void reset();
   void undo();
   void redo();

@@ -32,8 +32,8 @@ struct DroppedFile {
 using InputEvent = std::variant<PointerEvent, PointerLeft, KeyChange, TypedCharacter, DroppedFile>;
 
 /// How many of the first events are one step: ways of the pointer up to and including the first event that is another
-/// one. Panels look at where the pointer and what its buttons are once a step: a press and its release in one step would
-/// be nothing to them, and a press after which the pointer went on would be one elsewhere. 0 without events.
+/// one. Panels look at where the pointer and what its buttons are once a step: a press and its release in one step
+/// would be nothing to them, and a press after which the pointer went on would be one elsewhere. 0 without events.
 [[nodiscard]] std::size_t step_length(std::span<const InputEvent> events);
 
 }  // namespace app

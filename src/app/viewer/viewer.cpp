@@ -137,7 +137,9 @@ void Viewer::State::end_demonstration() {
   is_changed = true;
 }
 
+/// A release changes nothing about what the next press would do.
 void Viewer::State::choose_cursor(const PointerEvent& event) {
+  if (event.kind == PointerEvent::Kind::kRelease) return;
   const bool is_watched = !options.mouse_is_hand || session.view().is_replay;
   const bool only_looks = kTools[static_cast<std::size_t>(tools.tool())].make == nullptr;
   if (event.alt || only_looks || is_watched) {

@@ -69,8 +69,8 @@ class Viewer {
   void act(Action action, const Viewport& viewport);
   /// Moves the clip plane, where there is one: the share of the body that is cut away, in [0, 1].
   void set_clip_depth(double depth);
-  /// How many pixels of the picture's width, around its middle, panels leave free: bodies are framed there from then on,
-  /// while panels are shown, but never in less than two fifths of the picture.
+  /// How many pixels of the picture's width, around its middle, panels leave free: bodies are framed there from then
+  /// on, while panels are shown, but never in less than two fifths of the picture.
   void leave_free(double width);
   /// A file was dropped, or named.
   void open(const std::filesystem::path& path);

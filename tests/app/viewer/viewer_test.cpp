@@ -540,6 +540,22 @@ TEST_F(ViewerTest, pointer_events_reach_the_tools_and_the_simulation) {
   EXPECT_TRUE(sees([](const SessionView& view) { return view.figures.tets > 162; }));
 }
 
+TEST_F(ViewerTest, the_cursor_tells_what_a_press_would_do) {
+  act(Action::kPause);
+  act(app::action_of(ToolKind::kProbe));
+  ASSERT_TRUE(sees([](const SessionView& view) { return !view.is_paused; }));
+  send(Kind::kMove, {5, 5});
+  EXPECT_EQ(viewer_->cursor(), app::Cursor::kArrow);
+  send(Kind::kMove, top(0.52));
+  EXPECT_EQ(viewer_->cursor(), app::Cursor::kCross);
+  send(Kind::kPress, top(0.52));
+  send(Kind::kRelease, top(0.52));
+  EXPECT_EQ(viewer_->cursor(), app::Cursor::kCross);
+  act(app::action_of(ToolKind::kOrbit));
+  send(Kind::kMove, top(0.5));
+  EXPECT_EQ(viewer_->cursor(), app::Cursor::kHand);
+}
+
 TEST_F(ViewerTest, a_plane_cut_is_made) {
   act(Action::kPause);
   act(app::action_of(ToolKind::kPlaneCut));
