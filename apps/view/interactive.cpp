@@ -3,8 +3,10 @@
 
 #include <imgui.h>
 
+#include <bitset>
 #include <chrono>
 #include <cstdio>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -30,8 +32,6 @@ using namespace incise;
 constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
 constexpr int kSettlingFrames = 3;         // after something happened, until panels have found their sizes
 constexpr unsigned kWindowSamples = 4;
-// Of the picture, between the panels.
-const app::Vec2 kFreeShare(0.8, 0.74), kResearchShare(0.56, 1);
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -45,8 +45,6 @@ app::ViewerOptions options_of(const Arguments& arguments, bool is_software) {
   options.shades_hollows = options.has_shadows = !is_software;
   options.mouse_is_hand = arguments.device == "mouse" || incise_apps::is_haply(arguments.device);
   options.keeps_tool = incise_apps::is_haply(arguments.device);
-  options.free_share = kFreeShare;
-  options.research_share = kResearchShare;
   return options;
 }
 
@@ -68,7 +66,9 @@ class Application {
  private:
   [[nodiscard]] bool ends();
   void frame();
-  void handle_events();
+  void take_events();
+  void take_step(std::span<const app::InputEvent> step);
+  void handle(const app::InputEvent& event);
   void handle(const app::PointerEvent& event);
   void draw();
   void print_score();
@@ -83,7 +83,7 @@ class Application {
   Panels drawn_panels_;
   app::Viewer viewer_;
   int frames_to_draw_ = kSettlingFrames;
-  bool is_dragging_ = false;  // from the picture, wherever the pointer is meanwhile
+  std::bitset<3> dragging_;   // buttons that went down in the picture, wherever the pointer is meanwhile
   bool has_printed_ = false;  // the score
   std::string complaint_;     // the last one about drawing
   std::string title_;
@@ -108,9 +108,7 @@ bool Application::ends() {
 void Application::frame() {
   panels_.viewport = window_.viewport();
   const app::ViewerState& state = std::as_const(viewer_).state();
-  interface_.begin(state.options.theme, state.text_scale);
-  handle_events();
-  drawn_panels_.draw(viewer_, panels_);
+  take_events();
   const bool has_changed = viewer_.update(panels_.viewport, seconds_now());
   frames_to_draw_ = has_changed ? kSettlingFrames : frames_to_draw_ - 1;
   if (frames_to_draw_ > 0) {
@@ -127,23 +125,43 @@ void Application::frame() {
   }
 }
 
-void Application::handle_events() {
-  for (const WindowEvent& event : window_.take_events()) {
-    frames_to_draw_ = kSettlingFrames + 1;
-    if (const auto* pointer = std::get_if<app::PointerEvent>(&event)) handle(*pointer);
-    if (const auto* dropped = std::get_if<DroppedFile>(&event)) viewer_.open(dropped->path);
-    const auto* press = std::get_if<app::KeyPress>(&event);
-    if (press == nullptr || interface_.wants_keys()) continue;
-    if (const std::optional<app::Action> action = app::action_of(*press)) viewer_.act(*action, panels_.viewport);
+/// Panels follow one step a frame; of the frames of a picture the last one is drawn. So nothing is lost to them,
+/// however slow pictures are.
+void Application::take_events() {
+  const std::vector<app::InputEvent> events = window_.take_events();
+  if (!events.empty()) frames_to_draw_ = kSettlingFrames + 1;
+  std::span<const app::InputEvent> left(events);
+  while (true) {
+    const std::span<const app::InputEvent> step = left.first(app::step_length(left));
+    left = left.subspan(step.size());
+    take_step(step);
+    if (left.empty()) return;
+    interface_.skip();
   }
+}
+
+void Application::take_step(std::span<const app::InputEvent> step) {
+  const app::ViewerState& state = std::as_const(viewer_).state();
+  interface_.begin(state.options.theme, state.text_scale, step);
+  for (const app::InputEvent& event : step) handle(event);
+  drawn_panels_.draw(viewer_, panels_);
+}
+
+void Application::handle(const app::InputEvent& event) {
+  if (const auto* pointer = std::get_if<app::PointerEvent>(&event)) handle(*pointer);
+  if (const auto* dropped = std::get_if<app::DroppedFile>(&event)) viewer_.open(dropped->path);
+  const auto* key = std::get_if<app::KeyChange>(&event);
+  if (key == nullptr || !key->press || interface_.wants_keys()) return;
+  if (const std::optional<app::Action> action = app::action_of(*key->press)) viewer_.act(*action, panels_.viewport);
 }
 
 /// A drag that began in the picture stays the picture's; one that began on a panel stays the panel's.
 void Application::handle(const app::PointerEvent& event) {
   using Kind = app::PointerEvent::Kind;
-  if (!is_dragging_ && interface_.wants_pointer()) return;
-  if (event.kind == Kind::kPress) is_dragging_ = true;
-  if (event.kind == Kind::kRelease) is_dragging_ = false;
+  if (dragging_.none() && interface_.wants_pointer()) return;
+  const auto button = static_cast<std::size_t>(event.button);
+  if (event.kind == Kind::kPress) dragging_.set(button);
+  if (event.kind == Kind::kRelease) dragging_.reset(button);
   viewer_.handle(event, panels_.viewport);
 }
 

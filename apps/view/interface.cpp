@@ -5,8 +5,11 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <filesystem>
+#include <variant>
 
 namespace incise_view {
 namespace {
@@ -44,7 +47,9 @@ void use_theme(app::Theme theme) {
 Interface::Interface(const Window& window) : window_(window) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
-  ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+  // The cursor is the application's, and so are the events, which come in steps: GLFW's state would be that at the end.
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -69,13 +74,45 @@ void Interface::make_fonts(float pixels) {
   font_pixels_ = pixels;
 }
 
-void Interface::begin(app::Theme theme, double text_scale) {
+void Interface::take(const app::PointerEvent& event) {
+  using Kind = app::PointerEvent::Kind;
+  pixel_ = event.pixel;
+  is_outside_ = false;
+  const bool is_button = event.kind == Kind::kPress || event.kind == Kind::kRelease;
+  if (is_button) is_down_[static_cast<std::size_t>(event.button)] = event.kind == Kind::kPress;
+  if (event.kind == Kind::kWheel) ImGui::GetIO().MouseWheel += static_cast<float>(event.wheel);
+}
+/// A drag goes on beyond the rim.
+void Interface::take(const app::PointerLeft& /*event*/) {
+  is_outside_ = std::find(is_down_.begin(), is_down_.end(), true) == is_down_.end();
+}
+void Interface::take(const app::KeyChange& change) {
+  ImGui_ImplGlfw_KeyCallback(window_.handle(), change.key, change.scan_code, change.action, change.modifiers);
+}
+void Interface::take(const app::TypedCharacter& character) {
+  ImGui_ImplGlfw_CharCallback(window_.handle(), character.code);
+}
+void Interface::take(const app::DroppedFile& /*file*/) {}
+
+void Interface::show_pointer() const {
+  ImGuiIO& io = ImGui::GetIO();
+  const ImVec2& scale = io.DisplayFramebufferScale;
+  io.MousePos = is_outside_
+                    ? ImVec2(-FLT_MAX, -FLT_MAX)
+                    : ImVec2(static_cast<float>(pixel_.x()) / scale.x, static_cast<float>(pixel_.y()) / scale.y);
+  std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
+  std::copy(is_down_.begin(), is_down_.end(), std::begin(io.MouseDown));
+}
+
+void Interface::begin(app::Theme theme, double text_scale, std::span<const app::InputEvent> step) {
   const float pixels = std::round(kTextPixels * static_cast<float>(text_scale * window_.density()));
   if (pixels != font_pixels_) make_fonts(pixels);
   use_theme(theme);
   ImGui::GetStyle().ScaleAllSizes(pixels / kTextPixels);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  for (const app::InputEvent& event : step) std::visit([this](const auto& one) { take(one); }, event);
+  show_pointer();
   ImGui::NewFrame();
 }
 

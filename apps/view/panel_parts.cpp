@@ -42,11 +42,16 @@ void heading(const char* name) {
 }
 
 bool begin_panel(const char* name, const ImVec2& at, float width, float most_height) {
-  const ImGuiViewport* screen = ImGui::GetMainViewport();
+  const ImVec2 screen = ImGui::GetMainViewport()->Size;
   const float margin = kMargin * em();
-  const ImVec2 inner(screen->Size.x - 2 * margin, screen->Size.y - 2 * margin);
-  ImGui::SetNextWindowPos({margin + at.x * inner.x, margin + at.y * inner.y}, ImGuiCond_Always, at);
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width > 0 ? width : inner.x, most_height});
+  const ImVec2 place(margin + at.x * (screen.x - 2 * margin), margin + at.y * (screen.y - 2 * margin));
+  return begin_panel_at(name, place, at, width, most_height);
+}
+
+bool begin_panel_at(const char* name, const ImVec2& place, const ImVec2& pivot, float width, float most_height) {
+  const float most_width = ImGui::GetMainViewport()->Size.x - 2 * kMargin * em();
+  ImGui::SetNextWindowPos(place, ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width > 0 ? width : most_width, most_height});
   return ImGui::Begin(name, nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
 }
 

@@ -31,6 +31,8 @@ void hint(const std::string& line);
 /// A window at a corner or an edge of the picture: `at` and `pivot` as shares of it and of the panel. Call
 /// `ImGui::End`.
 bool begin_panel(const char* name, const ImVec2& at, float width, float most_height);
+/// The same where `pivot` of the panel is at a place of the picture.
+bool begin_panel_at(const char* name, const ImVec2& place, const ImVec2& pivot, float width, float most_height);
 /// The chosen tool's settings, over the width that there is. Returns whether it has any.
 bool tool_settings(incise::app::Viewer& viewer);
 /// Winds a recording on.

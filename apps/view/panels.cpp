@@ -29,6 +29,7 @@ constexpr float kTimeHalfWidth = 15.5F, kTimeHeight = 11;
 constexpr float kBarHalfWidth = 16.2F, kReplayHalfWidth = 24;  // of the bar of time without Research
 constexpr float kReplayHigher = 0.8F;                          // that bar, where a recording is played
 constexpr float kExerciseWidth = 25, kNarrowExerciseWidth = 20.5F;
+constexpr float kProbeWidth = 20.5F, kLeastWidth = 15;  // of the probe's panel, and of what is beside research's tools
 constexpr int kLogLines = 5;
 
 void tool_buttons(Viewer& viewer, const PanelContext& context) {
@@ -228,9 +229,17 @@ void log_lines(const app::SessionView& view) {
   for (std::size_t i = first; i < all.size(); ++i) faint(app::formatted("{:6.1f} s  {}", all[i].time, all[i].text));
 }
 
+/// In the middle, or to the left of the figures where these would hide a part.
+bool begin_time() {
+  const ImVec2 screen = ImGui::GetMainViewport()->Size;
+  const float figures = screen.x - (kFiguresWidth + 2 * kMargin) * em();
+  if (0.5F * screen.x + kTimeHalfWidth * em() <= figures) return begin_panel("time", {0.5F, 1}, 0, 12 * em());
+  return begin_panel_at("time", {figures, screen.y - kMargin * em()}, {1, 1}, 0, 12 * em());
+}
+
 void draw_time(Viewer& viewer, const PanelContext& context) {
   const app::SessionView& view = viewer.view();
-  if (begin_panel("time", {0.5F, 1}, 0, 12 * em())) {
+  if (begin_time()) {
     log_lines(view);
     if (view.is_replay) replay_line(viewer, context);
     action_button(viewer, context, Action::kPause, view.is_paused ? "Go on" : "Pause", false);
@@ -266,19 +275,26 @@ void draw_title(const app::SessionView& view, const app::ViewerState& state) {
   ImGui::End();
 }
 
-/// The lower left corner; above the panel of time where the picture is too narrow for both.
+/// Of a panel in research: at most what tools and figures leave between them where the picture is narrow.
+float research_width(float wanted) {
+  const float screen = ImGui::GetMainViewport()->Size.x;
+  if (2 * (wanted + kTimeHalfWidth * em()) <= screen) return wanted;
+  const float room = screen - (kToolsWidth + kFiguresWidth + 4 * kMargin) * em();
+  return std::clamp(room, kLeastWidth * em(), wanted);
+}
+
+/// Of a panel of this width whose left edge is to be so far from the left one of all panels.
+float share_of_left(float left, float width) {
+  const float room = ImGui::GetMainViewport()->Size.x - 2 * kMargin * em() - width;
+  return room > 0 ? std::min(1.0F, left / room) : 0;
+}
+
+/// The lower left corner; where the picture is too narrow, above the panel of time and beside the tools.
 ImVec2 lower_left(float width) {
   const ImVec2 screen = ImGui::GetMainViewport()->Size;
   const bool is_narrow = 2 * (width + kTimeHalfWidth * em()) > screen.x;
-  return {0, is_narrow ? 1 - kTimeHeight * em() / screen.y : 1};
-}
-
-void draw_probe(const app::SessionView& view) {
-  if (!view.probe) return;
-  if (begin_panel("probe", lower_left(26 * em()), 26 * em(), 10 * em())) {
-    for (const std::string& line : to_lines(*view.probe)) text(line);
-  }
-  ImGui::End();
+  if (!is_narrow) return {0, 1};
+  return {share_of_left((kToolsWidth + kMargin) * em(), width), 1 - kTimeHeight * em() / screen.y};
 }
 
 /// The same to the right of the column of tools, beside or above the bar of time.
@@ -286,10 +302,29 @@ ImVec2 beside_tools(float width, bool is_replay) {
   const ImVec2 screen = ImGui::GetMainViewport()->Size;
   const float half = (is_replay ? kReplayHalfWidth : kBarHalfWidth) * em();
   const bool is_narrow = 2 * (kToolColumn * em() + width + half) > screen.x;
-  ImVec2 at(0, is_narrow ? 1 - (kTimeBar + (is_replay ? kReplayHigher : 0)) * em() / screen.y : 1);
-  const float room = screen.x - 2 * kMargin * em() - width;
-  if (room > 0) at.x = std::min(1.0F, kToolColumn * em() / room);
-  return at;
+  return {share_of_left(kToolColumn * em(), width),
+          is_narrow ? 1 - (kTimeBar + (is_replay ? kReplayHigher : 0)) * em() / screen.y : 1};
+}
+
+/// Where an exercise would be; where there is one, across from it or above.
+ImVec2 probe_place(const app::SessionView& view, bool is_research, float width) {
+  const bool has_exercise = view.scene && view.scene->exercise;
+  if (is_research && has_exercise) return {share_of_left((kToolsWidth + kMargin) * em(), width), 0.1F};
+  if (is_research) return lower_left(width);
+  const ImVec2 at = beside_tools(width, view.is_replay);
+  return has_exercise ? ImVec2(1, at.y) : at;
+}
+
+void draw_probe(const app::SessionView& view, bool is_research) {
+  if (!view.probe) return;
+  const float width = is_research ? research_width(kProbeWidth * em()) : kProbeWidth * em();
+  const ImVec2 at = probe_place(view, is_research, width);
+  if (begin_panel("probe", at, width, 10 * em())) {
+    ImGui::PushTextWrapPos(0);
+    for (const std::string& line : to_lines(*view.probe)) text(line);
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::End();
 }
 
 /// A bar with the value in it; the part within which nothing is lost is marked, and said in words.
@@ -356,7 +391,7 @@ void draw_exercise(Viewer& viewer, const PanelContext& context) {
   const app::Exercise& exercise = *view.scene->exercise;
   const app::ViewerState& state = std::as_const(viewer).state();
   const bool is_research = state.is_research;
-  const float width = (is_research ? kExerciseWidth : kNarrowExerciseWidth) * em();
+  const float width = is_research ? research_width(kExerciseWidth * em()) : kNarrowExerciseWidth * em();
   const ImVec2 at = is_research ? lower_left(width) : beside_tools(width, view.is_replay);
   if (begin_panel("exercise", at, width, 0.6F * ImGui::GetMainViewport()->Size.y)) {
     ImGui::PushTextWrapPos(0);
@@ -450,11 +485,19 @@ void draw_research_panels(Viewer& viewer, const PanelContext& context) {
   draw_title(viewer.view(), state);
 }
 
+/// Around the middle, in pixels of the picture.
+static float free_width(bool is_research) {
+  const float beside = is_research ? kFiguresWidth + 2 * kMargin : kToolColumn;
+  const float width = ImGui::GetMainViewport()->Size.x - 2 * beside * em();
+  return width * ImGui::GetIO().DisplayFramebufferScale.x;
+}
+
 Panels::Panels() : first_(std::make_unique<FirstPanels>()) {}
 Panels::~Panels() = default;
 
 void Panels::draw(Viewer& viewer, const PanelContext& context) {
   const app::ViewerState& state = std::as_const(viewer).state();
+  viewer.leave_free(static_cast<double>(free_width(state.is_research)));
   if (state.panels != app::Panels::kNone) {
     if (state.is_research) {
       draw_research_panels(viewer, context);
@@ -463,7 +506,7 @@ void Panels::draw(Viewer& viewer, const PanelContext& context) {
     }
     const bool has_cards = !state.is_research && first_->shows_cards();
     if (state.panels == app::Panels::kAll && !has_cards) draw_exercise(viewer, context);
-    draw_probe(viewer.view());
+    draw_probe(viewer.view(), state.is_research);
     draw_legend(state);
   }
   if (state.shows_help) draw_help(viewer.state());

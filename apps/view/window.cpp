@@ -10,12 +10,14 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace incise_view {
 namespace {
 
 using namespace incise;
+using app::InputEvent;
 using app::KeyPress;
 using app::PointerEvent;
 
@@ -100,14 +102,14 @@ std::optional<KeyPress> press_of(int key, int scancode, int mods) {
 
 struct Window::State {
   GLFWwindow* window = nullptr;
-  std::vector<WindowEvent> events;
+  std::vector<InputEvent> events;
   // Of the pointer, as its last event had it: asked for, it is where the pointer has got to meanwhile, and a window
   // that is late would take a whole drag for a click at its end.
   std::array<double, 2> place{};
   std::array<int, 4> before_full{};  // place and size
   bool is_full = false;
-  app::Cursor cursor = app::Cursor::kArrow;
-  std::array<GLFWcursor*, 4> cursors{};  // by `app::Cursor`; null: the system's arrow
+  std::optional<app::Cursor> cursor;     // that is shown; at first whatever the system has
+  std::array<GLFWcursor*, 4> cursors{};  // by `app::Cursor`; null: not made yet
 
   State() = default;
   State(const State&) = delete;
@@ -130,6 +132,8 @@ struct Window::State {
   static void on_button(GLFWwindow* window, int button, int action, int mods);
   static void on_wheel(GLFWwindow* window, double x, double y);
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+  static void on_character(GLFWwindow* window, unsigned code);
+  static void on_enter(GLFWwindow* window, int is_inside);
   static void on_drop(GLFWwindow* window, int count, const char** paths);
 };
 
@@ -139,6 +143,8 @@ void Window::State::listen() {
   glfwSetMouseButtonCallback(window, on_button);
   glfwSetScrollCallback(window, on_wheel);
   glfwSetKeyCallback(window, on_key);
+  glfwSetCharCallback(window, on_character);
+  glfwSetCursorEnterCallback(window, on_enter);
   glfwSetDropCallback(window, on_drop);
 }
 
@@ -186,12 +192,21 @@ void Window::State::on_wheel(GLFWwindow* window, double x, double y) {
 }
 
 void Window::State::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-  if (action == GLFW_RELEASE) return;
-  if (const std::optional<KeyPress> press = press_of(key, scancode, mods)) of(window).events.emplace_back(*press);
+  app::KeyChange change{key, scancode, action, mods, {}};
+  if (action != GLFW_RELEASE) change.press = press_of(key, scancode, mods);
+  of(window).events.emplace_back(change);
+}
+
+void Window::State::on_character(GLFWwindow* window, unsigned code) {
+  of(window).events.emplace_back(app::TypedCharacter{code});
+}
+
+void Window::State::on_enter(GLFWwindow* window, int is_inside) {
+  if (is_inside == 0) of(window).events.emplace_back(app::PointerLeft{});
 }
 
 void Window::State::on_drop(GLFWwindow* window, int count, const char** paths) {
-  for (int i = 0; i < count; ++i) of(window).events.emplace_back(DroppedFile{paths[i]});
+  for (int i = 0; i < count; ++i) of(window).events.emplace_back(app::DroppedFile{paths[i]});
 }
 
 Result<Window> Window::open(const std::string& title, const app::Viewport& size, unsigned samples) {
@@ -230,7 +245,7 @@ bool Window::should_close() const {
 void Window::ask_to_close(bool closes) {
   glfwSetWindowShouldClose(state_->window, closes ? GLFW_TRUE : GLFW_FALSE);
 }
-std::vector<WindowEvent> Window::take_events() {
+std::vector<InputEvent> Window::take_events() {
   return std::exchange(state_->events, {});
 }
 
@@ -268,9 +283,10 @@ void Window::set_full_screen(bool is_full) {
 
 void Window::show_cursor(app::Cursor cursor) {
   State& s = *state_;
-  if (cursor == s.cursor) return;
+  if (s.cursor == cursor) return;
   s.cursor = cursor;
   GLFWcursor*& made = s.cursors[static_cast<std::size_t>(cursor)];
+  if (made == nullptr && cursor == app::Cursor::kArrow) made = glfwCreateStandardCursor(GLFW_ARROW_CURSOR);
   if (made == nullptr && cursor == app::Cursor::kCross) made = glfwCreateStandardCursor(GLFW_CROSSHAIR_CURSOR);
   if (made == nullptr && cursor == app::Cursor::kHand) made = glfwCreateStandardCursor(GLFW_HAND_CURSOR);
   if (made == nullptr && cursor == app::Cursor::kBarred) made = make_barred_cursor();

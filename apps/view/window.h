@@ -2,26 +2,18 @@
 // A window with an OpenGL 3.3 context, and what happens to it.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "app/hands/tools.h"
 #include "app/view/camera.h"
-#include "app/viewer/key_bindings.h"
+#include "app/viewer/input_steps.h"
 #include "app/viewer/viewer.h"
 #include "incise/core/result.h"
 
 struct GLFWwindow;
 
 namespace incise_view {
-
-struct DroppedFile {
-  std::filesystem::path path;
-};
-using WindowEvent = std::variant<incise::app::PointerEvent, incise::app::KeyPress, DroppedFile>;
 
 class Window {
  public:
@@ -36,7 +28,7 @@ class Window {
   [[nodiscard]] bool should_close() const;
   void ask_to_close(bool closes);
   /// What happened since, in order; pixels are those of `viewport`.
-  [[nodiscard]] std::vector<WindowEvent> take_events();
+  [[nodiscard]] std::vector<incise::app::InputEvent> take_events();
   /// In pixels of the screen. At least 1 × 1.
   [[nodiscard]] incise::app::Viewport viewport() const;
   /// Pixels per pixel of an ordinary screen: 2 on many high-density ones.

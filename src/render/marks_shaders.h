@@ -106,7 +106,7 @@ void main() {
     place = corner * (radius + kCasing + 1.0);
     view_position = c + vec3(place * pixel, 0);
     gl_Position = to_clip * vec4(view_position, 1);
-    vec4 front = to_clip * vec4(c + vec3(0, 0, r), 1);  // no half of it sinks into the surface
+    vec4 front = to_clip * vec4(c + vec3(0, 0, 3.0 * r), 1);  // no part of it sinks into the surface, however steep
     gl_Position.z = max(front.z / front.w, -0.999) * gl_Position.w;
     return;
   }

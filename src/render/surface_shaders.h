@@ -120,11 +120,15 @@ vec3 base_color(uvec4 look, float grain) {
   return is_wall ? label(look.g) : to_linear(vec3(0.70, 0.71, 0.73));
 }
 
+// Whether the inside of the skin is seen, and not the skin's own outline: there, samples of a pixel are of the side that
+// is turned away as well, by a hair's breadth.
+bool shows_back(vec3 to_eye) { return !gl_FrontFacing && dot(view_normal, to_eye) < -0.2; }
+
 // Towards the eye, unit.
 vec3 facing_normal(bool is_flat, vec3 to_eye) {
   vec3 flat_normal = normalize(cross(dFdx(view_position), dFdy(view_position)));  // of either side
   bool has_none = is_flat || dot(view_normal, view_normal) < 0.05;
-  vec3 n = has_none ? flat_normal : normalize(view_normal) * (gl_FrontFacing ? 1.0 : -1.0);
+  vec3 n = has_none ? flat_normal : normalize(view_normal) * (shows_back(to_eye) ? -1.0 : 1.0);
   // Normals averaged on coarse meshes lean away from the eye at outlines; no light would then fit.
   return normalize(n + max(0.0, 0.05 - dot(n, to_eye)) * to_eye);
 }
@@ -167,7 +171,7 @@ void main() {
   vec3 to_eye = normalize(-view_position);
   vec3 n = facing_normal(is_inside, to_eye);
   if (is_tissue) n = bumped(n, (is_wall ? 0.0025 : 0.0010) * extent * grain);
-  if (!gl_FrontFacing && look.r == 0u) base *= vec3(0.38, 0.30, 0.30);
+  if (look.r == 0u && shows_back(to_eye)) base *= vec3(0.38, 0.30, 0.30);
   float gloss = is_inside ? 0.0 : is_wall ? 0.30 : 0.07;
   if (is_tissue && tissue_look > 0) gloss = tissue_look == 3 ? 0.06 : 0.34;  // capsules are wet
 #ifdef SHADOWS

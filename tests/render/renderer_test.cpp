@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "pictures.h"
@@ -227,6 +229,16 @@ double mean_lightness(const incise::render::Image& image) {
   return sum / static_cast<double>(3 * image.pixels.size());
 }
 
+/// A flat sheet that is seen from 25 degrees above it, in one colour.
+app::Picture flat_sheet() {
+  app::Picture picture = incise_test::sheet(8);
+  for (Eigen::Vector3f& at : picture.surface.positions) at.z() = 0;
+  picture.camera.elevation = 25 * std::numbers::pi / 180;
+  picture.options.color = app::ColorBy::kStroke;
+  picture.options.shows_occlusion = picture.options.shows_shadows = false;
+  return picture;
+}
+
 app::Picture below_a_punch() {
   app::Picture picture = incise_test::sheet(8);
   app::Instrument punch;
@@ -287,6 +299,27 @@ TEST(Renderer, an_instrument_that_is_not_finite_is_left_out) {
   picture.marks.instruments.clear();
   expect_drawn(drawing, picture);
   EXPECT_EQ(compare(drawing.read(), with).differing, 0);
+}
+
+TEST(Renderer, a_mark_on_tissue_that_is_seen_aslant_is_drawn_whole) {
+  Drawing drawing;
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = flat_sheet();
+  expect_drawn(drawing, picture);
+  const incise::render::Image bare = drawing.read();
+  const Eigen::Vector3f centre(0.5F, 0.5F, 0);
+  picture.marks.balls.push_back({centre, app::Ink::kHook, 12, true});
+  expect_drawn(drawing, picture);
+  const incise::render::Image marked = drawing.read();
+  const auto middle = to_pixel(picture.camera, incise_test::kSmall, centre.cast<double>()).value();
+  int above = 0, below = 0;
+  for (int y = 0; y < marked.height; ++y) {
+    for (int x = 0; x < marked.width; ++x) {
+      if (marked.at(x, y) != bare.at(x, y)) ++(y < middle.y() ? above : below);
+    }
+  }
+  EXPECT_GT(above, 200);
+  EXPECT_NEAR(below, above, 0.15 * above);
 }
 
 }  // namespace renderer_test

@@ -3,6 +3,7 @@
 # Drives the window as a person would, under Xvfb: load, cut, undo, redo, grasp, record, replay, quit. What the window
 # did is read off its recording and its pictures. usage: window_smoke.sh BIN-FOLDER WORK-FOLDER
 set -euo pipefail
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 bin=$(cd -- "$1" && pwd)
 rm -rf -- "$2"
 mkdir -p -- "$2"
@@ -43,10 +44,10 @@ start_server() {
   wait_for "an answer of Xvfb" answers
 }
 answers() { [ "$(xdotool getdisplaygeometry)" = "1280 800" ]; }
-wait_for() { # wait_for WHAT COMMAND...: until the command succeeds; a minute at most
+wait_for() { # wait_for WHAT COMMAND...: until the command succeeds; 600 or $tries times
   local what=$1 i
   shift
-  for ((i = 0; i < 600; ++i)); do
+  for ((i = 0; i < ${tries:-600}; ++i)); do
     if "$@" >/dev/null 2>&1; then return 0; fi
     [ -z "$window" ] || kill -0 "$window" 2>/dev/null || fail "it ended while waiting for $what"
     kill -0 "$server" 2>/dev/null || fail "Xvfb ended while waiting for $what: $(cat server.txt)"
@@ -91,6 +92,9 @@ quit_window() {
   [ "$status" = 0 ] || fail "it ended with $status"
   [ ! -s said.txt ] || fail "it complained"
 }
+shape() { python3 "$here/pointer_shape.py"; }
+looks_as() { [ "$(shape)" = "$1" ]; }
+looks_otherwise() { local now; now=$(shape) && [ "$now" != "$1" ]; }
 has() { grep -q -- "$1" session.jsonl; }
 lifted() { has '"blade"' && ! tail -n 1 session.jsonl | grep -q '"blade"'; }
 picked() { "$bin/incise_picture_check" "$@" || fail "pictures $*"; }
@@ -119,11 +123,31 @@ fi
 open_window --record session.jsonl
 take_picture uncut || fail "no picture of the cube"
 picked uncut.png
+# The pointer tells what a press would do: on a panel, on tissue with a tool, where a drag turns the view.
+xdotool mousemove 36 72
+if shape >/dev/null; then
+  sleep 0.5
+  arrow=$(shape)
+  xdotool mousemove 640 360
+  tries=100 wait_for "a pointer for a tool on tissue" looks_otherwise "$arrow"
+  cross=$(shape)
+  xdotool key 1 mousemove 644 364
+  tries=100 wait_for "a pointer for turning the view" looks_otherwise "$cross"
+  xdotool mousemove 36 72
+  tries=100 wait_for "the arrow on a panel" looks_as "$arrow"
+  xdotool key 2
+fi
 drag 560 340 760 400
 wait_for "the end of a stroke" lifted
 wait_for "a picture of the cut" changed uncut cut
-xdotool key ctrl+z
-wait_for "undo" has '"undo"'
+# Clicks that come and go between two pictures count, each where it was: on the buttons for undo and a picture.
+kill -STOP "$window"
+for place in '433 684' '804 684'; do xdotool mousemove $place click 1; done
+xdotool mousemove 640 200
+kill -CONT "$window"
+wait_for "undo, by a click between two pictures" has '"undo"'
+wait_for "a picture, by a click between two pictures" test -s incise-0001.png
+rm incise-0001.png
 xdotool key ctrl+shift+z
 wait_for "redo" has '"redo"'
 xdotool key 4

@@ -255,6 +255,14 @@ const HandState& ToolMachine::hands() const {
   return state_->hands;
 }
 
+bool ToolMachine::is_pulling() const {
+  HandState pulled;
+  for (const ToolKind kind : {ToolKind::kGrasp, ToolKind::kHook, ToolKind::kRetractor}) {
+    state_->tool_of(kind)->add_to(pulled);
+  }
+  return !pulled.hooks.empty();
+}
+
 std::optional<Stroke> ToolMachine::take_stroke() {
   return std::exchange(state_->results.stroke, std::nullopt);
 }

@@ -44,7 +44,7 @@ std::vector<std::string> to_lines(const ProbeInfo& probe) {
       formatted("Region {}, {}", probe.region, place_of(probe)),
       formatted("L/r {:.4g}, dihedral angles {:.1f} to {:.1f} deg", probe.lr, probe.dihedral_min_deg,
                 probe.dihedral_max_deg),
-      formatted("Volume {:.4g} at rest, now {:.3g} times that", probe.volume, probe.stretch),
+      formatted("Volume {:.4g} at rest, now {:.3g} % of that", probe.volume, 100 * probe.stretch),
   };
 }
 

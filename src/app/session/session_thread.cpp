@@ -103,6 +103,8 @@ struct SessionThread::State {
   bool has_new_light();
   void find_worst();
   void score(const std::filesystem::path& json, const std::filesystem::path& attempt);
+  void start_recording(const std::filesystem::path& path);
+  void stop_recording();
   void draw_marks();
   void measure_rates();
   void busy(const std::string& text);
@@ -348,6 +350,16 @@ void SessionThread::State::score(const std::filesystem::path& json, const std::f
   tell("Score in " + json.string());
 }
 
+void SessionThread::State::start_recording(const std::filesystem::path& path) {
+  const Status status = session.start_recording(path);
+  tell(status.ok() ? "Recording to " + path.string() : status.error().message);
+}
+
+void SessionThread::State::stop_recording() {
+  if (session.is_recording()) tell("Recording ended");
+  session.stop_recording();
+}
+
 void SessionThread::State::draw_marks() {
   view.marks = {};
   session.draw(view.marks, shows_ideal);
@@ -428,6 +440,9 @@ void SessionThread::open(StartingExercise exercise) {
 void SessionThread::pause(bool is_paused) {
   state_->post([s = state_.get(), is_paused] { s->options.is_paused = is_paused; });
 }
+void SessionThread::pause_or_go_on() {
+  state_->post([s = state_.get()] { s->options.is_paused = !s->options.is_paused; });
+}
 void SessionThread::step() {
   state_->post([s = state_.get()] {
     s->options.is_paused = true;
@@ -488,16 +503,14 @@ void SessionThread::take_over() {
   });
 }
 void SessionThread::start_recording(const std::filesystem::path& path) {
-  state_->post([s = state_.get(), path] {
-    const Status status = s->session.start_recording(path);
-    s->tell(status.ok() ? "Recording to " + path.string() : status.error().message);
-  });
+  state_->post([s = state_.get(), path] { s->start_recording(path); });
 }
 void SessionThread::stop_recording() {
-  state_->post([s = state_.get()] {
-    if (s->session.is_recording()) s->tell("Recording ended");
-    s->session.stop_recording();
-  });
+  state_->post([s = state_.get()] { s->stop_recording(); });
+}
+void SessionThread::start_or_stop_recording(const std::filesystem::path& path) {
+  state_->post(
+      [s = state_.get(), path] { s->session.is_recording() ? s->stop_recording() : s->start_recording(path); });
 }
 void SessionThread::export_mesh(const std::filesystem::path& path) {
   state_->post([s = state_.get(), path] {

@@ -78,7 +78,8 @@ class SessionThread {
   void open(StartingBody body);
   void open(StartingExercise exercise);
   void pause(bool is_paused);
-  void step();  ///< one frame, and pauses
+  void pause_or_go_on();  ///< whichever it does not do then
+  void step();            ///< one frame, and pauses
   void reset();
   void undo();
   void redo();
@@ -91,6 +92,8 @@ class SessionThread {
   void take_over();
   void start_recording(const std::filesystem::path& path);
   void stop_recording();
+  /// Ends the recording where there is one then.
+  void start_or_stop_recording(const std::filesystem::path& path);
   void export_mesh(const std::filesystem::path& path);
   void show(const SurfaceOptions& surface, std::size_t worst);
   void set_speed(double speed);

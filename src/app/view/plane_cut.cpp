@@ -10,7 +10,8 @@ namespace app {
 namespace {
 
 constexpr double kLeastPixels = 8;
-constexpr double kMargin = 0.1;  // of the body's extent
+constexpr double kMargin = 0.1;       // of the body's extent
+constexpr double kLeastDepth = 0.05;  // of the line that is shown, of the distance to the target
 
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -50,9 +51,11 @@ Stroke to_stroke(const PlaneCut& cut) {
 }
 
 void draw(const PlaneCut& cut, const Camera& camera, Marks& marks) {
-  // At the target's depth, where nothing that is in view is clipped.
-  const Vec3 from = cut.from.origin + camera.distance * cut.from.direction;
-  const Vec3 to = cut.to.origin + camera.distance * cut.to.direction;
+  // Before the body, so that none of it hides the line; not at the eye, where it would be clipped.
+  const Vec3 inwards = (cut.from.direction + cut.to.direction).normalized();
+  const double depth = std::max((cut.corners[0] - cut.from.origin).dot(inwards), kLeastDepth * camera.distance);
+  const Vec3 from = cut.from.origin + depth / cut.from.direction.dot(inwards) * cut.from.direction;
+  const Vec3 to = cut.to.origin + depth / cut.to.direction.dot(inwards) * cut.to.direction;
   marks.lines.push_back({from.cast<float>(), to.cast<float>(), Ink::kPreview, 2, true, false});
   std::array<Eigen::Vector3f, 4> c;
   std::transform(cut.corners.begin(), cut.corners.end(), c.begin(), [](const Vec3& p) { return p.cast<float>(); });

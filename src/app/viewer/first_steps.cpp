@@ -35,7 +35,22 @@ void FirstSteps::see(std::uint64_t strokes, Hold hold, bool is_demonstrating) {
   if (step_ == Step::kLetGo && hold == Hold::kNone) step_ = Step::kDone;
 }
 
-std::string_view FirstSteps::text() const {
+/// Whoever cut holds the scalpel still when the hook is told of.
+bool FirstSteps::speaks_of(ToolKind tool) const {
+  switch (step_) {
+    case Step::kCut:
+      return tool == ToolKind::kScalpel;
+    case Step::kOpen:
+    case Step::kOpenAgain:
+      return tool == ToolKind::kScalpel || tool == ToolKind::kGrasp || tool == ToolKind::kHook ||
+             tool == ToolKind::kRetractor;
+    default:
+      return true;
+  }
+}
+
+std::string_view FirstSteps::text(ToolKind in_hand) const {
+  if (!speaks_of(in_hand)) return kTools[static_cast<std::size_t>(in_hand)].text;
   constexpr std::array<std::string_view, 7> kTexts = {
       "Press on the skin and drag: you hold the scalpel",
       "Press on the skin and drag: you hold the scalpel",

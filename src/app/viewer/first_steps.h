@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "app/hands/tool_table.h"
+
 namespace incise {
 inline namespace v0 {
 namespace app {
@@ -24,10 +26,13 @@ class FirstSteps {
   /// What there is now: strokes in the body, and how a hand holds tissue.
   void see(std::uint64_t strokes, Hold hold, bool is_demonstrating);
 
-  [[nodiscard]] std::string_view text() const;
+  /// Of another tool than the one that the step is done with: what a drag or a click does with the tool in hand.
+  [[nodiscard]] std::string_view text(ToolKind in_hand) const;
 
  private:
   enum class Step : std::uint8_t { kWatch, kCut, kOpen, kOpenAgain, kUndo, kLetGo, kDone };
+
+  [[nodiscard]] bool speaks_of(ToolKind tool) const;
 
   Step step_ = Step::kDone;
   std::uint64_t strokes_ = 0;  // at the beginning of the step

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 #include <system_error>
 #include <utility>
@@ -27,6 +28,7 @@ constexpr double kTilt = 5 * std::numbers::pi / 180;
 constexpr double kZoomFactor = 0.9;
 constexpr double kTurnShare = 1.0 / 24;  // of the picture's height, per press of a key
 constexpr double kClipStep = 0.05;
+constexpr double kLeastFree = 0.4;  // of the picture's width: a body is not made smaller for panels
 constexpr double kSeeThrough = 0.35;
 constexpr double kTextFactor = 1.15, kSmallestText = 0.6, kLargestText = 3;
 constexpr std::size_t kWorstTets = 10;
@@ -70,6 +72,7 @@ struct Viewer::State {
   FirstSteps first_steps;
   bool is_demonstrating = false;
   Cursor cursor = Cursor::kArrow;
+  double free_width = std::numeric_limits<double>::infinity();  // pixels
 
   [[nodiscard]] ToolContext context(const Viewport& viewport) const {
     return {viewport, &session.view().surface, session.view().body};
@@ -134,7 +137,9 @@ void Viewer::State::end_demonstration() {
   is_changed = true;
 }
 
+/// A release changes nothing about what the next press would do.
 void Viewer::State::choose_cursor(const PointerEvent& event) {
+  if (event.kind == PointerEvent::Kind::kRelease) return;
   const bool is_watched = !options.mouse_is_hand || session.view().is_replay;
   const bool only_looks = kTools[static_cast<std::size_t>(tools.tool())].make == nullptr;
   if (event.alt || only_looks || is_watched) {
@@ -168,6 +173,10 @@ void Viewer::set_clip_depth(double depth) {
   state_->shown.clip_depth = depth;
   state_->show_surface();
   state_->is_changed = true;
+}
+
+void Viewer::leave_free(double width) {
+  state_->free_width = width;
 }
 
 void Viewer::open(const fs::path& path) {
@@ -236,7 +245,7 @@ bool Viewer::State::act_on_time(Action action) {
       session.redo();
       return true;
     case Action::kPause:
-      session.pause(!session.view().is_paused);
+      session.pause_or_go_on();
       return true;
     case Action::kStep:
       session.step();
@@ -299,11 +308,7 @@ void Viewer::State::show_ideal() {
 }
 
 void Viewer::State::toggle_recording() {
-  if (session.view().is_recording) {
-    session.stop_recording();
-  } else {
-    session.start_recording(free_name(options.folder, "incise-recording", ".jsonl"));
-  }
+  session.start_or_stop_recording(free_name(options.folder, "incise-recording", ".jsonl"));
 }
 
 void Viewer::State::toggle_sequence() {
@@ -474,17 +479,15 @@ bool Viewer::update(const Viewport& viewport, double now) {
 }
 
 FirstSteps::Hold Viewer::State::hold() const {
-  if (tools.hands().hooks.empty()) return FirstSteps::Hold::kNone;
+  if (!tools.is_pulling()) return FirstSteps::Hold::kNone;
   return tools.is_busy() ? FirstSteps::Hold::kDrag : FirstSteps::Hold::kStays;
 }
 
-/// What panels leave free. A body that fits into a part of the picture is seen in it as a camera of that part sees it,
-/// but for the field of view, which is that of the whole height.
+/// What panels leave free, beside each other: bodies have the whole height.
 Viewport Viewer::State::free_part(const Viewport& viewport) const {
   if (shown.panels != Panels::kAll) return viewport;
-  const Vec2& share = shown.is_research ? options.research_share : options.free_share;
-  return {std::max(1, static_cast<int>(share.x() * viewport.width)),
-          std::max(1, static_cast<int>(share.y() * viewport.height))};
+  const double width = std::clamp(free_width, kLeastFree * viewport.width, 1.0 * viewport.width);
+  return {std::max(1, static_cast<int>(width)), viewport.height};
 }
 
 void Viewer::State::begin_session(const Viewport& viewport) {
@@ -541,7 +544,7 @@ const Hud& Viewer::hud() const {
   return state_->hud;
 }
 std::string_view Viewer::next_step() const {
-  return state_->first_steps.text();
+  return state_->first_steps.text(state_->tools.tool());
 }
 bool Viewer::is_demonstrating() const {
   return state_->is_demonstrating;

@@ -38,9 +38,6 @@ struct ViewerOptions {
   bool has_shadows = true;     ///< at first
   bool mouse_is_hand = true;   ///< false: no tool but the probe takes the mouse, whose left drags turn the view
   bool keeps_tool = false;     ///< whatever a scene puts into the hand: a device has the blade
-  Vec2 free_share =
-      Vec2::Ones();  ///< of the picture, around its middle, that panels leave free: bodies are framed there
-  Vec2 research_share = Vec2::Ones();  ///< the same with the panels of research
 };
 
 /// What the person sees beside the body; a front end draws it and may change it.
@@ -72,6 +69,9 @@ class Viewer {
   void act(Action action, const Viewport& viewport);
   /// Moves the clip plane, where there is one: the share of the body that is cut away, in [0, 1].
   void set_clip_depth(double depth);
+  /// How many pixels of the picture's width, around its middle, panels leave free: bodies are framed there from then
+  /// on, while panels are shown, but never in less than two fifths of the picture.
+  void leave_free(double width);
   /// A file was dropped, or named.
   void open(const std::filesystem::path& path);
   void open(StartingBody body);

@@ -51,6 +51,7 @@ class Hand : public testing::Test {
     tools_.draw({kSquare, &surface_, kUnitBox}, camera_, marks);
     return marks;
   }
+  [[nodiscard]] double depth_of(const Vec3& point) const { return (camera_.eye() - point).dot(camera_.backward()); }
   [[nodiscard]] static std::size_t lines_of(const Marks& marks, Ink ink) {
     return static_cast<std::size_t>(std::count_if(marks.lines.begin(), marks.lines.end(),
                                                   [&](const Marks::Line& line) { return line.ink == ink; }));
@@ -283,6 +284,11 @@ TEST_F(Hand, APlaneCutGoesFromOutsideTheBodyToOutside) {
   send(Kind::kMove, {500, 380});
   EXPECT_EQ(lines_of(marks(), Ink::kPreview), 1U);
   EXPECT_EQ(marks().triangles.size(), 2U);
+  const Marks::Line line = marks().lines.front();
+  for (const Vec3& corner : corners_of(kUnitBox)) {
+    EXPECT_LT(depth_of(line.from.cast<double>()), depth_of(corner)) << "the body would hide it";
+    EXPECT_LT(depth_of(line.to.cast<double>()), depth_of(corner));
+  }
   send(Kind::kRelease, {500, 380});
   const std::optional<Stroke> stroke = tools_.take_stroke();
   ASSERT_TRUE(stroke.has_value());
@@ -338,6 +344,21 @@ TEST_F(Hand, AGraspMovesAcrossTheViewAndGoesWithTheRelease) {
   EXPECT_TRUE(tools_.hands().hooks.empty());
   send(Kind::kPress, top(0.5, 0.5));
   EXPECT_NE(tools_.hands().hooks[0].id, first.id);
+}
+
+TEST_F(Hand, WhatPullsIsNoPin) {
+  tools_.choose(ToolKind::kPin);
+  send(Kind::kPress, top(0.5, 0.5));
+  send(Kind::kRelease, top(0.5, 0.5));
+  EXPECT_EQ(tools_.hands().hooks.size(), 1U);
+  EXPECT_FALSE(tools_.is_pulling());
+  for (const ToolKind kind : {ToolKind::kGrasp, ToolKind::kHook, ToolKind::kRetractor}) {
+    tools_.choose(kind);
+    send(Kind::kPress, top(0.3, 0.5));
+    EXPECT_TRUE(tools_.is_pulling()) << name_of(kind);
+    tools_.cancel();
+    tools_.reset(tools_.settings());
+  }
 }
 
 TEST_F(Hand, AGraspBesideTheBodyHoldsNothing) {

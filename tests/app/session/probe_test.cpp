@@ -66,7 +66,7 @@ TEST(Probe, TellsHowMuchTheTetIsStretched) {
   const ProbeInfo info = probe(mesh, Side(TetId(0), 0)).value();
   EXPECT_NEAR(info.stretch, 8, 1e-12);
   EXPECT_NEAR(info.volume, 1.0 / 6, 1e-12);
-  EXPECT_EQ(to_lines(info).at(3), "Volume 0.1667 at rest, now 8 times that");
+  EXPECT_EQ(to_lines(info).at(3), "Volume 0.1667 at rest, now 800 % of that");
 }
 
 TEST(Probe, OfADeadTetIsNothing) {

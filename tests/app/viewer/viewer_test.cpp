@@ -143,11 +143,13 @@ TEST_F(ViewerTest, keys_zoom_and_turn) {
 }
 
 TEST_F(ViewerTest, panels_leave_the_body_a_narrower_part) {
-  app::ViewerOptions options;
-  options.free_share = {0.3, 1};
   const double distance = camera().distance;
-  show(opened(still_scene()), options);
+  viewer_->leave_free(0.45 * port_.width);
+  act(Action::kFrameAll);
   EXPECT_GT(camera().distance, 1.2 * distance);
+  for (const Vec3& corner : {view().body.lo, view().body.hi}) {
+    EXPECT_NEAR(pixel(corner).x(), 0.5 * port_.width, 0.225 * port_.width);
+  }
   viewer_->state().panels = app::Panels::kNone;
   act(Action::kFrameAll);
   EXPECT_NEAR(camera().distance, distance, 1e-6 * distance);
@@ -432,6 +434,15 @@ TEST_F(ViewerTest, keys_rule_time) {
   EXPECT_TRUE(sees_notice("Nothing to redo"));
 }
 
+TEST_F(ViewerTest, what_is_pressed_twice_within_a_picture_is_as_it_was) {
+  for (int press = 0; press < 2; ++press) act(Action::kPause);
+  for (int press = 0; press < 2; ++press) act(Action::kRecord);
+  act(Action::kReset);
+  ASSERT_TRUE(sees_session(2));
+  EXPECT_TRUE(view().is_paused);
+  EXPECT_FALSE(view().is_recording);
+}
+
 TEST_F(ViewerTest, keys_rule_a_replay) {
   show(app::Session::open(std::filesystem::path(write_simulation_recording(folder_))).value());
   act(Action::kNextStep);
@@ -527,6 +538,22 @@ TEST_F(ViewerTest, pointer_events_reach_the_tools_and_the_simulation) {
   }
   send(Kind::kRelease, to);
   EXPECT_TRUE(sees([](const SessionView& view) { return view.figures.tets > 162; }));
+}
+
+TEST_F(ViewerTest, the_cursor_tells_what_a_press_would_do) {
+  act(Action::kPause);
+  act(app::action_of(ToolKind::kProbe));
+  ASSERT_TRUE(sees([](const SessionView& view) { return !view.is_paused; }));
+  send(Kind::kMove, {5, 5});
+  EXPECT_EQ(viewer_->cursor(), app::Cursor::kArrow);
+  send(Kind::kMove, top(0.52));
+  EXPECT_EQ(viewer_->cursor(), app::Cursor::kCross);
+  send(Kind::kPress, top(0.52));
+  send(Kind::kRelease, top(0.52));
+  EXPECT_EQ(viewer_->cursor(), app::Cursor::kCross);
+  act(app::action_of(ToolKind::kOrbit));
+  send(Kind::kMove, top(0.5));
+  EXPECT_EQ(viewer_->cursor(), app::Cursor::kHand);
 }
 
 TEST_F(ViewerTest, a_plane_cut_is_made) {
