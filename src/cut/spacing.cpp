@@ -40,7 +40,7 @@ struct Volumes {
 
 /// What is to be measured of 64 to 128 tets, spread over the slots, of which `takes(tet)` is true.
 template <class Measured, class Takes>
-Measured sample(const TetMesh& mesh, Takes&& takes) {
+auto sample(const TetMesh& mesh, Takes&& takes) {
   Measured measured;
   const std::uint32_t stride = std::max(1U, mesh.tet_slots() / 64U);
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); slot += stride) {
