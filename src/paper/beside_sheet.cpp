@@ -25,12 +25,12 @@ std::optional<Vec3> passing_normal(const TetMesh& mesh, const Sheet& sheet, cons
   return hit.is_valid() ? std::optional<Vec3>(sheet.normal(hit.triangle).normalized()) : std::nullopt;
 }
 
-bool may_lie_on(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, StarWalker& walker) {
+bool may_lie_on(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, double slope, StarWalker& walker) {
   const auto hit = sheet.tree().closest(mesh.rest(vertex), std::numeric_limits<double>::max());
   const Vec3 way = mesh.rest(vertex) - hit.point;
   const double height2 = std::pow(sheet.normal(hit.triangle).normalized().dot(way), 2);
   const double beyond2 = std::max(0.0, way.squaredNorm() - height2);
-  return height2 <= std::max(std::pow(offset_at(mesh, vertex, walker), 2), kMostBend * kMostBend * beyond2);
+  return height2 <= std::max(std::pow(offset_at(mesh, vertex, walker), 2), slope * slope * beyond2);
 }
 
 }  // namespace v0

@@ -15,8 +15,9 @@ inline namespace v0 {
                                                  VertexId vertex, StarWalker& walker);
 
 /// Whether a vertex lies within so much of a sheet, or may lie so on its next strip: beyond its border, within a cone
-/// of slope `kMostBend`. Cost: the same.
-[[nodiscard]] bool may_lie_on(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, StarWalker& walker);
+/// of a slope. Cost: the same.
+[[nodiscard]] bool may_lie_on(const TetMesh& mesh, const Sheet& sheet, VertexId vertex, double slope,
+                              StarWalker& walker);
 
 }  // namespace v0
 }  // namespace incise

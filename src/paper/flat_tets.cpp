@@ -104,8 +104,8 @@ class FlatTets {
   }
   /// Whether a vertex is a collision point, or is one on a wall that this sheet goes along, or would if it went on.
   [[nodiscard]] bool may_lie_on(VertexId vertex) const {
-    return near_.is_on[vertex.value] != 0 ||
-           ((mesh_.shape_of(vertex) & shape::kWall) != 0 && incise::may_lie_on(mesh_, sheet_, vertex, walker_));
+    return near_.is_on[vertex.value] != 0 || ((mesh_.shape_of(vertex) & shape::kWall) != 0 &&
+                                              incise::may_lie_on(mesh_, sheet_, vertex, kMostBend, walker_));
   }
 
   const TetMesh& mesh_;

@@ -121,7 +121,7 @@ bool has_older_wall_on(const TetMesh& mesh, const Sheet& sheet, VertexId vertex,
   }
   return !along.empty() && std::all_of(along.begin(), along.end(), [&](Side side) {
     const auto v = mesh.vertices(side);
-    return std::all_of(v.begin(), v.end(), [&](VertexId w) { return may_lie_on(mesh, sheet, w, walker); });
+    return std::all_of(v.begin(), v.end(), [&](VertexId w) { return may_lie_on(mesh, sheet, w, kWallBend, walker); });
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "paper/constants.h"
 #include "paper_support.h"
 
 namespace incise::test::beside_sheet_test {
@@ -23,7 +24,7 @@ class BesideSheetTest : public ::testing::Test {
   }
   [[nodiscard]] bool may_lie(double offset, const Vec3& place) {
     const SweptSurface surface = at(0.5 + offset);
-    return may_lie_on(mesh_, Sheet(surface), vertex_at(mesh_, place), walker_);
+    return may_lie_on(mesh_, Sheet(surface), vertex_at(mesh_, place), kMostBend, walker_);
   }
 
   TetMesh mesh_;

@@ -150,6 +150,24 @@ TEST(SeveralStrokes, go_on_behind_one_that_crosses) {
 }
 
 /// A stroke that ends just behind a sharp corner of its way, and another one that goes on from there.
+/// Two planes through the middle of the cube that enclose 14 to 18 degrees, the first of which is smoothed before the
+/// second comes: beside their axis its wall passed for one of the second's, whose strips are short.
+TEST(SeveralStrokes, cross_at_small_angles_in_many_frames) {
+  for (const double angle : {14.0, 16.0, 18.0}) {
+    const auto rows = [&](double turn) {
+      const double slope = std::tan(turn * 3.14159265358979323846 / 180);
+      Rows all;
+      for (int k = 0; k <= 70; ++k) {
+        const double y = -0.9 + 1.8 * k / 70;
+        all.push_back({Vec3(0.5 + slope * y, 0.5 + y, -1.2), Vec3(0.5 + slope * y, 0.5 + y, 2.2)});
+      }
+      return all;
+    };
+    const Engine engine = cut(kuhn_cube(5), {rows(-angle / 2), rows(angle / 2)}, true);
+    EXPECT_EQ(find_components(engine.mesh()).count(), 4U) << angle;
+  }
+}
+
 TEST(SeveralStrokes, go_on_just_behind_a_corner) {
   for (const double behind : {0.05, 0.1, 0.15}) {
     SCOPED_TRACE(behind);
