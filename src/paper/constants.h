@@ -46,7 +46,7 @@ inline constexpr double kCrossingCosine = 0.985;
 /// there, on an older wall, may lie on its next strip.
 inline constexpr double kMostBend = 0.5;
 /// As far as an older wall is taken for one of a sheet's own, that slope is less. With 0.35 and more, planes that cross
-/// at 14° to 18° in many short strips come out joined beside their axis; with 0.25 nothing else is lost.
+/// at 14° to 18° in many short strips come out joined beside their axis.
 inline constexpr double kWallBend = 0.3;
 
 /// A stroke goes on from the one before where its blade stands within so many spacings of where that would.
