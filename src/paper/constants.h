@@ -65,8 +65,8 @@ inline constexpr double kTurnBack = 6.0;
 namespace paper {
 
 /// In a body that moves, what is closed in is a crumb if it has less than half of the volume of the largest tet within
-/// so many faces, or less than a quarter of that of a typical one. With a third within two faces a saw leaves seven
-/// crumbs in soft muscle; with a sixth a vein ends in two pieces.
+/// so many faces, or less than a quarter of that of a typical one. With a third within two faces a saw leaves five
+/// crumbs in soft muscle; with a sixth of a typical one a vein ends in two pieces.
 inline constexpr double kCrumb = 0.5;
 inline constexpr unsigned kCrumbReach = 3;
 inline constexpr double kCrumbOfMean = 0.25;

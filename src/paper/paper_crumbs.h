@@ -16,7 +16,7 @@ inline namespace v0 {
 ///
 /// The paper has no crumbs, as its sheets are planar and its bodies rest while they are cut; where a body moves, the
 /// strips of two frames pass a vertex on both sides, and what lies between is closed in. Returns how many crumbs. Cost:
-/// that of `keep_crumbs`, and 53 tets for each face.
+/// that of `keep_crumbs`, and up to 85 tets for each side of a face.
 std::uint64_t keep_paper_crumbs(const TetMesh& mesh, std::vector<IncisionFace>& incision, CrumbScratch& scratch);
 
 }  // namespace v0
