@@ -137,6 +137,24 @@ TetId walk_to(const TetMesh& mesh, TetId from, const Vec3& x) {
   return {};
 }
 
+/// How far a place is from a tet as that stands; far where the tet has next to no volume.
+double distance_from(const TetMesh& mesh, TetId tet, const Vec3& x) {
+  std::array<double, 4> weights{};
+  const Corners current = current_of(mesh, tet);
+  return weights_in(current, x, weights) ? (x - blend(current, drawn_in(weights))).norm() : 1e300;
+}
+
+/// Of what the maps of some tets say of a place, what the nearest of them says.
+struct NearestMap {
+  TetId tet;
+  Vec3 rest = Vec3::Zero();
+  double distance = 1e300;
+
+  void see(TetId seen, const Vec3& mapped, double away) {
+    if (away < distance) *this = {seen, mapped, away};
+  }
+};
+
 /// The boundary side nearest to a rest point, and its nearest point.
 Side nearest_side(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest, double spacing, Vec3& place) {
   const SurfaceIndex::Nearest nearest = surface.nearest(mesh, rest, kReach * spacing);
@@ -179,7 +197,7 @@ void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std:
     Point& point = points_[i];
     point.world = point.before = point.reached = places[i];
     point.hint = nearest.is_valid() ? nearest : surface.nearest_as_it_stands(mesh, places[i]);
-    find(mesh, surface, point, places[i]);
+    find(mesh, surface, point, places[i], /*is_expected=*/false);
     nearest = point.hint;
     anchors_[i] = point.towed = point.candidate;
     point.has_entered = point.tet.is_valid();
@@ -188,8 +206,12 @@ void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std:
   }
 }
 
-/// Finds the tet that holds a point, or the surface near it and the rest point that its map gives.
-void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor) {
+/// Finds the tet that holds a point, or the surface near it and the rest point that its map gives. Where tets name each
+/// other in turn (a wall that lies on another one), that one which has the point nearest to its anchor, if that
+/// `is_expected`, or which is nearest as the body stands: the parity of rounds would choose for each point anew, and
+/// the front would lie in zigzags.
+void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor,
+                         bool is_expected) {
   point.tet = {};
   const auto accept = [&](TetId tet) {
     if (!tet.is_valid()) return false;
@@ -207,21 +229,31 @@ void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point
   if (point.tet.is_valid()) return;
   Vec3 rest = anchor;
   point.is_mapped = false;
-  for (unsigned round = 0; round < kMostRounds; ++round) {
+  NearestMap nearest;
+  bool is_settled = false;
+  for (unsigned round = 0; round < kMostRounds && !is_settled; ++round) {
     if (point.hint.is_valid() && mesh.is_live(point.hint)) {
       bool is_possible = false;
       const Vec3 mapped = to_rest(mesh, point.hint, point.world, is_possible);
-      if (is_possible) rest = mapped;
+      if (is_possible) {
+        rest = mapped;
+        nearest.see(point.hint, rest,
+                    is_expected ? (rest - anchor).norm() : distance_from(mesh, point.hint, point.world));
+      }
       point.is_mapped = is_possible;
     }
     const TetId inside = incise::locate(mesh, surface, {rest, next_key_++});
     if (inside.is_valid() && accept(walk_to(mesh, inside, point.world))) return;
     Vec3 place;
     const Side side = nearest_side(mesh, surface, rest, spacing_, place);
-    if (side.value == kInvalidIndex) break;
-    if (accept(walk_to(mesh, side.tet(), point.world))) return;
-    if (side.tet() == point.hint) break;
-    point.hint = side.tet();
+    if (side.value != kInvalidIndex && accept(walk_to(mesh, side.tet(), point.world))) return;
+    is_settled = side.value == kInvalidIndex || side.tet() == point.hint;
+    if (!is_settled) point.hint = side.tet();
+  }
+  if (!is_settled && nearest.tet.is_valid()) {
+    point.hint = nearest.tet;
+    point.is_mapped = true;
+    rest = nearest.rest;
   }
   point.candidate = rest;
 }
@@ -478,7 +510,7 @@ void MaterialBlade::locate(const TetMesh& mesh, const SurfaceIndex& surface, con
   }
   find_directions(direction);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    find(mesh, surface, points_[i], anchors_[i]);
+    find(mesh, surface, points_[i], anchors_[i], /*is_expected=*/true);
     judge(mesh, surface, i);
   }
   follow_entered(mesh, surface);

@@ -93,7 +93,7 @@ class MaterialBlade {
   };
 
   void set_shares(const TetMesh& mesh, std::span<const Vec3> row);
-  void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor);
+  void find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor, bool is_expected);
   [[nodiscard]] static bool is_in_master(const ClosedComplex& complex, const Point& point) {
     return point.master < complex.size() && complex[point.master].split != nullptr;
   }
