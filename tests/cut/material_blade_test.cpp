@@ -101,5 +101,31 @@ TEST(MaterialBlade, keeps_its_front_even_in_a_body_that_flaps) {
   EXPECT_LT(front, 2 * edge);
 }
 
+/// Two cubes that have drawn apart: what each says of a place in between lies next to the other one at rest.
+TEST(MaterialBlade, goes_by_the_body_that_it_is_nearest_to_where_two_name_each_other) {
+  TetSoup soup = jittered_cube(2, 3);
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  for (const Vec3& p : jittered_cube(2, 3).points) soup.points.emplace_back(p + Vec3(3, 0, 0));
+  for (const auto& tet : jittered_cube(2, 3).tets) {
+    soup.tets.push_back({tet[0] + first, tet[1] + first, tet[2] + first, tet[3] + first});
+  }
+  TetMesh mesh = build(soup);
+  std::vector<Vec3> current(mesh.vertex_slots());
+  mesh.for_each_vertex([&](VertexId v) {
+    const double way = mesh.rest(v).x() < 2 ? -2 : 2;
+    current[v.value] = mesh.rest(v) + Vec3(way, 0, 0);
+  });
+  mesh.set_current(current);
+  SplitTemplates templates;
+  ClosedComplex complex(templates);
+  SurfaceIndex surface;
+  surface.follow(mesh, Journal());
+  MaterialBlade blade;
+  for (const double x : {1.9, 2.1}) {
+    blade.begin(mesh, surface, std::vector<Vec3>{Vec3(x, 0.5, 0.2), Vec3(x, 0.5, 0.8)}, kSpacing, complex);
+    for (const Vec3& anchor : blade.anchors()) EXPECT_NEAR(anchor.x(), x < 2 ? x + 2 : x - 2, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace incise::test::material_blade_test
