@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each row is compared with what the stroke has swept: in the slit it is held, near it it waits, where it closes a
+// ring or meets the sheet the sheet ends, and else it makes a strip (docs/internals.md, 3.1).
 #include "cut/blade_motion.h"
 
 #include <algorithm>

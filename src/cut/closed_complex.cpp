@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Masters, edges and front points in arrays with free lists, and tables by vertex slot for copies and holds. Letting a
+// master go removes it from all of them, and what nobody uses any more goes with it (docs/internals.md, 3.4).
 #include "cut/closed_complex.h"
 
 #include <algorithm>

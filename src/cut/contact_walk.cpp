@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// From the tets met before and the surface near the strip, faces lead from tet to tet; a tet is passed over only where
+// a plane shows that the strip misses it. Order is that of slots (docs/internals.md, 3.2).
 #include "cut/contact_walk.h"
 
 #include <algorithm>

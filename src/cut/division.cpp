@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which template divides a master, where its points lie, and whether all children have volume by exact sign; where one
+// has none, the master's edges are blocked (docs/internals.md, 3.6).
 #include "cut/division.h"
 
 #include <algorithm>

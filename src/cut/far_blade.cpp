@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Halving until a part misses the body, or is as fine as it must be: parts grow with the distance from the body, so
+// that a blade of any length costs a logarithm (docs/internals.md, 3.11).
 #include "cut/far_blade.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Ropes that drag behind the points of the front: where a rope's end lies is where the point came from, whatever the
+// steps were (docs/internals.md, 3.1).
 #include "cut/front_course.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A face's point is computed from its corners in the order of their slots, and so is the same from both sides. Margins
+// push it along the line in which the sheet passes through the face, and only then off it (docs/internals.md, 3.6).
 #include "cut/front_points.h"
 
 #include <algorithm>

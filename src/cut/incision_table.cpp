@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Template, flags, ON vertices and front points make a key of 64 bits; a direct-mapped table keeps the answer of each
+// key, and masters that ranks decide are worked out every time (docs/internals.md, 3.7).
 #include "cut/incision_table.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A point in tissue is found by walking through tets as they stand, and taken to rest by its tet's map; one outside
+// goes by its neighbours and the surface. It moves on only ahead of its tip (docs/internals.md, 3.11).
 #include "cut/material_blade.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Labels of tets pass to their vertices, and to the tets that take their place; forgetting costs what was labelled.
 #include "cut/material_pieces.h"
 
 #include <array>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A point belongs to the tet in which its least barycentric weight is greatest: inside if there is such a tet, else
+// the nearest to holding it (docs/internals.md, 3.7).
 #include "cut/old_children.h"
 
 #include <algorithm>

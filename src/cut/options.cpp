@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Sums over lists of members, so that a count which is added to the struct and not to a list does not compile.
 #include "incise/cut/options.h"
 
 #include <array>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Floods from all seeds take turns, tet by tet, and unite where they meet; once one is left that is not done, the rest
+// is known to be apart or together without it (docs/internals.md, 3).
 #include "cut/piece_finder.h"
 
 #include <algorithm>

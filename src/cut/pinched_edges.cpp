@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Edges of the walls, sorted and each once; around each the tets are walked ring by ring, and where there are several
+// rings each gets a midpoint (docs/internals.md, 3.9).
 #include "cut/pinched_edges.h"
 
 #include <algorithm>

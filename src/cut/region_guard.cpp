@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The regions' surface near the blade tells outside from inside; along the edge it is asked in small steps, and where
+// the edge would enter is found by halving. Sweeps between poses are laid in rows, so that no region is jumped over.
 #include "incise/cut/region_guard.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// An edge crosses a triangle if its ends lie on different sides and its line turns alike around all three edges: five
+// signs, none of them zero. Signs of vertices are kept in a table (docs/internals.md, 3.3).
 #include "cut/sheet_crossing.h"
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// First which vertices are near the sheet and what may keep them from taking part, nearest first; then, once the blade
+// has gone, where each may move within the surfaces that it lies on (docs/internals.md, 3.5).
 #include "cut/snapping.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Bisection and coning of a tet of codes, worked out once for each order of edges and kept in a hash table whose
+// blocks never move (docs/internals.md, 3.6).
 #include "cut/split_template.h"
 
 #include <algorithm>

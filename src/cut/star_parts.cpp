@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tets of a star are joined through their faces by flooding; then parts choose copies in turn: what they had, what
+// stands on their side, the closed vertex, a new one (docs/internals.md, 3.9).
 #include "cut/star_parts.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The border of a strip is what an odd number of its triangles use, and that of the sheet the borders of all strips
+// without what two share. Nearest places are looked for group by group, latest first (docs/internals.md, 3.1).
 #include "cut/strip.h"
 
 #include <algorithm>

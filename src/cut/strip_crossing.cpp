@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each edge of the masters is asked once in a step, whoever has it; edges crossed twice are handed out with the place
+// between (docs/internals.md, 3.3).
 #include "cut/strip_crossing.h"
 
 #include <optional>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a stroke must be is checked here and nowhere else, so that everything behind it may rely on that. A plane
+// becomes one triangle around the body, with no diagonal to fold along.
 #include "incise/cut/stroke.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The pipeline of a strip, stage by stage: collide, bisect what is crossed twice, flag, snap, front points, rebuild;
+// then the wake, and at the end of a sheet what is left of it (docs/internals.md, 3).
 #include "cut/stroke_cut.h"
 
 #include <algorithm>

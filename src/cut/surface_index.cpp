@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each cell heads a linked list of sides, and sides that are gone stay in it and are passed over; the grid is built
+// anew once it lists several times as many as at first (docs/internals.md, 3.2).
 #include "cut/surface_index.h"
 
 #include <algorithm>

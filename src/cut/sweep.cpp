@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Points get numbers first, equal ones one number; strips are laid in the order of time, without what would cover
+// older ones. Self-crossings are pairs of triangles whose boxes overlap, found by a tree (docs/internals.md, 3.1).
 #include "cut/sweep.h"
 
 #include <algorithm>

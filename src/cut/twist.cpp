@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A segment is divided at the point that it turns about, then into equal parts until the two triangles of each lie
+// near the ruled surface (docs/internals.md, 3.1).
 #include "cut/twist.h"
 
 #include <algorithm>

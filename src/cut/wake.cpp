@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Vertices of near masters are marked with the number of the round, and a master is settled if it has none of them,
+// let go if its neighbours by a vertex are settled, too (docs/internals.md, 3.10).
 #include "cut/wake.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Points along the edge have hold of material ahead of the front; springs on the vertices around it slip at what the
+// material bears, and what has slipped pays for the way that the front goes on (docs/coupling.md).
 #include "engine/blade_coupling.h"
 
 #include <Eigen/LU>

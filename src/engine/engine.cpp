@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The conductor: cutter, maintenance and front of the paper behind one interface, steps of the journal gathered into
+// operations for undo. Where a call fails, all of its steps are taken back.
 #include "incise/engine/engine.h"
 
 #include <algorithm>

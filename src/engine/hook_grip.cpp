@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A ball takes the vertices inside it. A grip on the surface grows from triangle to triangle by the way along edges,
+// so that it never leaps over a lip; each vertex then hangs on a spring of its own.
 #include "engine/hook_grip.h"
 
 #include <algorithm>

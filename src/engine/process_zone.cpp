@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tets are reached through faces from the points of the front; each vertex gets the volume of its reached tets, and
+// loads are shared by volume and distance. Springs that stay keep how far they have slipped.
 #include "engine/process_zone.h"
 
 #include <algorithm>

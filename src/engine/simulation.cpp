@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A frame as the paper's Figure 1 has it: what touches presses, the tissue relaxes, the blade cuts where it stands,
+// what was cut is maintained, and the solver follows the journal.
 #include "incise/engine/simulation.h"
 
 #include <algorithm>

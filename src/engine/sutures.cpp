@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Of an end only the place at rest is kept; the tet that holds it is looked for among those that stand there whenever
+// its own has changed.
 #include "engine/sutures.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Area of walls now less area before, over the tets that the steps touched: a tet counts as it was before the first of
+// them.
 #include "engine/wall_area.h"
 
 #include <algorithm>
