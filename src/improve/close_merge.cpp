@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Both stars are looked at as one surface around two vertices: three places are tried, each moved to where the volume
+// is kept, and judged by tets, references and turns alone (docs/internals.md, 3.13).
 #include "improve/close_merge.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The surfaces of `from` are collected once for all edges; each edge is asked by classes, lengths, shape, volume and
+// surfaces, and last by the link condition (docs/internals.md, 3.13).
 #include "improve/edge_collapse.h"
 
 #include <algorithm>

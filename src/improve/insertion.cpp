@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A cavity grows tet by tet across the face of its worst new tet, while the vertex follows the least energy; the best
+// cavity seen is carried out as one remesh plan (docs/internals.md, 3.13).
 #include "improve/insertion.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Sums of what maintenance did; tets that wait are a state and no sum.
 #include "incise/improve/options.h"
 
 namespace incise {

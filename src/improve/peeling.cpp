@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which of the tet's sides are open says what comes to light; one vertex then moves, linear in the volume lost, and
+// the first whose move leaves all in place is taken (docs/internals.md, 3.13).
 #include "improve/peeling.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each sweep is a few trees of triangles of falling size, merged as they grow, as in a binary counter; pieces are
+// compared by samples, and what already lay further off may stay so (docs/internals.md, 3.13).
 #include "improve/reference.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One linear equation in the vertex's step for each region and surface; elimination by the greatest gradient tells
+// which directions are held and which step gives everything back.
 #include "improve/region_volumes.h"
 
 #include <cmath>

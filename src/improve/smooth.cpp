@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The energy of a star with value, gradient and Hessian in a few operations for each tet, minimised by Newton steps
+// within the vertex's surfaces; what it proposes is judged by L/r (docs/internals.md, 3.13).
 #include "improve/smooth.h"
 
 #include <Eigen/Cholesky>

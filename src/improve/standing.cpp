@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A vertex that moves at rest stands for another point of the material, which is found in its star and taken to where
+// that stands now.
 #include "improve/standing.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Faces at a vertex fall into surfaces by tag and normal; their number and their vector areas decide whether it is
+// free, slides or stays, and regions take away what they must keep (docs/internals.md, 3.13).
 #include "improve/surfaces.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Change first, then mend the worst by single operations, and only then compare all that was touched with the tet as
+// it was (docs/internals.md, 3.13).
 #include "improve/trial.h"
 
 #include <algorithm>

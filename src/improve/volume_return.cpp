@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The volume lost is shared among the vertices beside it by the areas that they move; each moves in turn, along its
+// own vector area (docs/internals.md, 3.13).
 #include "improve/volume_return.h"
 
 #include <algorithm>

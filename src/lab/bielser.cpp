@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Both of Bielser's divisions as one pipeline with two schemes of points; parts, walls and links are those of
+// `Refinement`.
 #include "lab/bielser.h"
 
 #include "lab/opening.h"

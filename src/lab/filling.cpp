@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which parts fill a tet follows from which points it has: schemes with all points are written down, sides of
+// neighbours are divided alike by the numbers of their vertices.
 #include "lab/filling.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One entry for all methods: a sweep that meets itself comes in parts, each part is a sheet, and a cut that fails is
+// taken back as a whole.
 #include "incise/lab/method.h"
 
 #include <algorithm>

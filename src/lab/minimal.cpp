@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The paper's own division of one sheet, with a front that is thrown away.
 #include "lab/minimal.h"
 
 #include "paper/sheet_cut.h"

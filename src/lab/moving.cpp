@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Snapping first, in a step of its own, then the division of what is still crossed.
 #include "lab/moving.h"
 
 #include "lab/constants.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Stars are flooded without crossing the faces to be opened, and each further group gets a copy of its vertex; a face
+// whose three vertices all stay is latent.
 #include "lab/opening.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Points on crossed edges and sides make their tets, and those around them, be filled; where a part would have no
+// volume the tet's edges are blocked and all is planned anew.
 #include "lab/refinement.h"
 
 #include <algorithm>

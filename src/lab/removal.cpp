@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Crossed tets go, their neighbours' sides become walls, and what then hangs at a vertex or an edge alone is parted.
 #include "lab/removal.h"
 
 #include <algorithm>

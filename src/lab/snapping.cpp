@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Moves are planned on the mesh as it was, made one after the other where no tet turns over, and faces are then chosen
+// by the sides on which tets' centres lie.
 #include "lab/snapping.h"
 
 #include <algorithm>

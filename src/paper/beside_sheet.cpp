@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The nearest place of the sheet decides, and a cone from its border says where a next strip may still pass
+// (docs/internals.md, 3.12).
 #include "paper/beside_sheet.h"
 
 #include <algorithm>

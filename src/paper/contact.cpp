@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Vertices get a bit for each half-space outside the sheet's slabs; a tet whose corners share a bit cannot meet it,
+// and the rest is asked by the tree of triangles (docs/internals.md, 3.12).
 #include "paper/contact.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Edges of near tets in one table, each counted once and block by block on several threads; a tet is complete if all
+// of its faces are even (docs/internals.md, 3.12).
 #include "paper/crossing.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Algorithms 1 and 2 line by line, on the link of a vertex: incision faces are edges there, cutting edges their ends
+// (docs/internals.md, 3.12).
 #include "paper/dividable.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The latest of a few remembered ends at which all points of a blade stand (docs/internals.md, 3.12).
 #include "paper/ended_strokes.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each tet tries its faces, its edges, then its flat pairs; a swap is a remesh plan, kept where its worst tet is
+// better and nothing that it makes is there already (docs/paper_map.md, section 3.3).
 #include "paper/face_swap.h"
 
 #include <algorithm>

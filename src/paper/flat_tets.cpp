@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A tet along the sheet is asked which lip it is on, by walls of incisions beside it; that lip's side is opened and
+// the other stays joined (docs/internals.md, 3.12).
 #include "paper/flat_tets.h"
 
 #include <algorithm>

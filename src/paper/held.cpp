@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The front's vertices and the corners of all tets around them, sorted: asked by halving (docs/internals.md, 3.12).
 #include "paper/held.h"
 
 #include <algorithm>

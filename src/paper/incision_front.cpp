@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A point stays at the front while tissue around it lies on both sides of the sheet, told by the heights of its star's
+// corners over the sheet's plane there; copies of points are points, too (docs/internals.md, 3.12).
 #include "paper/incision_front.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The scatter of the points is turned by Jacobi's rotations until it is diagonal; the axis of its least entry is the
+// normal.
 #include "paper/least_squares_plane.h"
 
 #include <array>

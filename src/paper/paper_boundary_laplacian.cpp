@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Contours move beside the middle of their two neighbours, walls parallel to the plane that fits theirs: first all
+// contours, then all walls (docs/paper_map.md, section 3.4).
 #include "paper/paper_boundary_laplacian.h"
 
 #include "paper/least_squares_plane.h"

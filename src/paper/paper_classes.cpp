@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A walk around a vertex on the boundary, face by face; the edges at which tag or normal changes are contours, and
+// their number tells the class (docs/paper_map.md, section 2.5).
 #include "paper/paper_classes.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The rules of crumbs that `keep_crumbs` asks for, with sizes taken from uncut tets and from the largest tet nearby
+// (docs/internals.md, 3.12).
 #include "paper/paper_crumbs.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Merging, Boundary Laplacian, Smart Laplacian and Face Swapping, each a journal step of its own; vertices that a
+// front holds wait for the next call (docs/paper_map.md, sections 2.5 and 3).
 #include "paper/paper_maintenance.h"
 
 #include <algorithm>

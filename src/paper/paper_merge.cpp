@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Figure 6 by the lengths of six edges: which of them are short tells the case and which vanish. Three places are
+// tried for each merge, and each condition is asked in turn (docs/paper_map.md, section 2.5).
 #include "paper/paper_merge.h"
 
 #include <algorithm>

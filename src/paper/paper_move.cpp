@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The whole way is tried first, then half of it, and so on.
 #include "paper/paper_move.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Sets of vertices and tets as sorted lists without repeats: the order of everything that maintenance does.
 #include "paper/paper_region.h"
 
 #include <algorithm>

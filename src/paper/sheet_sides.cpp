@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Whether a face lies between the two sides is a parity: crossings of the way from one tet through the face to the
+// other, with exact signs (docs/internals.md, 3.12).
 #include "paper/sheet_sides.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The surfaces of several strips in one, the last first, so that its triangles keep their numbers (docs/internals.md,
+// 3.12).
 #include "paper/sheet_so_far.h"
 
 namespace incise {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Algorithm 3 line by line; a move that would turn a tet over has infinite quality (docs/paper_map.md, section 3.2).
 #include "paper/smart_laplacian.h"
 
 #include "improve/standing.h"

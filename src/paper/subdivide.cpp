@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Plan first: place points, mark splits, block what would become unsound, until nothing changes. Then points,
+// children, links, and the parents go (docs/internals.md, 3.12).
 #include "paper/subdivide.h"
 
 #include <algorithm>
