@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Linux gives address space without memory: it is reserved once for the largest array, and pages come with their first
+// use. Elsewhere, and under a limit on address space, nothing is reserved, and arrays double.
 #include "incise/core/grow_array.h"
 
 #if defined(__linux__) && !defined(__EMSCRIPTEN__)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Blocks of a fixed size go to oneTBB where there is more than one thread; without it they run in order. Threads are
+// capped at what the machine has, since oneTBB would complain on stderr.
 #include "incise/core/parallel.h"
 
 #include <algorithm>

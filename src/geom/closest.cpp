@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The signs of the barycentric weights say whether the nearest point is inside; else it is the nearest of those on the
+// three edges, with each corner the same bits from both of its edges.
 #include "incise/geom/closest.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Two triangles cross if an edge of one passes through the other: first by the sides of a plane, which settle most
+// pairs, then by how lines turn around edges.
 #include "incise/geom/intersect.h"
 
 namespace incise {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Exact determinants as expansions, after scaling by a power of two; under perturbation the minors of the matrix are
+// tried in the order of their monomials, from a table made by the compiler.
 #include "incise/geom/predicates.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// All measures from the four outward normals and the six edge lengths; cosines instead of angles wherever results are
+// compared.
 #include "incise/geom/quality.h"
 
 #include <algorithm>

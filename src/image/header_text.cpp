@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What headers of text have in common: words, lines, lists of numbers, and how more than three axes come down to
+// three.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each format is known by its first bytes and gives a header; from there on all go one way: find the voxels, unpack
+// them, compare sizes, decode.
 #include "incise/image/image_file.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// zlib in chunks, up to the size that the header promises and no further: a stream cannot claim more memory than its
+// own length can fill.
 #include "image/inflate.h"
 
 #if INCISE_WITH_GZIP

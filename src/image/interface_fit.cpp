@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Newton steps towards where labels are alike, point by point in colours that share no tet, each shortened until all
+// tets around stay within bounds. Biases of labels follow from the volumes that they lack (docs/internals.md, 6).
 #include "image/interface_fit.h"
 
 #include <algorithm>

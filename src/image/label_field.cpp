@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The kernel is a product of three splines, and voxels of one label that lie side by side along i are summed up before
+// their label is looked for.
 #include "image/label_field.h"
 
 #include <algorithm>

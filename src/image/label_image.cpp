@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Voxels hold the place of their label in a sorted list, so that renaming and merging change the list and a table.
 #include "incise/image/label_image.h"
 
 #include <algorithm>

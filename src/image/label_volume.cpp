@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Blocks of 4³ voxels with one label are known as such: whole boxes are told uniform by their blocks.
 #include "image/label_volume.h"
 
 #include <algorithm>

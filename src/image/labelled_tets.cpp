@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Faces are matched in the list of their lowest point, by counting sort; stars likewise.
 #include "image/labelled_tets.h"
 
 #include <algorithm>

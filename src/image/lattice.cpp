@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Leaves at interfaces are halved down to `size`, and further where two interfaces face each other across a thin
+// label; far from all of them they stay coarse (docs/internals.md, 6).
 #include "image/lattice.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Depth below the outer surface decides, and is asked block by block: no voxel of a block is further from its middle's
+// depth than from its middle, so that most blocks need one question.
 #include "incise/image/layers.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Stars that fall into several pieces of a label give all but the largest to their neighbours, round by round; what
+// does not settle is voted on, and in the end made uniform.
 #include "image/mend_manifold.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Repeats are found by sorted corners; turns spread over the edges of two triangles, and the smaller number of what
+// hangs together is turned.
 #include "image/mend_surface.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The pipeline from voxels to a mesh: islands, lattice, labels, repair, then rounds of moving points and peeling flat
+// tets, and maintenance at the end (docs/internals.md, 6).
 #include "incise/image/mesh_labels.h"
 
 #include <algorithm>

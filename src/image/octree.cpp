@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Lattice points are whole numbers of half the finest edge, so that points are found by number and not by place; at
+// each face of a leaf the pattern follows from the neighbour's size.
 #include "image/octree.h"
 
 #include <unordered_map>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Background that is connected with the image's border lies around the body; a surface net over the smoothed body goes
+// slice by slice, so that two slices of values suffice.
 #include "image/outer_surface.h"
 
 #include <algorithm>

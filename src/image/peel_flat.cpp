@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tets with two sides on the skin are looked at in turn, and those that their removal lays bare again; the edges of
+// the skin are kept in a set, so that none gets more than two faces.
 #include "image/peel_flat.h"
 
 #include <algorithm>

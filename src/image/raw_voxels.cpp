@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One decoder for all types and byte orders: values get numbers as they come, and labels their places in rising order
+// at the end.
 #include "image/raw_voxels.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Around each edge the triangles are sorted by angle, and sides that face each other are joined (union-find): each set
+// of sides left at the end walls in one region.
 #include "image/surface_cells.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Parts one by one, the largest first and smaller ones over it, each by the winding number of its own triangles at the
+// voxels of its box.
 #include "incise/image/surface_labels.h"
 
 #include <algorithm>

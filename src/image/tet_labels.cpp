@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Indicators at the middle and towards the corners say how much of each label a tet has; then a few rounds weigh that
+// against the faces that it has with other labels.
 #include "image/tet_labels.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A tree over the triangles with a dipole for each node; solid angles by an arc tangent of four operations, so that
+// bits agree everywhere.
 #include "image/winding_number.h"
 
 #include <algorithm>

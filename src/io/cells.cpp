@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Cells come in any number of arrays: tets and triangles keep their slot, labels that come later go there, and what is
+// left out is counted by its kind.
 #include "io/cells.h"
 
 namespace incise {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each file is written under a name of its own process beside its place, and all are renamed once all are written;
+// what processes that are gone have left there is taken away.
 #include "io/files.h"
 
 #include <array>

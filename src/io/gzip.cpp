@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// zlib with bounds on how far a stream may grow, since a small file can claim any size; without zlib every call says
+// so.
 #include "io/gzip.h"
 
 #if INCISE_WITH_GZIP

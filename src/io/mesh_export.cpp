@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One pass over slots numbers what is live, and all lists follow from these numbers.
 #include "incise/io/mesh_export.h"
 
 namespace incise {

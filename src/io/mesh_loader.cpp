@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// From a file's arrays to a mesh: mid-edge nodes out, orientation and duplicates mended, cuts of earlier sessions
+// taken in; whatever changed becomes a note.
 #include "incise/io/mesh_loader.h"
 
 #include <algorithm>

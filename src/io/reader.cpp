@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a reader made is checked once, here, for all formats: indices, finite points, mid-edge nodes that are corners
+// elsewhere.
 #include "io/reader.h"
 
 #include <algorithm>

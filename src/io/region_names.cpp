@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Names are cleaned when they are written and when they are read, so that none breaks a line or repeats a number.
 #include "io/region_names.h"
 
 #include "io/reader.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Numbers as digits and a power of ten: one rounding where both are exact, which is nearly always, and the library's
+// slow way elsewhere.
 #include "io/text.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Vertices without tets take up no room: they are slots that files left unused.
 #include "incise/mesh/bounds.h"
 
 namespace incise {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The link condition by marks on the vertices of one link, asked from the other, with the boundary closed by a vertex
+// at infinity; then links are joined across the tets that vanish.
 #include "incise/mesh/collapse.h"
 
 #include <algorithm>

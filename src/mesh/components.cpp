@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Floods from each tet that has no label yet, in the order of slots.
 #include "incise/mesh/components.h"
 
 #include "mesh/sum_internal.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Places follow from bindings, and normals turn as the triangles around them have turned; places before a cut are
+// asked a little inside the triangles, so that each lip finds its own tet.
 #include "incise/mesh/drawn_surface.h"
 
 #include <algorithm>

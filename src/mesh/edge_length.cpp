@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Three means that differ in how often an edge counts: by its tets or once.
 #include "incise/mesh/edge_length.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The public face of `SurfaceKeeper`: checks what is given and hands on; places and normals as the body stands are
+// computed here.
 #include "incise/mesh/embedded_surface.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Points and tets behind each other, corners renumbered; labels are made up only where one of the two has some.
 #include "incise/mesh/join.h"
 
 namespace incise {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A step has images of the slots and of the parts of free lists that it changed, from before it and, once undone, from
+// after it: undo and redo copy them back, so that the mesh is the same bit for bit.
 #include "incise/mesh/journal.h"
 
 #include <algorithm>

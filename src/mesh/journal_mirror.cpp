@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each record is checked against what is held before it is applied; before a step what it will touch is kept, and
+// comes back by the step's serial.
 #include "incise/mesh/journal_mirror.h"
 
 #include <algorithm>

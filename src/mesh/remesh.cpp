@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Faces of the cavity's hull and of the new tets are sorted by their vertices, and two of a kind meet: links need no
+// case for each pattern.
 #include "incise/mesh/remesh.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each of a cell's six tets is a path along three edges from its lowest corner to its highest; noise is a hash of
+// seed, point and axis.
 #include "incise/mesh/shapes.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a step touched is collected with marks, each tet and vertex once; tets are asked for their links, vertices for
+// their stars and the faces around them.
 #include "incise/mesh/step_check.h"
 
 #include <algorithm>

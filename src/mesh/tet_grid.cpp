@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A grid with the tets of each cell as a list; each tet's box is remembered, so that it is found again when it goes.
 #include "mesh/tet_grid.h"
 
 #include <algorithm>

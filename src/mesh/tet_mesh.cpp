@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Building from a soup, pass by pass: sizes, orientation, links by buckets of faces, walls of earlier cuts, then the
+// shape bits of vertices (docs/internals.md, 1).
 #include "incise/mesh/tet_mesh.h"
 
 #include <algorithm>

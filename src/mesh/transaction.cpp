@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Before a slot changes for the first time its image is kept; marks tell which slots are touched or new. Rollback puts
+// the images back, commit makes a step of them (docs/internals.md, 2).
 #include "incise/mesh/transaction.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rodrigues' rotation by the cross product of two unit vectors, without an angle.
 #include "mesh/turned_normals.h"
 
 namespace incise {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Every verb in two parts: `plan` looks, tests exact signs and may refuse; `apply` replaces tets, links the parts to
+// each other and to what was behind them, and cannot fail.
 #include "incise/mesh/verbs.h"
 
 #include <algorithm>
