@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Columns of the band while it is factored, rows beside them for solving: both ways go through memory in order
+// (docs/internals.md, 4).
 #include "sim/body/band_matrix.h"
 
 #include <algorithm>

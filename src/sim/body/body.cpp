@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The public calls of `DeformableBody`: arguments are checked, what they touch is woken, and energies and forces are
+// summed up; steps in time and in the journal are elsewhere (docs/internals.md, 4).
 #include "incise/sim/body.h"
 
 #include <algorithm>

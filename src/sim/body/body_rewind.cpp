@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tets that undo changes are kept as the body has them; what comes back, or elsewhere at rest, is sampled there,
+// through a grid over the rest shape, and momenta are made up for as a whole (docs/internals.md, 4).
 #include "sim/body/body_rewind.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Forces are summed at the nodes of cells, a band matrix answers, turned with each node's part of the body, and the
+// answer is taken as far as the true energy's slope says (docs/internals.md, 4).
 #include "sim/body/coarse_lattice.h"
 
 #include <Eigen/LU>

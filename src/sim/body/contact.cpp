@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a tool is to the tissue comes down to one function for each shape: distance, normal and nearest place; all else
+// goes by `std::visit` (docs/internals.md, 4).
 #include "incise/sim/contact.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A counting sort of boxes by the cells that they meet, filled from behind so that each cell lists them in ascending
+// order (docs/internals.md, 4).
 #include "sim/body/contact_grid.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Four bits for each tet say which of its sides are open; faces are listed anew only where some bits changed, eight
+// tets at a time where there are none (docs/internals.md, 4).
 #include "sim/body/contact_surface.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A spring along the normal while the gap is below zero, and one to the anchor across it that gives way at its limit:
+// slopes and bounds of curvature, added to a visit's quadratic (docs/internals.md, 4).
 #include "sim/body/contact_terms.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Everything that a tet adds to its corners, computed once when it comes: a Laplacian, the slopes of its volume,
+// fibres and metrics; thin tets are softened as they are made (docs/internals.md, 4).
 #include "sim/body/element.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Bounds of what a material may be, and which one a region has; a message names whose number is wrong.
 #include "incise/sim/material.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each tet's rest volume and give stay by slot; a vertex sums those of its star when the star changes
+// (docs/internals.md, 4).
 #include "sim/body/nodal_volumes.h"
 
 namespace incise {

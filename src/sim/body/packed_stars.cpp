@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Neighbours of a star get numbers as its blocks name them; where one part has no numbers left the star goes on in
+// another. Room that a star leaves is kept for the next of its size (docs/internals.md, 4).
 #include "sim/body/packed_stars.h"
 
 #include <algorithm>

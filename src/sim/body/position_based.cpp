@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Gauss and Seidel over tets and pulls in one order, in double precision: two constraints for each tet, one for each
+// pull (docs/internals.md, 4).
 #include "sim/body/position_based.h"
 
 #include <Eigen/LU>

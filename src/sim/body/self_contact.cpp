@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A grid of faces, made seldom and wide enough for several steps; the nearest face that looks at a vertex is its
+// partner, and what was known of them goes on in the next step (docs/internals.md, 4).
 #include "sim/body/self_contact.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Lanes come and go in constant time: the last one moves into the gap. A star that is full moves to a place with one
+// block more, and its old place waits for another (docs/internals.md, 4).
 #include "sim/body/stars.h"
 
 #include <algorithm>

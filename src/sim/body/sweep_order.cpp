@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Heat by vertex counts down while it rests; lists of the awake are merged with what woke, by rank, and lent vertices
+// visit with the seam (docs/internals.md, 4).
 #include "sim/body/sweep_order.h"
 
 #include <algorithm>

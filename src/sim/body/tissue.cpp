@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Two tables: tissues with their numbers and which of these are readings, and words of region names, in the order in
+// which they count.
 #include "incise/sim/tissue.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Four signed volumes tell whether a place is in a tet, and through which side to walk on where it is not.
 #include "incise/sim/tissue_point.h"
 
 #include <algorithm>

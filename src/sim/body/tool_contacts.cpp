@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Vertices of the surface that are in a tool, with an anchor for friction that goes with the tool and slips behind it;
+// the depth that a vertex had before the tool moved counts as none, and fades (docs/internals.md, 4).
 #include <algorithm>
 
 #include "incise/sim/contact.h"

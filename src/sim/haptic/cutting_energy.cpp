@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Work by the trapezoidal rule between two places of the tool; what is dissipated is what is left over.
 #include "incise/sim/cutting_energy.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One list of what must hold, as a word of static text, so that the check of the 1 kHz thread allocates nothing.
 #include "incise/sim/haptic_snapshot.h"
 
 #include <cmath>

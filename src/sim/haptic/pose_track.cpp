@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Polynomials between poses and normalised sums of quaternions: no libm but the square root, so that tracks are the
+// same on every machine.
 #include "incise/sim/pose_track.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One mass on a spring and a damper, both taken at the end of a step: no step is too long for it.
 #include "incise/sim/simulated_operator.h"
 
 #include <cmath>

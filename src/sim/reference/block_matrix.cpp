@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rows of blocks in the order of their columns. Eigen factors the lower half; conjugate gradients need the product and
+// the diagonal alone (docs/internals.md, 4).
 #include "sim/reference/block_matrix.h"
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Gradients of shape functions once for each element; energy, forces and stiffness from the displacement gradient, so
+// that a body at rest has no rounding errors of its size (docs/internals.md, 4).
 #include "sim/reference/elastic_body.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Newton with exact second derivatives while they are positive definite, projected ones where not, and steps halved
+// until the energy falls; near the end forces decide instead of energies (docs/internals.md, 4).
 #include "incise/sim/reference.h"
 
 #include <algorithm>
