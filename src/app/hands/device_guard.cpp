@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Trust as one moment, `live_from_`: a jump, a silence or a word without sense moves it ahead, and the share of force
+// grows from it linearly.
 #include "app/hands/device_guard.h"
 
 #include <algorithm>

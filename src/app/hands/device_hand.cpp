@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A straight edge around the device's place, sized by the body. The pose is handed to the simulation only near the
+// body, so that each approach is a stroke.
 #include "app/hands/device_hand.h"
 
 #include <algorithm>

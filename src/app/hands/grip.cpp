@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A pointer has two coordinates: a hook gets its third from the plane across the view through what it grasped, or from
+// the plane along the surface there.
 #include "app/hands/grip.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Thins out a way while it waits: the newest place is replaced as long as the straight way to its successor passes all
+// places left out before it.
 #include "app/hands/hand_queue.h"
 
 #include <algorithm>

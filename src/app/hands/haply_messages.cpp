@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads what a blade needs and passes over the rest, so that newer versions of the service, with more fields, are
+// still understood.
 #include "app/hands/haply_messages.h"
 
 #include <array>

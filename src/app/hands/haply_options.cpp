@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The bounds of what may be asked of a Haply arm, and addresses as people write them, with IPv6 in brackets.
 #include <charconv>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Deadlines lie on a fixed grid of the steady clock, and ticks that were slept through are skipped. All that passes
+// between the threads goes through triple buffers and relaxed counters, so that no thread waits for the other.
 #include "app/hands/haptic_loop.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A critically damped spring draws the device to the pointer, integrated backwards, with bounded acceleration.
 #include "app/hands/mouse_device.h"
 
 #include "incise/sim/time_steps.h"

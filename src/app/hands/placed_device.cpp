@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// World = offset + scale · axes · device. Each lift ends with a new offset, such that what is held stays where it was.
 #include "app/hands/placed_device.h"
 
 #include <array>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The punch as a stroke of three rings of the same number of corners: above the skin, at most of the depth, and one
+// point at its end.
 #include "app/hands/punch.h"
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Settings come in three layers, each over the one before: what suits the body, what the exercise asks for, what the
+// scene's `hand` says.
 #include "app/hands/scene_hand_tools.h"
 
 #include <algorithm>

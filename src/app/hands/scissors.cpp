@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Two points and a depth make scissors: the lower blade lies between them under the skin, and the upper one is turned
+// about the hinge onto it in straight steps.
 #include "app/hands/scissors.h"
 
 namespace incise {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One drag at a time: its press decides whether the view, a grasp or the chosen tool has it, and all later events go
+// there. What the hands do is made anew from the tools after each event.
 #include "app/hands/tools.h"
 
 #include <algorithm>

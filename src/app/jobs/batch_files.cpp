@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A mesh after its cuts is judged by the size and hash that its line has; one before its cuts and strokes, whose bytes
+// no line has, by whether they can be read.
 #include "app/jobs/batch_files.h"
 
 #include <limits>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One item from the reading of its mesh to its line. Files that the line names are written before the line is given
+// back; figures from libm are rounded, so that lines of two machines agree.
 #include "app/jobs/batch_item.h"
 
 #include <cmath>

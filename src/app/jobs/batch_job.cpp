@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Workers append lines to files of their own and agree on nothing else; the merge chooses among lines of one item and
+// looks at their files; the check computes a sample again and compares field by field.
 #include "app/jobs/batch_job.h"
 
 #include <algorithm>

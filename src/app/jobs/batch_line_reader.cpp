@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tables of fields and their types, against which a line is held. Lines that a full disk or an editor spoiled are told
+// from results by them.
 #include "app/jobs/batch_line_reader.h"
 
 #include <algorithm>

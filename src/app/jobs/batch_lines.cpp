@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A shard's file is locked while its worker lives (flock), and only ever grows by whole lines: what a killed worker
+// left of one is cut off by the next.
 #include "app/jobs/batch_lines.h"
 
 #include <fcntl.h>

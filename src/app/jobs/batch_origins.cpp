@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Remembers the first program, and the first key of each mesh, with the line that named them: whoever differs is told
+// of both.
 #include "app/jobs/batch_origins.h"
 
 #include "app/text/json_write.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads entries of a plan into items, in the order of the plan, and gives each a key: a hash of its own part of the
+// plan, written out as JSON, so that changes elsewhere in the plan leave results valid.
 #include "app/jobs/batch_plan.h"
 
 #include <algorithm>

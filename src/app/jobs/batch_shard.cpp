@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The two ways to count shards differ in the last one alone: N of N, which is taken modulo N.
 #include "app/jobs/batch_shard.h"
 
 namespace incise {

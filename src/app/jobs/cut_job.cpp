@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Stroke after stroke through a recorded engine that only cuts; maintenance is called from here, so that the mesh can
+// be measured between the two. A stroke that breaks the validity contract is undone at the end.
 #include "app/jobs/cut_job.h"
 
 #include <utility>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// All frames are written into a folder beside the place, which is exchanged by renaming it: no moment has half a
+// series.
 #include "app/jobs/frame_series.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The engine's `improve` finds the tets and spends its own units; where a clock decides, `Upkeep` goes on from there.
 #include "app/jobs/improve_job.h"
 
 #include <utility>

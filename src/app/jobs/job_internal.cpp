@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Maintenance in slices, with the clock asked between them, and the figures that reports of all jobs have in common.
 #include "app/jobs/job_internal.h"
 
 #include <system_error>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The methods of the lab cut the bare mesh with a journal that nobody follows; an engine is made only at the end, for
+// whoever looks.
 #include "app/jobs/lab_cut.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Buckets as floating-point numbers have them: the exponent and the leading bits of a duration are its bucket.
 #include "app/jobs/latency_histogram.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each call is made again and compared with how it ended; where `maintain` was stopped by a clock, the recording has
+// how often it had asked.
 #include "app/jobs/replay_job.h"
 
 #include <system_error>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The report twice, from the same struct: as a tree of JSON and as a table for people.
 #include "app/jobs/report.h"
 
 #include <algorithm>

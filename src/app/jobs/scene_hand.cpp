@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A plan of the blade's middle is made when the blade is picked up; a frame is then as many ticks of tool and operator
+// as it has milliseconds.
 #include "app/jobs/scene_hand.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Runs the frames of a scene and adds up what they report. The mesh is measured once a stroke has ended and again
+// after the last frame, outside of all times.
 #include "app/jobs/simulate_job.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Makes the calls of a recording again, on the scene's own body, and compares ends and hashes.
 #include "app/jobs/simulation_replay.h"
 
 #include <utility>

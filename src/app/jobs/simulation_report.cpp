@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The report of a cut, with forces, energies, what the hand felt and the shares of time added to its tree.
 #include "app/jobs/simulation_report.h"
 
 #include "app/jobs/report_tree.h"

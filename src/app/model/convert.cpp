@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A file is first read as a mesh; only where it is none, and a surface is asked for, as a surface.
 #include "app/model/convert.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Names may stand for several regions, and are compared without regard to case. Whoever asks for what is not there is
+// told what is.
 #include "app/model/find_regions.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What is drawn, skin and walls together, is written as one list of triangles; `.glb` keeps the two apart.
 #include "app/model/fine_file.h"
 
 #include "app/model/convert.h"

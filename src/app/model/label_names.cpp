@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A line is a number, then whatever parts it from the name, then the name: in quotes if there are any.
 #include "app/model/label_names.h"
 
 #include <cstdlib>

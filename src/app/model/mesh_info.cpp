@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Figures are gathered from the soup, before a mesh is built: a file that cannot be built can still be described.
 #include "app/model/mesh_info.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The pipeline from a file to tets: labels are read or sampled from a surface, merged, kept or left out, and layers
+// are put under the skin; then it is meshed, and what did not come out as asked is noted.
 #include "app/model/organ.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One line of JSON for each call: an encoder for each kind, and a reader that refuses what it does not know. Poses are
+// the bytes of their doubles in base64, and so read back bit for bit.
 #include "app/recording/engine_recording.h"
 
 #include <array>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each call is timed, made, and then written with what it left; a refused call has changed nothing, and is not
+// written.
 #include "app/recording/recorded_engine.h"
 
 #include <utility>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Calls that were made are kept besides, where asked for, so that a recording may begin with what has happened
+// already.
 #include "app/recording/recorded_simulation.h"
 
 #include <utility>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One line of JSON for each call. A field that has its default has no key, so that frames without hands are short.
 #include "app/recording/simulation_recording.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The strokes are read by what scenes share with blade files; regions are looked up once the mesh is known, and the
+// edge is then held outside of them.
 #include "app/scene/blade_file.h"
 
 #include <utility>

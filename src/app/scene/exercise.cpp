@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The ideal is a scene's strokes like any other: frames of an attempt are counted from its first blade, those of the
+// ideal from the ideal's.
 #include "app/scene/exercise.h"
 
 #include <algorithm>

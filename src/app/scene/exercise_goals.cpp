@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What regions are is taken from the uncut mesh, as faces to which distances are measured; what became of them, from
+// the walls and the pieces at the end.
 #include "app/scene/exercise_goals.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each kind of fault has points of its own to lose: none up to its tolerance, all from a multiple of it on, and evenly
+// between.
 #include "app/scene/exercise_grade.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The line is divided into a hundred parts, each with its skin and its normal. Edges of the cut's contour and of its
+// walls are taken in short pieces, and each piece counts for the part nearest to it.
 #include "app/scene/exercise_measure.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// HTML as text, its drawings as SVG and its pictures as base64. All that comes from a scene goes through one function
+// that quotes it.
 #include "app/scene/exercise_page.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Notes what only frames know, stroke by stroke: forces, angles, depth at the place nearest to the line. The mesh is
+// measured when the score is asked for; strokes that were undone fall out by their numbers.
 #include "app/scene/exercise_score.h"
 
 #include <algorithm>

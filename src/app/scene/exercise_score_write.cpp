@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-
+// The score twice: as a tree of JSON with a figure for all that was measured, and as lines for people without those
+// that were not.
 #include <cmath>
 
 #include "app/scene/exercise_score_tree.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A pure function of the scene and a frame's number: tracks are interpolated between their two keys around the frame's
+// end, shapes field by field.
 #include <algorithm>
 #include <optional>
 #include <type_traits>

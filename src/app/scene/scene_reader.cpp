@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Readers that build upon each other by inheritance, one for each part of a scene, and share what has been read
+// before; each key is checked where it is read, and its path is in the message.
 #include "app/scene/scene_reader.h"
 
 #include <algorithm>

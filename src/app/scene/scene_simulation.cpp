@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// From a scene as it was read to a simulation before its first frame: model, names of regions, what holds the body,
+// sutures, reach of the blades. What a scene asks for in vain is an error here, not a silent nothing.
 #include "app/scene/scene_simulation.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The inverse of the reader: what has its default is left out where the reader puts it in again, so that scenes stay
+// as short as people write them.
 #include "app/scene/scene_write.h"
 
 #include <cmath>

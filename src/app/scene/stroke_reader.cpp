@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Both ways to write a stroke, an edge at each time and a rigid edge with poses, become edges at times.
 #include "app/scene/stroke_reader.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A list that forgets its oldest entry; the count goes on, so that displays notice.
 #include "app/session/operation_log.h"
 
 #include <utility>

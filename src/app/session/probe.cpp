@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// All figures come from the mesh as it is at this moment: nothing is kept of a tet that may be gone with the next
+// step.
 #include "app/session/probe.h"
 
 #include "app/text/formatted.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One float per tet slot, 0 where there is no tet: a step of the journal changes a few, and sums are made anew from
+// all, in the order of slots.
 #include "app/session/quality_monitor.h"
 
 #include <algorithm>

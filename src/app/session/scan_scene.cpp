@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The mesh of a scan goes into a file named by its hash: scenes, recordings and replays name a file, and none is
+// overwritten by another mesh.
 #include "app/session/scan_scene.h"
 
 #include <system_error>

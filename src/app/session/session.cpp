@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A frame is made of what the scene does and what the hands do, with one blade at most; figures and the log follow
+// from its report. A reset starts the scene anew.
 #include "app/session/session.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Commands wait in a queue until a frame has ended; views go the other way through a triple buffer. What was asked for
+// after a gesture waits until the simulation has caught up with that gesture.
 #include "app/session/session_thread.h"
 
 #include <algorithm>

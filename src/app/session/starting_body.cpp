@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The patch of skin is a box with regions and a script. Organs are solids by signed distance, united smoothly, sampled
+// into voxels and meshed as scans are.
 #include "app/session/starting_body.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The vein's walls become regions by two half-spaces, and its line follows `vein_bend`; the ideal goes down, along the
+// line and out again.
 #include "app/session/starting_exercise.h"
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One copy of the mesh is checked at a time; while it is, the newest state is not taken, so that the light may be late
+// but the thread never falls behind.
 #include "app/session/validity_monitor.h"
 
 #include <condition_variable>

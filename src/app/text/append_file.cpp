@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The first text is written under another name and renamed, with signals held back; all others are single writes to
+// the file's end.
 #include "app/text/append_file.h"
 
 #include <fcntl.h>

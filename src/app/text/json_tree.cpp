@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The parser hands over events one by one; characters are counted on their way to it, which tells the line of each
+// value. Bounds on depth and size are checked as the tree grows.
 #include "app/text/json_tree.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What several reports encode, in one way only: not-a-number is null, a hash is 16 digits.
 #include "app/text/json_write.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A line is whole if it is JSON as a whole: an object that is cut off lacks its last brace.
 #include "app/text/line_reader.h"
 
 namespace incise {

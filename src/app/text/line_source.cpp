@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads byte by byte from the stream's buffer, so that a line without an end is noticed before it fills the memory.
 #include "app/text/line_source.h"
 
 #include <fstream>

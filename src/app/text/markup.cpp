@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Four characters have a meaning in markup; all others stand for themselves.
 #include "app/text/markup.h"
 
 namespace incise {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A range knows how to say what it allows, and the message of a number out of it is made of that.
 #include "app/text/range_reader.h"
 
 #include <cmath>

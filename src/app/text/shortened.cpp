@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Takes from the middle: what went wrong stands at the beginning of a message, the remedy at its end.
 #include "app/text/shortened.h"
 
 namespace incise {

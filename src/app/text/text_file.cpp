@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Files are opened with stdio rather than streams, which do not say why they fail.
 #include "app/text/text_file.h"
 
 #include <unistd.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each reason that the system gives gets the remedy that a person can apply.
 #include "app/text/write_all.h"
 
 #include <unistd.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Azimuth and elevation are measured in a ground plane across `up`, so that every `up` behaves alike. Framing looks at
+// points one by one: perspective makes near ones larger than any box tells.
 #include "app/view/camera.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Colours by formula and by table, in whole numbers: the same in windows, pictures and pages.
 #include "app/view/color_map.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Lips lie at one place after a cut at rest: triangles and places are sorted by their coordinates, and equal ones
+// drawn once.
 #include "app/view/cut_marks.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The walls' mean normal, both lips alike, says from where they are seen at a slant. Pieces are moved apart; where
+// that shows nothing, the skin becomes translucent.
 #include "app/view/cut_picture.h"
 
 #include "app/view/spread_pieces.h"

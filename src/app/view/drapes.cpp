@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One closed rim around the box, repeated outwards in rows whose heights draw the cloth over the edge of the opening
+// and down beside the body.
 #include "app/view/drapes.h"
 
 #include <Eigen/Geometry>

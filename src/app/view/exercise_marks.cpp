@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A ribbon of two triangles for each part of the line, between the line and the cut's contour.
 #include "app/view/exercise_marks.h"
 
 #include <algorithm>

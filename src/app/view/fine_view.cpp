@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A drawing's slots become a topology's: free ones stay as empty triangles, so that what did not change keeps its
+// place.
 #include "app/view/fine_view.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A clip plane through the body's middle, facing the eye, opens bodies of several regions.
 #include "app/view/label_picture.h"
 
 #include "incise/mesh/bounds.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// All points are turned into the ray's frame once; a triangle is met if the origin lies in it as seen along the ray.
 #include "app/view/picking.h"
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Bounds in single precision, as positions are drawn: what is measured is what is seen.
 #include "app/view/picture.h"
 
 namespace incise {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A box for each piece, from one pass over the tets; pieces whose middle is far from the largest one's are not shown.
 #include "app/view/piece_bounds.h"
 
 #include <algorithm>

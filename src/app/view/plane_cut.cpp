@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The plane is laid as far as the box of the body reaches, seen from the eye along the two middle directions; the
+// stroke is one edge moved from one end to the other.
 #include "app/view/plane_cut.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A scene's view says as much as it likes; the rest follows from gravity and from the body's box.
 #include "app/view/scene_camera.h"
 
 namespace incise {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Looks for the surface where the scene's other files are, reads it and binds it; messages name the file.
 #include "app/view/scene_fine_view.h"
 
 #include <utility>

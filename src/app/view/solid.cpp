@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Bars are rings of corners joined along a way, plates are outlines closed by fans; flat faces get normals of their
+// own and round ones share them.
 #include "app/view/solid.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Each piece goes away from the body's middle by a share of the body's width in that direction, and points follow the
+// piece of their vertex.
 #include "app/view/spread_pieces.h"
 
 #include "incise/geom/box.h"

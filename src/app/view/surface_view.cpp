@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Triangles and points have slots that are used again when they are free, so that a step changes a few of them. A
+// step's tets, and those whose sides it opened, are hidden and shown anew; the topology is copied when it is
+// published.
 #include "app/view/surface_view.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A state machine whose steps are left by what is seen in the body, not by which keys were pressed.
 #include "app/viewer/first_steps.h"
 
 #include <array>

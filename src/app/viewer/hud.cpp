@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rates are differences of sums over a window of samples; rows of figures are made as text, so that every front end
+// shows the same.
 #include "app/viewer/hud.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Ways of the pointer may be taken together; whatever else happens ends a step.
 #include "app/viewer/input_steps.h"
 
 #include <algorithm>

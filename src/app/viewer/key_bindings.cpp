@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One table, from which the keys, the hints of buttons and the list of `--help` come.
 #include "app/viewer/key_bindings.h"
 
 #include <array>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Actions go to those who know them: tools, time, files, the window's own state. A picture is made from the newest
+// view when it is asked for; the first input of a person ends a demonstration.
 #include "app/viewer/viewer.h"
 
 #include <algorithm>
