@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One function for each option, so that it has the same words and bounds in every command.
 #include "command_options.h"
 
 #include <vector>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What kind of error ends the program with which code is decided here alone.
 #include "command_support.h"
 
 #include <filesystem>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// `incise convert`: files go through `app::convert`; stdin and stdout, which have no extension, are read and written
+// here.
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>

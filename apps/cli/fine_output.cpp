@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The two options are one pair: a drawn surface needs a surface, which messages say before any work is done.
 #include "fine_output.h"
 
 #include <CLI/CLI.hpp>

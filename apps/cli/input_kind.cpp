@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Only after reading has failed is a file looked at again: the first key "format" of JSON, or a mesh reader, says what
+// it is.
 #include "input_kind.h"
 
 #include <filesystem>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Outputs are refused before the work by what their names tell; afterwards mesh, report and exit code follow from
+// whether the validity contract held.
 #include "job_output.h"
 
 #include "app/text/text_file.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Extension and --format must agree; what neither tells is asked for.
 #include "mesh_output.h"
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The same figures twice, from one struct: JSON for programs, lines for people.
 #include "mesh_report.h"
 
 #include <algorithm>

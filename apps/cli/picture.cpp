@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Where drawing was built in: a picture of `app` drawn by `render`, without a window.
 #include "picture.h"
 
 #include "app/view/cut_picture.h"

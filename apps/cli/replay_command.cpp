@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// `incise replay`: the job does the work; here its end becomes notes, a mesh and an exit code.
 #include <memory>
 #include <optional>
 

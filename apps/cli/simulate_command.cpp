@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// `incise simulate`: arguments override the scene, the job runs it, and what is written over time or at the end hangs
+// on the job's callbacks.
 #include <filesystem>
 #include <memory>
 #include <optional>

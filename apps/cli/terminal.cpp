@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A signal that comes while a file is written waits until it is whole; at any other moment it ends the program at
+// once.
 #include "terminal.h"
 
 #include <unistd.h>

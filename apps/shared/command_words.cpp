@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Levenshtein's distance to what is known, at most a third of the word: nearer words are suggested.
 #include "shared/command_words.h"
 
 #include <algorithm>

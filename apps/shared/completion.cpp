@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Both scripts are written from CLI11's own tree, so that no option is listed twice.
 #include "shared/completion.h"
 
 #include <algorithm>

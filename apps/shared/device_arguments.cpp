@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Options become those of the device and of the hand, each checked by its own `check`; only then is the device opened.
 #include "shared/device_arguments.h"
 
 #include <utility>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The tree of options as roff: synopsis, sections of options and commands, and the examples of the footer.
 #include "shared/manual.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Options are added group by group, each writes into one struct; what they ask for together is checked at the end,
+// before anything is opened.
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The same codes as the command, with one more for a machine that cannot draw.
 #include "exit_code.h"
 
 #include <cstdio>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Names are read when a folder is entered, not in every frame.
 #include "file_list.h"
 
 #include <algorithm>

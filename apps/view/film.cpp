@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Pictures go to a folder, and ffmpeg is run on it as a program of its own.
 #include "film.h"
 
 #include <spawn.h>

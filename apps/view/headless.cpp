@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Frame by frame through the session, with pictures at those that are asked for; the camera is aimed once, so that a
+// sequence stands still.
 #include "headless.h"
 
 #include <unistd.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A pen on a square of 24 units, and one case for each icon.
 #include "icons.h"
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A frame: take what happened, step by step, draw the panels, draw the picture, wait. What is saved is drawn once more
+// without panels.
 #include "interactive.h"
 
 #include <imgui.h>

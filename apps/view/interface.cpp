@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Events are handed to Dear ImGui in steps, since it looks at the pointer once a frame; fonts are made anew where
+// their size changes.
 #include "interface.h"
 
 #include <backends/imgui_impl_glfw.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Window or headless run, and the last resort for exceptions: one line and an exit code.
 #include <csignal>
 #include <cstdlib>
 #include <exception>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Sizes in heights of text, so that panels grow with it; buttons take their hints from the table of keys.
 #include "panel_parts.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Panels in the order in which they stand on the screen. They keep no state of the body: figures are read from the
+// view, wishes go to the viewer.
 #include "panels.h"
 
 #include <imgui.h>

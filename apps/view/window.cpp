@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// GLFW's callbacks become events in a list, with places in pixels of the framebuffer; keys go by what the person's
+// layout prints on them.
 #include "window.h"
 
 #include <epoxy/gl.h>

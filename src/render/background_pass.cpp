@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One triangle that is larger than the picture, and no vertices: the shader makes them from their numbers.
 #include "render/background_pass.h"
 
 #include <epoxy/gl.h>

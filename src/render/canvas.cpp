@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Three framebuffers: several samples to draw to, one depth for each pixel to read from, and plain colours to show;
+// what has no samples does without the first.
 #include "render/canvas.h"
 
 #include <epoxy/gl.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Every name of OpenGL comes with the function that deletes it; shaders are compiled with the version line and a
+// prelude in front.
 #include "render/gl_object.h"
 
 #include <epoxy/gl.h>

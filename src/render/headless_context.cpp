@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Libraries are looked for before libepoxy asks for them, since it ends the program where they are missing; then EGL's
+// surfaceless platform gives a context.
 #include "render/headless_context.h"
 
 #include <dlfcn.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// PNG by stb with zlib's packing. Images that are opaque all over are written with three bytes for each pixel.
 #include "render/image.h"
 
 #include <zlib.h>

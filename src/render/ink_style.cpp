@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One table of inks, each with two colours and three shapes; the casing around an ink follows from its lightness.
 #include "render/ink_style.h"
 
 namespace incise {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Marks become plain rows, translucent triangles sorted from far to near; those whose depth is no number are left out,
+// since sorting asks for an order.
 #include "render/mark_rows.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Lines and balls are instances of four corners that the vertex shader pulls apart to their width in pixels; patterns
+// are drawn by the fragment shaders.
 #include "render/marks_pass.h"
 
 #include <epoxy/gl.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Blocks are compared with the copy, and neighbouring ones that differ go up together; a buffer that changed by half
+// is replaced.
 #include "render/mirrored_buffer.h"
 
 #include <epoxy/gl.h>

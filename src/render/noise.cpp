@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A linear congruential generator, of which the high bits are used.
 #include "render/noise.h"
 
 #include <cstddef>

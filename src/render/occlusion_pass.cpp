@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Three steps over the whole picture: estimate from depths, blur, darken. Normals come from differences of depth
+// towards the nearer side.
 #include "render/occlusion_pass.h"
 
 #include <epoxy/gl.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A renderbuffer instead of a window; rows are turned on reading, since OpenGL begins at the bottom.
 #include "render/offscreen_target.h"
 
 #include <epoxy/gl.h>

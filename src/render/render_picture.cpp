@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Context, renderer and target for one picture, in the order in which they must be destroyed.
 #include "render/render_picture.h"
 
 #include "render/headless_context.h"

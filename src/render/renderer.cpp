@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The order of passes for one picture: shadows, background, solids, body with its hollows, marks, translucent skin.
+// All is checked before anything is drawn.
 #include "render/renderer.h"
 
 #include <epoxy/gl.h>

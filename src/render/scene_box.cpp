@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Everything that has a place takes part, instruments as balls of their greatest length.
 #include "render/scene_box.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// An orthographic picture of depths from the light, which moves with the eye; the hardware compares on look-up.
 #include "render/shadow_pass.h"
 
 #include <epoxy/gl.h>

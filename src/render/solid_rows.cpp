@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One list in the order in which it is drawn, so that each kind is a range of it.
 #include "render/solid_rows.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Ghosts are drawn twice: depths alone, then colours where the depth is equal, so that only the nearest triangles are
+// seen.
 #include "render/solids_pass.h"
 
 #include <epoxy/gl.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Looks of triangles lie in a buffer texture that shaders read by the triangle's number, so that points can be shared
+// by triangles of different looks.
 #include "render/surface_pass.h"
 
 #include <epoxy/gl.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Places are divided by the extent of the body at rest, so that patterns have the same size on every body.
 #include "render/surface_places.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Asks the driver for its two limits and takes the smaller one.
 #include "render/viewport_check.h"
 
 #include <epoxy/gl.h>
