@@ -13,6 +13,7 @@ namespace io {
 /// No deflate stream grows by more than this factor; a header that promises more lies.
 inline constexpr std::uint64_t kMaxInflation = 1040;
 
+/// Whether bytes begin as a gzip stream does. Cost: O(1).
 [[nodiscard]] bool is_gzip(std::string_view bytes);
 
 /// Gunzip all members of `bytes`, to at most `max_bytes` and, beyond 64 MiB, 200 times their size. On failure returns
