@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts without where they go: control characters become spaces, times are guessed from the share that is done.
+// Text alone, printed elsewhere: control characters become spaces, and the time left follows from the share that is
+// done.
 #include "shared/message_text.h"
 
 #include <algorithm>

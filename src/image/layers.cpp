@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth below the outer surface decides, and is asked block by block: no voxel of a block is further from its middle's
-// depth than from its middle, so that most blocks need one question.
+// Depth below the outer surface decides, and is asked block by block: within a block it differs from that of its
+// middle by no more than the distance from there, so that most blocks need one question.
 #include "incise/image/layers.h"
 
 #include <algorithm>

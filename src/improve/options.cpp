@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums of what maintenance did; tets that wait are a state and no sum.
+// Sums of what maintenance did, count by count; tets that wait are a state, and the latest one stands.
 #include "incise/improve/options.h"
 
 namespace incise {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each end of a flagged edge is asked once for the strip and once for the whole sheet, whichever crosses the edge;
-// lengths of stars are measured only where the sheet is close (docs/internals.md, 3.12).
+// Each end of a flagged edge is compared with what crosses that edge, the strip or the whole sheet, and once with
+// each; lengths of stars are measured only where the sheet is close (docs/internals.md, 3.12).
 #include "paper/coincidence.h"
 
 #include <algorithm>

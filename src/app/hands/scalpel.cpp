@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seeing where the pointer is, and moving the blade there, are two matters: normal and direction are low-passed over
-// travel, not time, so that the pace of the hand does not change the cut.
+// The pointer is looked for on the skin first, then on the plane through the last good place. Normal and direction are
+// smoothed over travel, not time, so that the pace of the hand does not change the cut.
 #include "app/hands/scalpel.h"
 
 #include <algorithm>

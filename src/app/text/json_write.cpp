@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What several reports encode, in one way only: not-a-number is null, a hash is 16 digits.
+// What all reports encode alike: what is not finite becomes null, and a hash 16 digits.
 #include "app/text/json_write.h"
 
 #include <cmath>

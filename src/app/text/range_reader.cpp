@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A range knows how to say what it allows, and the message of a number out of it is made of that.
+// Messages about a number out of range are made from the range itself, so that they cannot say anything else.
 #include "app/text/range_reader.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One list of what must hold, as a word of static text, so that the check of the 1 kHz thread allocates nothing.
+// One list of what must hold, each with a static text, so that the check in the thread at 1 kHz allocates nothing.
 #include "incise/sim/haptic_snapshot.h"
 
 #include <cmath>
