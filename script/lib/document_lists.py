@@ -5,8 +5,10 @@
   name exist.
 - docs/decisions/README.md has a row for each record, under its title.
 - docs/README.md names each page beside it.
+- docs/results.md has the figures of docs/benchmark_methods.csv, of the bunny after 1 and 20 planes.
 - docs/troubleshooting.md quotes messages ("`...`") as the sources have them.
 """
+import csv
 import glob
 import os
 import re
@@ -73,8 +75,28 @@ def check_messages(root):
             yield "docs/troubleshooting.md quotes '%s', which no source has" % message
 
 
+def method_row(first, last):
+    """Of the table in docs/results.md, without the method's name."""
+    made = "" if last["made"] == last["strokes"] else " (after %s)" % last["made"]
+    pairs = [(first[name], last[name]) for name in ("tets added", "mean", "> 200 %", "volume lost %")]
+    cells = ["%s, %s%s" % (first["pieces"], last["pieces"], made)] + ["%s, %s" % pair for pair in pairs]
+    return "| %s |" % " | ".join(cell.replace("-", "\u2212") for cell in cells)
+
+
+def check_methods(root):
+    page = text_of(root, "docs/results.md")
+    of_bunny = {}
+    for row in csv.DictReader(text_of(root, "docs/benchmark_methods.csv").splitlines()):
+        if row["body"] == "bunny":
+            of_bunny.setdefault(row["method"], {})[row["strokes"]] = row
+    for method, rows in of_bunny.items():
+        if method_row(rows["1"], rows["20"]) not in page:
+            yield "docs/results.md lacks '%s' of %s" % (method_row(rows["1"], rows["20"]), method)
+
+
 def main(root):
-    wrong = [fault for check in (check_acceptance, check_decisions, check_index, check_messages) for fault in check(root)]
+    checks = (check_acceptance, check_decisions, check_index, check_methods, check_messages)
+    wrong = [fault for check in checks for fault in check(root)]
     for fault in wrong:
         print(fault)
     print("lists in documents: %d wrong" % len(wrong))

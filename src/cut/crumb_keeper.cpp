@@ -9,7 +9,7 @@ namespace incise {
 inline namespace v0 {
 
 void CrumbKeeper::keep() {
-  if (!state_.settings.keeps_crumbs) return;
+  if (state_.settings.crumb_share == 0) return;
   memory_.dropped.clear();
   state_.done.crumbs_kept += keep_crumbs(state_.mesh, rules(), faces_.all(), memory_.dropped, memory_.scratch);
   for (const IncisionFace& face : memory_.dropped) {
@@ -37,7 +37,8 @@ double CrumbKeeper::limit_at(TetId tet) const {
   for (const std::uint32_t e : complex[index].edges) {
     sum += (state_.mesh.rest(complex.edges()[e].b) - state_.mesh.rest(complex.edges()[e].a)).norm();
   }
-  return crumb_limit(std::max(sum / 6.0, 0.5 * state_.settings.spacing));
+  const double spacing = std::max(sum / 6.0, 0.5 * state_.settings.spacing);
+  return state_.settings.crumb_share * spacing * spacing * spacing;
 }
 
 }  // namespace v0

@@ -10,16 +10,13 @@
 namespace incise {
 inline namespace v0 {
 
-/// A piece smaller than this share of the cubed edge length is a crumb: debris of a blade that grazes a vertex.
-inline constexpr double kCrumbShare = 0.02;
+/// A piece smaller than this share of the cubed edge length is a crumb: debris of a blade that grazes a vertex. Without
+/// snapping pieces are to be exact, and only what walls that were smoothed leave of a line where three cuts meet is
+/// one.
+inline constexpr double kCrumbShare = 0.02, kExactCrumbShare = 1e-4;
 
 /// The volume below which a piece around a tet is a crumb; 0 far from the blade.
 using CrumbLimit = std::function<double(TetId)>;
-/// What `CrumbLimit` is where the input tet around has edges of this mean length.
-inline double crumb_limit(double spacing) {
-  return kCrumbShare * spacing * spacing * spacing;
-}
-
 /// What counts as a crumb.
 struct CrumbRules {
   CrumbLimit limit;  ///< the volume below which a piece is one

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cut/closed_complex.h"
+#include "cut/crumbs.h"
 #include "cut/stroke_tags.h"
 #include "incise/mesh/transaction.h"
 
@@ -15,12 +16,12 @@ inline namespace v0 {
 
 /// How masters are rebuilt.
 struct RebuildSettings {
-  StrokeTags tags = {};  ///< of the incision
-  bool keeps_crumbs = true;
-  double spacing = 0.0;        ///< the length of a typical edge: crumbs are judged by half of it at least
-  double thin = 0.0;           ///< pieces between walls that are thinner than this are crumbs
-  bool keeps_pieces = false;   ///< joins no two pieces again, whatever the flags say: for bodies that move
-  bool closes_pinched = true;  ///< leaves faces joined where two fans of tets would touch along an edge
+  StrokeTags tags = {};              ///< of the incision
+  double crumb_share = kCrumbShare;  ///< of the cubed edge length: smaller pieces are crumbs; 0: none is
+  double spacing = 0.0;              ///< the length of a typical edge: crumbs are judged by half of it at least
+  double thin = 0.0;                 ///< pieces between walls that are thinner than this are crumbs
+  bool keeps_pieces = false;         ///< joins no two pieces again, whatever the flags say: for bodies that move
+  bool closes_pinched = true;        ///< leaves faces joined where two fans of tets would touch along an edge
 };
 
 /// What a rebuild did.

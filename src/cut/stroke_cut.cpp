@@ -342,8 +342,9 @@ void StrokeCut::count_cut(CutStatistics& statistics) {
 void StrokeCut::rebuild(const CutContext& context, bool closes_pinched) {
   const std::size_t tets = context.mesh.tet_count(), vertices = context.mesh.vertex_count();
   Transaction transaction(context.mesh);
+  const double crumb_share = snap() > 0 ? kCrumbShare : kExactCrumbShare;
   const RebuildStatistics done = rebuild_.run(
-      transaction, complex_, sheet_, {tags_, snap() > 0, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
+      transaction, complex_, sheet_, {tags_, crumb_share, spacing_, snap() * spacing_, keeps_pieces_, closes_pinched});
   Step step = transaction.commit();
   context.statistics.created_tets += growth(tets, context.mesh.tet_count());
   context.statistics.new_vertices += growth(vertices, context.mesh.vertex_count());

@@ -32,7 +32,7 @@ class FlaggedBody {
   /// Moves every vertex by up to `reach` along each axis from where it is at rest: copies come apart.
   void stand(Random& random, double reach);
 
-  RebuildStatistics rebuild(const Rebuild::Settings& settings = {.keeps_crumbs = false});
+  RebuildStatistics rebuild(const Rebuild::Settings& settings = {.crumb_share = 0});
   [[nodiscard]] const Step& last_step() const { return journal_.step(journal_.position() - 1); }
   [[nodiscard]] std::size_t steps() const { return journal_.position(); }
   void undo() { journal_.undo(mesh_); }

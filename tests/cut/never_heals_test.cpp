@@ -82,7 +82,7 @@ TEST(NeverHeals, a_vertex_ends_with_its_crumb) {
       }
       body.stand(random, 0.05);
     };
-    const Rebuild::Settings settings{.keeps_crumbs = false, .keeps_pieces = true};
+    const Rebuild::Settings settings{.crumb_share = 0, .keeps_pieces = true};
     cross_around();
     body.rebuild(settings);
     ASSERT_EQ(find_components(body.mesh()).count(), 2U);

@@ -119,6 +119,35 @@ TEST(BoundarySmoothing, moves_contours_and_walls_but_no_other_skin_and_no_corner
   expect_valid(body.mesh, 1.0, 2e-3);
 }
 
+/// Where the vertices of a cut lie after some classes of them were smoothed, one class after the other; all at once
+/// where none is named.
+std::vector<Vec3> places_after(std::initializer_list<paper::VertexClass> order) {
+  CutBody body = cut_as_paper(jittered_cube(5, 1), curved_stroke());
+  const std::vector<VertexId> all = paper::find_all_vertices(body.mesh);
+  std::vector<std::vector<VertexId>> lists;
+  paper::ClassFinder classes;
+  for (const paper::VertexClass asked : order) {
+    lists.emplace_back();
+    for (const VertexId v : all) {
+      if (classes.classify(body.mesh, v) == asked) lists.back().push_back(v);
+    }
+  }
+  if (lists.empty()) lists.push_back(all);
+  Transaction transaction(body.mesh, true);
+  for (const std::vector<VertexId>& list : lists) paper::smooth_boundary(transaction, list);
+  transaction.commit();
+  std::vector<Vec3> places;
+  body.mesh.for_each_vertex([&](VertexId v) { places.push_back(body.mesh.rest(v)); });
+  return places;
+}
+
+TEST(BoundarySmoothing, moves_contours_before_walls) {
+  using paper::VertexClass;
+  const std::vector<Vec3> places = places_after({});
+  EXPECT_EQ(places, places_after({VertexClass::kContour, VertexClass::kSurface}));
+  EXPECT_NE(places, places_after({VertexClass::kSurface, VertexClass::kContour}));
+}
+
 TEST(BoundarySmoothing, makes_no_tet_bad_shaped) {
   CutBody body = cut_as_paper(jittered_cube(6, 4), {{Vec3(0.3, 0.5, 0.9), 0.8}});
   const double worst = measure_quality(body.mesh).lr_max, bad = measure_quality(body.mesh).lr_over_200_pct;

@@ -471,6 +471,26 @@ TEST(Merge, beside_coarse_round_skin_changes_the_volume_by_little) {
   EXPECT_NEAR(volume_of(body.mesh) / before, 1, 2e-3);
 }
 
+/// A body that stands crumpled: what is merged at rest must not turn its tets inside out as they stand.
+TEST(Merge, turns_no_tet_inside_out_in_a_body_that_stands_deformed) {
+  CutBody body = cut_as_paper(jittered_cube(6, 3), curved_stroke());
+  TetMesh& mesh = body.mesh;
+  Random random(5);
+  std::vector<Vec3> current(mesh.vertex_slots());
+  mesh.for_each_vertex([&](VertexId v) { current[v.value] = mesh.rest(v) + random.point(-0.03, 0.03); });
+  mesh.set_current(current);
+  const auto volume6_now = [&](TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
+    return signed_volume6(mesh.current(v[0]), mesh.current(v[1]), mesh.current(v[2]), mesh.current(v[3]));
+  };
+  std::vector<TetId> upright;
+  mesh.for_each_tet([&](TetId tet) {
+    if (volume6_now(tet) > 1e-5) upright.push_back(tet);
+  });
+  EXPECT_GT(merge(body).collapsed_edges, 10U);
+  for (const TetId tet : upright) EXPECT_TRUE(!mesh.is_live(tet) || volume6_now(tet) > 0) << tet.value;
+}
+
 TEST(Merge, passes_over_dead_tets) {
   CutBody body = cut_as_paper(kuhn_cube(3), {{Vec3(1, 0.004, 0.007), 0.7}});
   std::vector<TetId> tets;

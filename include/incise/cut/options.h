@@ -15,8 +15,9 @@ enum class Profile : std::uint8_t {
 /// How a blade cuts.
 struct CutOptions {
   Profile profile = Profile::kIncise;  ///< which pipeline
-  /// Snapping distance as a fraction of the mean length of a vertex's edges, in [0, 0.4]. 0 turns snapping, the crumb
-  /// rule and the clamp of split points off. Above 0.3 cuts may lose thin pieces. Ignored by the paper profile.
+  /// Snapping distance as a fraction of the mean length of a vertex's edges, in [0, 0.4]. 0 turns snapping and the
+  /// clamp of split points off, and only what is smaller than a ten-thousandth of a cubed edge is a crumb then. Above
+  /// 0.3 cuts may lose thin pieces. Ignored by the paper profile.
   double snap = 0.2;
 };
 
