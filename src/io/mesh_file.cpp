@@ -144,18 +144,6 @@ Error complete(Error error) {
   return error;
 }
 
-/// Whether this is text whose lines end in carriage returns alone, as old programs of the Macintosh write them.
-bool ends_lines_by_return(std::string_view bytes) {
-  const auto has = [&](char c) { return bytes.find(c) != std::string_view::npos; };
-  return has('\r') && !has('\n') && !has('\0');
-}
-
-std::string with_line_feeds(std::string_view bytes) {
-  std::string text(bytes);
-  std::replace(text.begin(), text.end(), '\r', '\n');
-  return text;
-}
-
 Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, const SiblingLoader& load,
                             const ReadLimits& limits, const std::vector<MeshFormat>& own) {
   std::string converted;

@@ -250,6 +250,8 @@ bool check(const std::string& name, Error& error, const SurfaceSoup& surface) {
 Result<SurfaceSoup> read_plain(std::string_view bytes, const std::string& name) {
   SurfaceSoup out;
   Error error;
+  std::string converted;
+  if (!is_binary_stl(bytes) && ends_lines_by_return(bytes)) bytes = converted = with_line_feeds(bytes);
   if (read_surface_as(bytes, name, error, out) && check(name, error, out)) return out;
   if (error.message.find(';') == std::string::npos) error.message += "; the file is damaged: export the surface again";
   return error;
