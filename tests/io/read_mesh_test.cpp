@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "io/fixtures.h"
 #include "io/gzip.h"
@@ -348,10 +349,33 @@ TEST(ReadMesh, gzip_that_grows_like_a_bomb_is_refused_with_the_limit) {
   bytes.resize(large, ' ');
   std::string packed;
   ASSERT_TRUE(io::gzip(bytes, packed));
-  ASSERT_LT(packed.size() * 200, large);
+  ASSERT_LT(packed.size() * 64, large);
   const auto refused = read_mesh_bytes(packed, "a.mesh.gz");
   ASSERT_FALSE(refused.ok());
-  EXPECT_NE(refused.error().message.find("more than 67108864 bytes"), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("more than 64 MiB"), std::string::npos) << refused.error().message;
+}
+
+TEST(ReadMesh, gzip_that_grows_more_than_64_times_is_refused_before_memory_is_taken) {
+  std::string bytes(std::size_t{2} << 20U, '\0');
+  std::mt19937 any(1);
+  for (char& c : bytes) c = static_cast<char>(any());
+  bytes.resize(std::size_t{160} << 20U, ' ');
+  std::string packed, out, why;
+  ASSERT_TRUE(io::gzip(bytes, packed));
+  ASSERT_GT(packed.size() * 128, bytes.size());
+  EXPECT_FALSE(io::gunzip(packed, std::uint64_t{4} << 30U, out, why));
+  EXPECT_NE(why.find("64 times"), std::string::npos) << why;
+  EXPECT_LT(out.capacity(), 1000U);
+}
+
+TEST(ReadMesh, gzip_of_several_members_is_read_whole) {
+  std::string first, second, out, why;
+  ASSERT_TRUE(io::gzip(std::string(3'000'000, 'a'), first));
+  ASSERT_TRUE(io::gzip("bc", second));
+  ASSERT_TRUE(io::gunzip(first + second, 1U << 30U, out, why)) << why;
+  EXPECT_EQ(out, std::string(3'000'000, 'a') + "bc");
+  ASSERT_TRUE(io::gunzip(second + first, 1U << 30U, out, why)) << why;
+  EXPECT_EQ(out, "bc" + std::string(3'000'000, 'a'));
 }
 
 TEST(ReadMesh, devices_are_refused) {
