@@ -381,20 +381,24 @@ Result<SurfaceSoup> read_surface(const std::filesystem::path& path, const ReadLi
   });
 }
 
+Result<std::string> write_surface_bytes(std::string_view extension, const SurfaceSoup& surface) {
+  return guarded<std::string>(std::string(extension), [&]() -> Result<std::string> {
+    if (!is_sound(surface)) return Error{ErrorCode::kBadArgument, "a vertex number of the surface is out of range"};
+    if (extension == ".obj") return write_obj(surface);
+    if (extension == ".stl") return write_stl(surface);
+    if (extension == ".ply") return write_ply(surface);
+    if (extension == ".off") return write_off(surface);
+    return Error{ErrorCode::kBadArgument,
+                 "no surface can be written as " + in_quotes(extension) + "; use .obj, .stl, .ply or .off"};
+  });
+}
+
 Status write_surface(const std::filesystem::path& path, const SurfaceSoup& surface) {
-  if (!is_sound(surface)) return Error{ErrorCode::kBadArgument, "a vertex number of the surface is out of range"};
   if (Status status = check_place(path); !status.ok()) return status;
   const Extension extension = extension_of(path);
-  std::string bytes;
-  if (extension.name == ".obj") bytes = write_obj(surface);
-  if (extension.name == ".stl") bytes = write_stl(surface);
-  if (extension.name == ".ply") bytes = write_ply(surface);
-  if (extension.name == ".off") bytes = write_off(surface);
-  if (bytes.empty()) {
-    return Error{ErrorCode::kBadArgument,
-                 "no surface can be written as " + in_quotes(extension.name) + "; use .obj, .stl, .ply or .off"};
-  }
-  return store_packed({path}, {std::move(bytes)}, extension.gzipped);
+  Result<std::string> bytes = write_surface_bytes(extension.name, surface);
+  if (!bytes.ok()) return bytes.error();
+  return store_packed({path}, {std::move(bytes).value()}, extension.gzipped);
 }
 
 FineSurface to_fine_surface(const SurfaceSoup& surface) {

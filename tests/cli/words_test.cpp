@@ -44,6 +44,11 @@ TEST(MessageText, tells_how_far_work_is_and_how_long_it_takes_yet) {
   EXPECT_EQ(left(1300), ", 1:05:00 left");
 }
 
+TEST(MessageText, tells_which_stage_work_is_at_and_for_how_long_it_has_gone_on) {
+  EXPECT_EQ(incise_apps::stage_text("cutting", 1, 4, 75),
+            "[" + std::string(7, '#') + std::string(23, ' ') + "] stage 2 of 4: cutting, 1:15");
+}
+
 TEST(CommandWords, suggest_the_nearest_word_or_none) {
   const std::vector<std::string> known = {"cut", "convert", "check"};
   EXPECT_EQ(incise_apps::suggestion("cutt", known), " (did you mean cut?)");
