@@ -222,8 +222,10 @@ void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::Jo
       return terminal.warning("the plane " + a.plane +
                               " cut nothing: " + (is_across ? "no face came open" : "no tet lies across it"));
     }
-    return terminal.warning("the plane " + a.plane + " misses the mesh: nothing was cut; its box has d from " +
-                            shown(at - reach) + " to " + shown(at + reach) + " along that normal");
+    const bool touches = std::abs(parse_plane(a.plane)->offset - at) <= reach;
+    return terminal.warning("the plane " + a.plane + (touches ? " only touches the mesh" : " misses the mesh") +
+                            ": nothing was cut; d has to lie between " + shown(at - reach) + " and " +
+                            shown(at + reach) + ", where the mesh's box ends along that normal");
   }
   std::vector<std::uint64_t> missed = report.missed;
   if (report.cut.incision_faces > 0) {  // others may go on within a tet that is open already

@@ -11,21 +11,13 @@
 #include "io/gzip.h"
 #include "io/ply.h"
 #include "io/reader.h"
+#include "io/surface_kind.h"
 #include "io/text.h"
 
 namespace incise {
 inline namespace v0 {
 namespace io {
 namespace {
-
-constexpr std::size_t kStlHeader = 84;    // 80 bytes of text and a count
-constexpr std::size_t kStlTriangle = 50;  // normal, three points, two spare bytes
-
-std::uint32_t load_u32(const char* p) {
-  std::uint32_t bits = 0;
-  for (std::size_t i = 4; i-- > 0;) bits = (bits << 8U) | static_cast<unsigned char>(p[i]);
-  return bits;
-}
 
 float load_float(const char* p) {
   const std::uint32_t bits = load_u32(p);
@@ -39,11 +31,6 @@ void append_float(std::string& out, double number) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   for (unsigned i = 0; i < 4; ++i) out += static_cast<char>((bits >> (8 * i)) & 255U);
-}
-
-bool is_binary_stl(std::string_view bytes) {
-  return bytes.size() >= kStlHeader && (bytes.size() - kStlHeader) / kStlTriangle >= load_u32(bytes.data() + 80) &&
-         (bytes.size() - kStlHeader) == std::size_t{load_u32(bytes.data() + 80)} * kStlTriangle;
 }
 
 // Text has no zero bytes, the numbers of binary files have.

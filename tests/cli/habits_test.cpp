@@ -218,9 +218,13 @@ TEST_F(CliHabits, writes_the_variant_of_gmsh_that_is_asked_for) {
 TEST_F(CliHabits, warns_of_a_plane_or_a_blade_that_misses) {
   const Outcome plane = run({"cut", cube_, "--plane", "2,0,0,5"});
   EXPECT_EQ(plane.code, 0);
-  EXPECT_NE(plane.err.find("warning: the plane 2,0,0,5 misses the mesh: nothing was cut; its box has d from 0 to 2"),
+  EXPECT_NE(plane.err.find("warning: the plane 2,0,0,5 misses the mesh: nothing was cut; d has to lie between 0 and 2"),
             std::string::npos)
       << plane.err;
+  const Outcome beside = run({"cut", cube_, "--plane", "1,0,0,1"});
+  EXPECT_NE(beside.err.find("the plane 1,0,0,1 only touches the mesh: nothing was cut; d has to lie between 0 and 1"),
+            std::string::npos)
+      << beside.err;
   EXPECT_EQ(run({"cut", cube_, "--plane", "2,0,0,5", "-q"}).err, "");
   EXPECT_EQ(run({"cut", cube_, "--plane", "2,0,0,1"}).err.find("warning"), std::string::npos);
   const std::string blade = folder_.write("blade.json", R"({"format":"incise-blade","version":1,"strokes":[

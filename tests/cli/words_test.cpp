@@ -91,6 +91,15 @@ TEST(Completion, of_bash_knows_commands_options_and_values) {
   EXPECT_EQ(completed("incise help cu"), "cut\n");
 }
 
+TEST(Completion, of_bash_asks_the_window_for_its_options) {
+  if (!has_program("bash")) GTEST_SKIP() << "there is no bash";
+  const std::string script = run({"completion", "bash"}).out +
+                             "incise-view() { echo '  --headless  Draw'; echo '  -h,--help  Help'; }\n"
+                             "COMP_WORDS=(incise-view --he); COMP_CWORD=1; _incise_view; echo ${COMPREPLY[@]}\n"
+                             "complete -p incise-view\n";
+  EXPECT_EQ(shell_says("bash", script), "--headless --help\ncomplete -o default -F _incise_view incise-view\n");
+}
+
 TEST(Completion, of_zsh_is_sound) {
   if (!has_program("zsh")) GTEST_SKIP() << "there is no zsh";
   const std::string script = run({"completion", "zsh"}).out;
