@@ -34,8 +34,7 @@ void add_format(CLI::App& command, std::string& format, const std::vector<std::s
   std::vector<std::string> formats = incise::io::write_option_names();
   formats.emplace_back("msh");
   formats.insert(formats.end(), more.begin(), more.end());
-  command
-      .add_option("--format", format, "Of what is written, instead of what its extension says: msh is msh41")
+  command.add_option("--format", format, "Of what is written, instead of what its extension says: msh is msh41")
       ->check(CLI::IsMember(formats));
 }
 

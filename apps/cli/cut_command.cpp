@@ -160,7 +160,8 @@ Result<std::vector<Stroke>> held_strokes_of(const CutArguments& a, const io::Loa
     const Result<std::vector<app::BladeStroke>> blade = blade_of(a);
     if (!blade.ok()) return blade.error();
     Result<std::vector<Stroke>> held = app::held_strokes(*blade, loaded.mesh, loaded.region_names);
-    if (!held.ok()) return Error{held.error().code, name_of_input(a.blade) + ": " + held.error().message, held.error().ids};
+    if (!held.ok())
+      return Error{held.error().code, name_of_input(a.blade) + ": " + held.error().message, held.error().ids};
     return held;
   }
   const Plane plane = *parse_plane(a.plane);
@@ -189,7 +190,9 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
   if (job.by_steps || job.method) {
     job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
   } else {
-    job.stage = [&bar](std::string_view name, std::size_t done, std::size_t total) { bar.show_stage(name, done, total); };
+    job.stage = [&bar](std::string_view name, std::size_t done, std::size_t total) {
+      bar.show_stage(name, done, total);
+    };
   }
   return job;
 }

@@ -36,7 +36,9 @@ int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
   job.engine.cut.profile = profile_of(arguments.profile);
   job.engine.log = terminal.log_sink();
   job.budget_us = arguments.budget_us;
-  job.stage = [&bar](std::string_view name, std::size_t done, std::size_t total) { bar->show_stage(name, done, total); };
+  job.stage = [&bar](std::string_view name, std::size_t done, std::size_t total) {
+    bar->show_stage(name, done, total);
+  };
   const Result<app::JobResult> result = app::run_improve(std::move(loaded).value(), job, arguments.output.is_wanted());
   bar.reset();
   if (!result.ok()) return fail(terminal, result.error(), kFailure);

@@ -33,7 +33,8 @@ int run_check(const InfoArguments& arguments, const Terminal& terminal) {
   if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
   std::optional<ProgressBar> bar(std::in_place, terminal, "%");
   const auto progress = [&bar](std::size_t done, std::size_t total) { bar->show(done, total); };
-  const Result<app::MeshCheck> check = app::check_mesh(std::move(file).value(), name_of_input(arguments.mesh), progress);
+  const Result<app::MeshCheck> check =
+      app::check_mesh(std::move(file).value(), name_of_input(arguments.mesh), progress);
   bar.reset();
   if (!check.ok()) return fail(terminal, check.error(), kBadInput);
   const int code = finish(terminal, terminal.data(arguments.as_json ? app::to_json(*check) : app::to_text(*check)));

@@ -125,6 +125,13 @@ std::string lost_labels(const MeshArguments& a, const app::Organ& organ) {
   return lost;
 }
 
+/// An error of reading; of stdin, which is read as a label image whatever it is, also what else may be wrong.
+Error explained(Error error, const MeshArguments& a) {
+  const bool is_other = is_stdin(a.input) && error.code == ErrorCode::kUnsupported;
+  if (is_other) error.message += "; give a surface as a file";
+  return error;
+}
+
 /// Milliseconds since the last call.
 class Watch {
  public:
@@ -148,7 +155,7 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   app::OrganJob job = job_of(arguments);
   Watch watch;
   Result<app::OrganInput> input = app::read_organ(job);
-  if (!input.ok()) return fail(terminal, input.error(), kBadInput);
+  if (!input.ok()) return fail(terminal, explained(input.error(), arguments), kBadInput);
   report.input = &*input;
   report.layers = job.layers;
   report.read_ms = watch.lap();
@@ -159,8 +166,10 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   report.mesh_ms = watch.lap();
   report.is_valid = validate(organ->made.mesh, ValidateLevel::kGeometry).ok;
   if (!report.is_valid) {
-    return fail(terminal, name_of_input(arguments.input) + ": the mesh broke the validity contract and was not written; report this",
-                kCheckFailed);
+    return fail(
+        terminal,
+        name_of_input(arguments.input) + ": the mesh broke the validity contract and was not written; report this",
+        kCheckFailed);
   }
   for (const std::string& note : organ->notes) terminal.note(note);
   const WritingZone zone;

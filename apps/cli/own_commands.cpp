@@ -15,9 +15,9 @@ namespace incise_cli {
 namespace {
 
 int print_completion(const CLI::App& root, const std::string& shell, const Terminal& terminal) {
-  const std::string script = shell == "zsh" ? incise_apps::zsh_completion(root)
-                                            : incise_apps::bash_completion(root) +
-                                                  incise_apps::bash_completion_by_help("incise-view");
+  const std::string script =
+      shell == "zsh" ? incise_apps::zsh_completion(root)
+                     : incise_apps::bash_completion(root) + incise_apps::bash_completion_by_help("incise-view");
   return finish(terminal, terminal.data(script));
 }
 

@@ -66,7 +66,8 @@ int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
     if (!status.ok()) return fail(terminal, status.error(), kFailure);
   }
   const int code = finish(terminal, print(arguments, *result, terminal));
-  return result->difference ? report_difference(*result->difference, name_of_input(arguments.recording), terminal) : code;
+  return result->difference ? report_difference(*result->difference, name_of_input(arguments.recording), terminal)
+                            : code;
 }
 
 }  // namespace
@@ -77,7 +78,8 @@ Command add_replay(CLI::App& root) {
                                 "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu\n"
                                 "  zcat cut.jsonl.gz | incise replay -");
   words
-      ->add_option("REC", arguments->recording, "Recording: JSON lines of format incise-recording or incise-simulation; - for stdin")
+      ->add_option("REC", arguments->recording,
+                   "Recording: JSON lines of format incise-recording or incise-simulation; - for stdin")
       ->required();
   words->add_flag("--verify", arguments->verify, "Compare after every step or frame, not only at the end");
   add_output(*words, arguments->output);

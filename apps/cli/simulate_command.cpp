@@ -208,11 +208,14 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   Result<app::Scene> read = read_scene(arguments);
   if (!read.ok()) return fail(terminal, read.error(), kBadInput);
   if (arguments.is_ideal && (!read->exercise || read->exercise->ideal.empty())) {
-    return fail(terminal, name_of_input(arguments.scene) + ": --ideal shows how an exercise is done; this scene has no exercise.ideal",
-                kBadInput);
+    return fail(
+        terminal,
+        name_of_input(arguments.scene) + ": --ideal shows how an exercise is done; this scene has no exercise.ideal",
+        kBadInput);
   }
   if (!arguments.page.empty() && !read->exercise) {
-    return fail(terminal, name_of_input(arguments.scene) + ": --page tells how an exercise went; this scene has no exercise",
+    return fail(terminal,
+                name_of_input(arguments.scene) + ": --page tells how an exercise went; this scene has no exercise",
                 kBadInput);
   }
   const app::Scene scene = overridden(std::move(read).value(), arguments);

@@ -90,8 +90,8 @@ void Terminal::error(std::string_view text) const {
 }
 
 incise::Status Terminal::data(std::string_view text) const {
-  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
-                          std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0 &&
+                          std::ferror(stdout) == 0;
   if (is_written) return {};
   return incise::Error{incise::ErrorCode::kIo, "stdout: writing failed; is the disk full?", {}};
 }

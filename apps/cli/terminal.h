@@ -42,8 +42,8 @@ class Terminal {
   [[nodiscard]] incise::LogSink log_sink() const;
 };
 
-/// A bar on stderr with the time that is left, or, where nobody can tell it, that has gone by; where that is a terminal and nobody asked for quiet. It goes with its
-/// work.
+/// A bar on stderr with the time that is left, or, where nobody can tell it, that has gone by; where that is a terminal
+/// and nobody asked for quiet. It goes with its work.
 class ProgressBar {
  public:
   ProgressBar(const Terminal& terminal, std::string unit);

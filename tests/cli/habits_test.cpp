@@ -137,6 +137,8 @@ TEST_F(CliHabits, stdin_has_one_name_in_messages) {
     EXPECT_EQ(json::parse(run_on(read(cube_), {"info", in, "--json"}).out)["file"], "stdin");
   }
   EXPECT_EQ(run_on("{}", {"batch", "-", "-o", folder_ / "out"}).code, 2);
+  const Outcome mesh = run_on(kTetrahedronOff, {"mesh", "-", "-o", folder_ / "a.mesh", "--size", "1"});
+  EXPECT_NE(mesh.err.find("give a surface as a file"), std::string::npos) << mesh.err;
 }
 
 TEST_F(CliHabits, what_is_no_recording_is_refused_before_it_fills_the_memory) {

@@ -447,7 +447,8 @@ TEST(ReadMesh, a_few_kinds_that_are_left_out_are_named_and_the_others_counted) {
   EXPECT_EQ(notes[0], "1 polyhedron was left out; only tets are cut");
   for (int type = 100; type < 250; ++type) many.add("cells of type " + std::to_string(type), 2);
   many.note(notes);
-  EXPECT_NE(notes[1].find("2 cells of type 111 and 276 of 138 more kinds were left out"), std::string::npos) << notes[1];
+  EXPECT_NE(notes[1].find("2 cells of type 111 and 276 of 138 more kinds were left out"), std::string::npos)
+      << notes[1];
   EXPECT_EQ(io::singular("triangles6"), "triangle6");
   EXPECT_EQ(io::singular("elements of type 'c3d8r'"), "element of type 'c3d8r'");
 }

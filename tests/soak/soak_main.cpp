@@ -19,8 +19,8 @@
 //        incise_soak attack|hands [--meshes FILE|made|corpus...] [--kinds A,B] [--options A,B] [--cases N] [--case N]
 //                                 [--keep FOLDER] [--limit SECONDS]
 // INCISE_SOAK_SECONDS: go on for this time (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
-// INCISE_SOAK_STROKES: `strokes` and `models` end after this number of strokes. A failure comes back with the seed that it
-// names, `--rounds 1` or `--only NAME`, and the same other arguments.
+// INCISE_SOAK_STROKES: `strokes` and `models` end after this number of strokes. A failure comes back with the seed that
+// it names, `--rounds 1` or `--only NAME`, and the same other arguments.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>

@@ -68,8 +68,7 @@ Result<BoundaryOf> read_boundary(const fs::path& in) {
   Result<io::MeshFile> file = is_stdin(in) ? io::read_mesh_bytes(*bytes, in.string()) : io::read_mesh(in);
   if (file.ok()) return boundary_of(std::move(file).value(), in);
   if (!may_be_surface(in, file.error())) return file.error();
-  Result<io::SurfaceSoup> surface =
-      is_stdin(in) ? io::read_surface_bytes(*bytes, in.string()) : io::read_surface(in);
+  Result<io::SurfaceSoup> surface = is_stdin(in) ? io::read_surface_bytes(*bytes, in.string()) : io::read_surface(in);
   if (!surface.ok()) return surface.error();
   return BoundaryOf{std::move(surface).value(), {}};
 }
