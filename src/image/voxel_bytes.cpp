@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Voxels come piece by piece, raw or unpacked on the way, so that an unpacked file is never held whole.
 #include "image/voxel_bytes.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A part's name has the number of the process that writes it: where that is no more, nobody will finish it.
 #include "incise/io/part_file.h"
 
 #include <cerrno>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Opens what is written beside its place under a name of its own, so that two writers never share one.
 #include "app/text/part_file.h"
 
 #include <fcntl.h>
