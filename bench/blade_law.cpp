@@ -45,7 +45,7 @@ struct Motion {
   double step;        ///< in elements
   double snap;        ///< see `CutOptions::snap`
   unsigned segments;  ///< of the blade's edge; more than one: it is bent a little
-  unsigned strokes;   ///< so many, each from another place
+  unsigned strokes;   ///< how many, each from another place
 };
 
 const std::vector<Motion> kMotions = {{"1 element, snap 0.2", 1.0, 0.2, 1, 16},
@@ -55,7 +55,7 @@ const std::vector<Motion> kMotions = {{"1 element, snap 0.2", 1.0, 0.2, 1, 16},
                                       {"1 element, snap 0.2, 24 segments", 1.0, 0.2, 24, 16}};
 
 constexpr double kBladeWidth = 24.0;
-/// A stroke ends so many elements inside the body, at all sizes; a long one goes through to just before the far side.
+/// How many elements inside the body a stroke ends, at all sizes; a long one goes through to just before the far side.
 constexpr double kStrokeDepth = 17.5;
 /// The blade starts outside, and is this deep after its first step.
 constexpr double kTouchDepth = 0.6;

@@ -24,7 +24,7 @@ constexpr double kFrame = 1.0 / 60;  // s
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr unsigned kWarmUp = 5, kRounds = 30;
 
-/// A block of 40 mm with so many cells along each side, held below.
+/// A block of 40 mm with `cells` cells along each side, held below.
 struct Block {
   unsigned cells;
   unsigned planes;  ///< level cuts

@@ -7,7 +7,7 @@ namespace incise::bench {
 
 namespace {
 
-/// A step through a body adds so many tets and vertices at most: the arrays have room for a stroke of them.
+/// The most tets and vertices that a step through a body adds: the arrays have room for a stroke of them.
 constexpr std::size_t kRoom = 200'000;
 
 template <class List>

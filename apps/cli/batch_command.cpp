@@ -9,6 +9,7 @@
 #include "command.h"
 #include "command_options.h"
 #include "command_support.h"
+#include "input_kind.h"
 
 namespace incise_cli {
 namespace {
@@ -27,6 +28,7 @@ struct BatchArguments {
 };
 
 std::string usage_problem(const BatchArguments& a) {
+  if (is_stdin(a.plan)) return "a plan names meshes beside it and is read by each worker; give a file";
   const bool runs = !a.merge && a.verify == 0;
   if (!runs && a.shard) return "--shard says what to compute; leave it out beside --merge and --verify";
   if (!runs && a.retry) return "--retry goes with computing; leave it out beside --merge and --verify";

@@ -30,11 +30,11 @@ void add_report(CLI::App& command, std::string& report, bool& as_json) {
   command.add_flag("--json", as_json, "Print the figures as JSON to stdout, instead of a few lines for people");
 }
 
-void add_format(CLI::App& command, std::string& format) {
+void add_format(CLI::App& command, std::string& format, const std::vector<std::string>& more) {
   std::vector<std::string> formats = incise::io::write_option_names();
   formats.emplace_back("msh");
-  command
-      .add_option("--format", format, "Of the mesh that is written, instead of what its extension says: msh is msh41")
+  formats.insert(formats.end(), more.begin(), more.end());
+  command.add_option("--format", format, "Of what is written, instead of what its extension says: msh is msh41")
       ->check(CLI::IsMember(formats));
 }
 

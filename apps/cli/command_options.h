@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "mesh_output.h"
 
@@ -16,7 +17,8 @@ inline constexpr const char* kMeshHelp = "Mesh file, or - for stdin; the format 
 CLI::App* add_command(CLI::App& root, const std::string& name, const std::string& what, const std::string& examples);
 void add_json(CLI::App& command, bool& as_json);
 void add_report(CLI::App& command, std::string& report, bool& as_json);
-void add_format(CLI::App& command, std::string& format);
+/// `more`: names of formats besides those of meshes.
+void add_format(CLI::App& command, std::string& format, const std::vector<std::string>& more = {});
 void add_output(CLI::App& command, MeshOutput& output);
 void add_profile(CLI::App& command, std::string& profile);
 void add_budget(CLI::App& command, std::uint64_t& budget_us, const std::string& what);

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "input_kind.h"
+
 namespace incise_cli {
 
 namespace fs = std::filesystem;
@@ -40,7 +42,7 @@ ExitCode exit_of(const Error& error) {
 }
 
 void print_notes(const std::vector<std::string>& notes, const std::string& file, const Terminal& terminal) {
-  for (const std::string& text : notes) terminal.note(file + ": " + text);
+  for (const std::string& text : notes) terminal.note(name_of_input(file) + ": " + text);
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

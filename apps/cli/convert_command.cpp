@@ -6,10 +6,12 @@
 #include <optional>
 
 #include "app/model/convert.h"
+#include "app/model/extension.h"
 #include "command.h"
 #include "command_options.h"
 #include "command_support.h"
 #include "incise/io/mesh_loader.h"
+#include "incise/io/surface_file.h"
 #include "input_kind.h"
 #include "mesh_output.h"
 
@@ -24,8 +26,26 @@ struct ConvertArguments {
   bool as_json = false;
 };
 
+/// ".stl" of the format "stl"; empty where that is one of meshes, or none.
+std::string surface_extension_of(const std::string& format) {
+  const std::string extension = "." + format;
+  return !format.empty() && app::is_surface_extension("a" + extension) ? extension : "";
+}
+
+/// A surface, or the boundary of a mesh, from a file or stdin to stdout.
+Result<app::Conversion> surface_to_stdout(const ConvertArguments& a, const Terminal& terminal) {
+  const Result<app::BoundaryOf> boundary = app::read_boundary(input_of(a.in));
+  if (!boundary.ok()) return boundary.error();
+  const Result<std::string> bytes = io::write_surface_bytes(surface_extension_of(a.out.format), boundary->surface);
+  if (!bytes.ok()) return bytes.error();
+  if (Status status = terminal.data(*bytes); !status.ok()) return status.error();
+  app::Conversion done;
+  done.notes = boundary->notes;
+  return done;
+}
+
 /// A mesh from a file or stdin to stdout.
-Result<app::Conversion> convert_to_stdout(const ConvertArguments& a, const Terminal& terminal) {
+Result<app::Conversion> mesh_to_stdout(const ConvertArguments& a, const Terminal& terminal) {
   Result<io::MeshFile> file = io::read_mesh(input_of(a.in));
   if (!file.ok()) return file.error();
   io::drop_mid_nodes(*file);
@@ -36,8 +56,9 @@ Result<app::Conversion> convert_to_stdout(const ConvertArguments& a, const Termi
 }
 
 Result<app::Conversion> convert(const ConvertArguments& a, const Terminal& terminal) {
-  return a.out.is_stdout() ? convert_to_stdout(a, terminal)
-                           : app::convert(input_of(a.in), a.out.file, write_options_of(a.out));
+  const bool is_surface = !surface_extension_of(a.out.format).empty();
+  if (a.out.is_stdout()) return is_surface ? surface_to_stdout(a, terminal) : mesh_to_stdout(a, terminal);
+  return app::convert(input_of(a.in), a.out.file, is_surface ? io::WriteOptions() : write_options_of(a.out));
 }
 
 /// Of an output that may be a surface, too.
@@ -45,7 +66,13 @@ std::optional<OutputProblem> problem_of_conversion(const ConvertArguments& a) {
   if (a.out.is_stdout() && a.as_json) {
     return OutputProblem{"OUT is stdout, where --json would print too; name a file", kUsage};
   }
-  if (!a.out.format.empty() || a.out.is_stdout()) return problem_of(a.out);
+  const std::string surface = surface_extension_of(a.out.format);
+  if (surface.empty() && (!a.out.format.empty() || a.out.is_stdout())) return problem_of(a.out);
+  if (!surface.empty() && a.out.is_stdout()) return std::nullopt;
+  if (!surface.empty() && app::extension_of(a.out.file) != surface) {
+    return OutputProblem{
+        a.out.file + ": --format " + a.out.format + " writes " + surface + " files; give it that extension", kUsage};
+  }
   if (has_folder(a.out.file)) return std::nullopt;  // `app::convert` knows the extensions
   return OutputProblem{a.out.file + ": its folder does not exist; create it first", kFailure};
 }
@@ -54,7 +81,7 @@ std::string json_of(const ConvertArguments& a, const app::Conversion& done) {
   nlohmann::ordered_json root;
   root["format"] = "incise-conversion";
   root["version"] = 1;
-  root["input"] = a.in;
+  root["input"] = name_of_input(a.in);
   root["output"] = nlohmann::ordered_json::array();
   for (const auto& file : done.files) root["output"].push_back(file.string());
   root["vertices"] = done.vertices;
@@ -89,11 +116,12 @@ Command add_convert(CLI::App& root) {
       add_command(root, "convert", "Convert a mesh or surface; a mesh becomes its boundary in .obj .stl .ply .off",
                   "  incise convert bunny.node bunny.vtu\n  incise convert cut.vtu walls.stl\n"
                   "  incise convert cut.vtu cut.msh --format msh22\n"
-                  "  zcat liver.mesh.gz | incise convert - - --format vtu > liver.vtu");
-  convert->add_option("IN", arguments->in, "File to read; - for a mesh from stdin")->required();
+                  "  zcat liver.mesh.gz | incise convert - - --format vtu > liver.vtu\n"
+                  "  incise convert - - --format stl < cut.vtu > walls.stl");
+  convert->add_option("IN", arguments->in, "File to read; - for stdin")->required();
   convert->add_option("OUT", arguments->out.file, "File to write; the extension names the format; - for stdout")
       ->required();
-  add_format(*convert, arguments->out.format);
+  add_format(*convert, arguments->out.format, {"obj", "stl", "ply", "off"});
   add_json(*convert, arguments->as_json);
   return {convert, [arguments](const Terminal& terminal) { return run_convert(*arguments, terminal); }};
 }

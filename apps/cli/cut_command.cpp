@@ -93,12 +93,12 @@ std::string usage_problem(const CutArguments& a) {
     return "--plane " + a.plane + ": four finite numbers nx,ny,nz,d are needed, the first three not all zero";
   }
   if (!std::isfinite(a.snap) || a.snap < 0 || a.snap > 0.4) return "--snap must lie between 0 and 0.4";
-  if (a.mesh == "-" && a.blade == "-") return "mesh and blade cannot both come from stdin; name one of them";
+  if (is_stdin(a.mesh) && is_stdin(a.blade)) return "mesh and blade cannot both come from stdin; name one of them";
   if (!a.stop_at.empty() && a.blade.empty()) return "--stop-at holds a blade back; give it by --blade";
   if (method_of(a) && !a.record.empty()) {
     return "--record does not go with --profile " + a.profile + ", which a replay does not know; leave one out";
   }
-  if (a.mesh == "-" && !a.record.empty()) return "--record needs the mesh as a file, which a replay can read again";
+  if (is_stdin(a.mesh) && !a.record.empty()) return "--record needs the mesh as a file, which a replay can read again";
   if (a.record == "-" || a.picture == "-") return "recordings and pictures do not go to stdout; name a file";
   if (takes_a_place(a)) return "--record " + a.record + " is another file of this command; give it a name of its own";
   if (draws_over(a)) return "--picture " + a.picture + " is another file of this command; give it a name of its own";
@@ -160,7 +160,8 @@ Result<std::vector<Stroke>> held_strokes_of(const CutArguments& a, const io::Loa
     const Result<std::vector<app::BladeStroke>> blade = blade_of(a);
     if (!blade.ok()) return blade.error();
     Result<std::vector<Stroke>> held = app::held_strokes(*blade, loaded.mesh, loaded.region_names);
-    if (!held.ok()) return Error{held.error().code, a.blade + ": " + held.error().message, held.error().ids};
+    if (!held.ok())
+      return Error{held.error().code, name_of_input(a.blade) + ": " + held.error().message, held.error().ids};
     return held;
   }
   const Plane plane = *parse_plane(a.plane);
@@ -186,7 +187,13 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
   job.options.seed = a.seed;
   job.options.blade = a.blade;
   job.options.plane = a.plane;
-  job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
+  if (job.by_steps || job.method) {
+    job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
+  } else {
+    job.stage = [&bar](std::string_view name, std::size_t done, std::size_t total) {
+      bar.show_stage(name, done, total);
+    };
+  }
   return job;
 }
 
@@ -218,8 +225,10 @@ void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::Jo
       return terminal.warning("the plane " + a.plane +
                               " cut nothing: " + (is_across ? "no face came open" : "no tet lies across it"));
     }
-    return terminal.warning("the plane " + a.plane + " misses the mesh: nothing was cut; its box has d from " +
-                            shown(at - reach) + " to " + shown(at + reach) + " along that normal");
+    const bool touches = std::abs(parse_plane(a.plane)->offset - at) <= reach;
+    return terminal.warning("the plane " + a.plane + (touches ? " only touches the mesh" : " misses the mesh") +
+                            ": nothing was cut; d has to lie between " + shown(at - reach) + " and " +
+                            shown(at + reach) + ", where the mesh's box ends along that normal");
   }
   std::vector<std::uint64_t> missed = report.missed;
   if (report.cut.incision_faces > 0) {  // others may go on within a tet that is open already
@@ -227,7 +236,7 @@ void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::Jo
   }
   std::vector<std::string> names;
   for (const Stroke& stroke : job.strokes) names.push_back(stroke.name);
-  warn_of_misses(a.blade, missed, names, terminal);
+  warn_of_misses(name_of_input(a.blade), missed, names, terminal);
 }
 
 /// The picture and the surface that were asked for.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands `incise info` and `incise check`.
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/model/mesh_info.h"
@@ -23,14 +24,18 @@ struct InfoArguments {
 int run_info(const InfoArguments& arguments, const Terminal& terminal) {
   const Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
   if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
-  const app::MeshInfo info = app::inspect(*file, arguments.mesh);
+  const app::MeshInfo info = app::inspect(*file, name_of_input(arguments.mesh));
   return finish(terminal, terminal.data(arguments.as_json ? app::to_json(info) : app::to_text(info)));
 }
 
 int run_check(const InfoArguments& arguments, const Terminal& terminal) {
   Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
   if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
-  const Result<app::MeshCheck> check = app::check_mesh(std::move(file).value(), arguments.mesh);
+  std::optional<ProgressBar> bar(std::in_place, terminal, "%");
+  const auto progress = [&bar](std::size_t done, std::size_t total) { bar->show(done, total); };
+  const Result<app::MeshCheck> check =
+      app::check_mesh(std::move(file).value(), name_of_input(arguments.mesh), progress);
+  bar.reset();
   if (!check.ok()) return fail(terminal, check.error(), kBadInput);
   const int code = finish(terminal, terminal.data(arguments.as_json ? app::to_json(*check) : app::to_text(*check)));
   return code == kDone && !check->ok ? kCheckFailed : code;

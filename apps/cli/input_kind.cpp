@@ -15,6 +15,7 @@ namespace {
 
 using namespace incise;
 
+const std::string kStdin = "/dev/stdin";
 constexpr std::size_t kHead = 4096;  // bytes in which a JSON file of ours names its format
 
 std::string head_of(const std::string& file) {
@@ -64,7 +65,15 @@ Kind kind_of(const std::string& file) {
 }  // namespace
 
 std::string input_of(const std::string& argument) {
-  return argument == "-" ? "/dev/stdin" : argument;
+  return argument == "-" ? kStdin : argument;
+}
+
+bool is_stdin(const std::string& argument) {
+  return input_of(argument) == kStdin;
+}
+
+std::string name_of_input(const std::string& argument) {
+  return is_stdin(argument) ? "stdin" : argument;
 }
 
 Error explain_kind(Error error, const std::string& file, FileKind wanted) {

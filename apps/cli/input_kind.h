@@ -9,6 +9,9 @@ namespace incise_cli {
 
 /// What "-" stands for where a file is read: /dev/stdin.
 [[nodiscard]] std::string input_of(const std::string& argument);
+[[nodiscard]] bool is_stdin(const std::string& argument);
+/// What such a file is called in messages and reports: stdin for "-" and /dev/stdin.
+[[nodiscard]] std::string name_of_input(const std::string& argument);
 
 /// The kinds of files that commands read.
 enum class FileKind { kUnknown, kMesh, kScene, kBlade, kRecording, kReport };

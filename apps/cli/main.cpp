@@ -57,17 +57,27 @@ int run(int argc, char** argv) {
   return asked->run(terminal);
 }
 
+int run_guarded(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    Terminal().error("out of memory; use a smaller mesh or a larger machine");
+  } catch (const std::exception& error) {
+    Terminal().error(error.what());
+  }
+  return kFailure;
+}
+
+/// The exit code of a command that returned `code`: what it printed has to arrive.
+int with_stdout(int code) {
+  const incise::Status status = Terminal().data({});
+  return code == kDone ? finish(Terminal(), status) : code;
+}
+
 }  // namespace
 }  // namespace incise_cli
 
 int main(int argc, char** argv) {
   incise_cli::catch_interrupts();
-  try {
-    return incise_cli::run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    incise_cli::Terminal().error("out of memory; use a smaller mesh or a larger machine");
-  } catch (const std::exception& error) {
-    incise_cli::Terminal().error(error.what());
-  }
-  return incise_cli::kFailure;
+  return incise_cli::with_stdout(incise_cli::run_guarded(argc, argv));
 }

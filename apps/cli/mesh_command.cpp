@@ -19,6 +19,7 @@
 #include "incise/io/mesh_file.h"
 #include "incise/mesh/components.h"
 #include "incise/mesh/validate.h"
+#include "input_kind.h"
 #include "mesh_arguments.h"
 #include "mesh_report.h"
 #include "picture.h"
@@ -48,7 +49,8 @@ std::string usage_problem(const MeshArguments& a) {
   const std::vector<std::string> files = {a.input, a.names, a.output.file, a.report, a.picture};
   for (std::size_t i = 2; i < files.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (files[i].empty() || files[i] == "-" || files[j].empty() || !is_same_file(files[i], files[j])) continue;
+      const bool are_files = !files[i].empty() && files[i] != "-" && !files[j].empty() && files[j] != "-";
+      if (!are_files || !is_same_file(files[i], files[j])) continue;
       return files[i] + " is two files of this command at once; give each a name of its own";
     }
   }
@@ -65,7 +67,7 @@ std::optional<OutputProblem> output_problem(const MeshArguments& a) {
 
 app::OrganJob job_of(const MeshArguments& a) {
   app::OrganJob job;
-  job.input = a.input;
+  job.input = input_of(a.input);
   job.names = a.names;
   job.size = a.size;
   job.smooth = a.smooth;
@@ -123,6 +125,13 @@ std::string lost_labels(const MeshArguments& a, const app::Organ& organ) {
   return lost;
 }
 
+/// An error of reading; of stdin, which is read as a label image whatever it is, also what else may be wrong.
+Error explained(Error error, const MeshArguments& a) {
+  const bool is_other = is_stdin(a.input) && error.code == ErrorCode::kUnsupported;
+  if (is_other) error.message += "; give a surface as a file";
+  return error;
+}
+
 /// Milliseconds since the last call.
 class Watch {
  public:
@@ -146,7 +155,7 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   app::OrganJob job = job_of(arguments);
   Watch watch;
   Result<app::OrganInput> input = app::read_organ(job);
-  if (!input.ok()) return fail(terminal, input.error(), kBadInput);
+  if (!input.ok()) return fail(terminal, explained(input.error(), arguments), kBadInput);
   report.input = &*input;
   report.layers = job.layers;
   report.read_ms = watch.lap();
@@ -157,8 +166,10 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   report.mesh_ms = watch.lap();
   report.is_valid = validate(organ->made.mesh, ValidateLevel::kGeometry).ok;
   if (!report.is_valid) {
-    return fail(terminal, arguments.input + ": the mesh broke the validity contract and was not written; report this",
-                kCheckFailed);
+    return fail(
+        terminal,
+        name_of_input(arguments.input) + ": the mesh broke the validity contract and was not written; report this",
+        kCheckFailed);
   }
   for (const std::string& note : organ->notes) terminal.note(note);
   const WritingZone zone;
@@ -169,7 +180,7 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   const std::string lost = lost_labels(arguments, *organ);
   if (lost.empty()) return kDone;
   return fail(terminal,
-              arguments.input + ": less than half came out of label " + lost +
+              name_of_input(arguments.input) + ": less than half came out of label " + lost +
                   "; use a smaller --size, choose others (--labels), merge (--merge), or allow it: --may-lose " + lost,
               kCheckFailed);
 }
@@ -189,7 +200,7 @@ Command add_mesh(CLI::App& root) {
                   "  incise mesh femur.stl -o femur.mesh --size 5");
   mesh->add_option("LABELS", a.input,
                    "Label image: NIfTI (.nii, .nii.gz, .hdr/.img), NRRD, MetaImage or INRIMAGE; or a triangle surface: "
-                   ".stl .obj .ply .off, nearly closed")
+                   ".stl .obj .ply .off, nearly closed; - for a label image from stdin")
       ->required();
   mesh->add_option("-o,--output", a.output.file,
                    "Write the mesh, in RAS millimetres; the extension names the format; - for stdout, with --format")

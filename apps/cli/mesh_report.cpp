@@ -10,6 +10,7 @@
 #include "incise/mesh/components.h"
 #include "incise/mesh/quality_stats.h"
 #include "incise/version.h"
+#include "input_kind.h"
 
 namespace incise_cli {
 namespace {
@@ -33,9 +34,12 @@ double relative_error(const image::LabelOutcome& label) {
 
 Json input_json(const MeshReport& report) {
   const image::LabelImage& image = report.input->file.image;
-  return {{"file", report.arguments->input},           {"format", report.input->file.format_name},
-          {"placed_by", report.input->file.placed_by}, {"voxels", {image.size[0], image.size[1], image.size[2]}},
-          {"spacing_mm", to_json(image.spacing())},    {"finer", report.organ->finer},
+  return {{"file", name_of_input(report.arguments->input)},
+          {"format", report.input->file.format_name},
+          {"placed_by", report.input->file.placed_by},
+          {"voxels", {image.size[0], image.size[1], image.size[2]}},
+          {"spacing_mm", to_json(image.spacing())},
+          {"finer", report.organ->finer},
           {"notes", report.input->file.notes}};
 }
 

@@ -15,9 +15,10 @@ namespace incise_cli {
 namespace {
 
 int print_completion(const CLI::App& root, const std::string& shell, const Terminal& terminal) {
-  const bool is_zsh = shell == "zsh";
-  return finish(terminal,
-                terminal.data(is_zsh ? incise_apps::zsh_completion(root) : incise_apps::bash_completion(root)));
+  const std::string script =
+      shell == "zsh" ? incise_apps::zsh_completion(root)
+                     : incise_apps::bash_completion(root) + incise_apps::bash_completion_by_help("incise-view");
+  return finish(terminal, terminal.data(script));
 }
 
 int print_manual(const CLI::App& root, const std::string& name, const Terminal& terminal) {

@@ -39,7 +39,7 @@ int report_difference(const app::ReplayDifference& d, const std::string& recordi
 
 Result<app::ReplayResult> replay(const ReplayArguments& a, const Terminal& terminal) {
   ProgressBar bar(terminal, "kB");
-  app::ReplayJob job{a.recording, a.verify, a.output.is_wanted(), terminal.log_sink()};
+  app::ReplayJob job{input_of(a.recording), a.verify, a.output.is_wanted(), terminal.log_sink()};
   job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
   Result<app::ReplayResult> result = app::run_replay(job);
   if (!result.ok()) return explain_kind(result.error(), a.recording, FileKind::kRecording);
@@ -59,14 +59,15 @@ int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
   }
   const Result<app::ReplayResult> result = replay(arguments, terminal);
   if (!result.ok()) return fail(terminal, result.error(), exit_of(result.error()));
-  note_end(*result, arguments.recording, terminal);
+  note_end(*result, name_of_input(arguments.recording), terminal);
   const WritingZone zone;
   if (arguments.output.is_wanted() && !result->difference) {
     const Status status = write_output(arguments.output, result->mesh, terminal);
     if (!status.ok()) return fail(terminal, status.error(), kFailure);
   }
   const int code = finish(terminal, print(arguments, *result, terminal));
-  return result->difference ? report_difference(*result->difference, arguments.recording, terminal) : code;
+  return result->difference ? report_difference(*result->difference, name_of_input(arguments.recording), terminal)
+                            : code;
 }
 
 }  // namespace
@@ -74,9 +75,11 @@ int run_replay(const ReplayArguments& arguments, const Terminal& terminal) {
 Command add_replay(CLI::App& root) {
   const auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* words = add_command(root, "replay", "Repeat what --record has recorded; exit 4 where the result differs",
-                                "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu");
+                                "  incise replay cut.jsonl --verify\n  incise replay cut.jsonl -o cut.vtu\n"
+                                "  zcat cut.jsonl.gz | incise replay -");
   words
-      ->add_option("REC", arguments->recording, "Recording: JSON lines of format incise-recording or incise-simulation")
+      ->add_option("REC", arguments->recording,
+                   "Recording: JSON lines of format incise-recording or incise-simulation; - for stdin")
       ->required();
   words->add_flag("--verify", arguments->verify, "Compare after every step or frame, not only at the end");
   add_output(*words, arguments->output);

@@ -71,10 +71,10 @@ std::string usage_problem(const SimulateArguments& a) {
 
 /// The scene that is asked for. One from stdin names its files from the folder that the command runs in.
 Result<app::Scene> read_scene(const SimulateArguments& a) {
-  if (a.scene == "-") {
+  if (is_stdin(a.scene)) {
     const Result<std::string> text = app::read_text_file(input_of(a.scene), kMostSceneBytes);
     if (!text.ok()) return text.error();
-    return app::parse_scene(*text, "stdin", std::filesystem::current_path());
+    return app::parse_scene(*text, name_of_input(a.scene), std::filesystem::current_path());
   }
   Result<app::Scene> scene = app::read_scene(a.scene);
   if (!scene.ok()) return explain_kind(scene.error(), a.scene, FileKind::kScene);
@@ -95,7 +95,7 @@ app::Scene overridden(app::Scene scene, const SimulateArguments& a) {
 
 app::SimulateJob job_of(const SimulateArguments& a, const Terminal& terminal, ProgressBar& bar) {
   app::SimulateJob job;
-  job.scene_file = a.scene;
+  job.scene_file = name_of_input(a.scene);
   job.run.threads = a.threads;
   job.run.log = terminal.log_sink();
   job.run.record = a.record;
@@ -181,7 +181,7 @@ Status write_page(const SimulateArguments& a, const app::Scene& scene, const app
 
 int finish_run(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
   print_notes(report.job.notes, report.job.input, terminal);
-  if (report.job.cut.incision_faces <= 0) warn_of_misses(a.scene, report.job.missed, {}, terminal);
+  if (report.job.cut.incision_faces <= 0) warn_of_misses(name_of_input(a.scene), report.job.missed, {}, terminal);
   if (!a.output.empty() && report.job.change.ok) terminal.wrote(a.output, "series, with its folder");
   if (!a.record.empty()) terminal.wrote(a.record, "recording");
   if (const Status status = write_report(a, report, terminal); !status.ok()) {
@@ -208,11 +208,14 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   Result<app::Scene> read = read_scene(arguments);
   if (!read.ok()) return fail(terminal, read.error(), kBadInput);
   if (arguments.is_ideal && (!read->exercise || read->exercise->ideal.empty())) {
-    return fail(terminal, arguments.scene + ": --ideal shows how an exercise is done; this scene has no exercise.ideal",
-                kBadInput);
+    return fail(
+        terminal,
+        name_of_input(arguments.scene) + ": --ideal shows how an exercise is done; this scene has no exercise.ideal",
+        kBadInput);
   }
   if (!arguments.page.empty() && !read->exercise) {
-    return fail(terminal, arguments.scene + ": --page tells how an exercise went; this scene has no exercise",
+    return fail(terminal,
+                name_of_input(arguments.scene) + ": --page tells how an exercise went; this scene has no exercise",
                 kBadInput);
   }
   const app::Scene scene = overridden(std::move(read).value(), arguments);

@@ -42,6 +42,19 @@ void print(std::FILE* file, std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), file);
 }
 
+/// What is read from stdin has one name in messages, whatever it was opened by.
+std::string with_stdin_named(std::string_view text) {
+  constexpr std::string_view kDevice = "/dev/stdin";
+  std::string named(text);
+  for (std::size_t at = named.find(kDevice); at != std::string::npos; at = named.find(kDevice, at + 1)) {
+    const bool is_whole = at == 0 || named[at - 1] == ' ' || named[at - 1] == '\'' || named[at - 1] == '"';
+    const std::size_t end = at + kDevice.size();
+    const bool ends = end == named.size() || std::string_view(": ;,'\"").find(named[end]) != std::string_view::npos;
+    if (is_whole && ends) named.replace(at, kDevice.size(), "stdin");
+  }
+  return named;
+}
+
 void print_line(std::string_view label, std::string_view colour, std::string_view text) {
   std::string line = "incise: ";
   if (!label.empty()) {
@@ -51,7 +64,7 @@ void print_line(std::string_view label, std::string_view colour, std::string_vie
     if (is_coloured) line += "\033[0m";
     line += ": ";
   }
-  print(stderr, line.append(incise_apps::one_line(text)).append("\n"));
+  print(stderr, line.append(incise_apps::one_line(with_stdin_named(text))).append("\n"));
 }
 
 }  // namespace
@@ -77,7 +90,8 @@ void Terminal::error(std::string_view text) const {
 }
 
 incise::Status Terminal::data(std::string_view text) const {
-  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0 &&
+                          std::ferror(stdout) == 0;
   if (is_written) return {};
   return incise::Error{incise::ErrorCode::kIo, "stdout: writing failed; is the disk full?", {}};
 }
@@ -108,13 +122,14 @@ void ProgressBar::show(std::size_t done, std::size_t total) {
   draw([&](double seconds) { return incise_apps::progress_text(std::min(done, total), total, unit_, seconds); });
 }
 
-void ProgressBar::show_time() {
-  draw([&](double seconds) { return unit_ + ", " + incise_apps::clock_text(seconds); });
+void ProgressBar::show_stage(std::string_view name, std::size_t done, std::size_t total) {
+  const bool is_new = std::exchange(stage_, done) != done;
+  draw([&](double seconds) { return incise_apps::stage_text(name, done, total, seconds); }, is_new);
 }
 
-void ProgressBar::draw(const std::function<std::string(double seconds)>& text) {
+void ProgressBar::draw(const std::function<std::string(double seconds)>& text, bool at_once) {
   const Clock::time_point now = Clock::now();
-  if (!is_on_ || (is_drawn_ && now - drawn_ < std::chrono::milliseconds(100))) return;
+  if (!is_on_ || (is_drawn_ && !at_once && now - drawn_ < std::chrono::milliseconds(100))) return;
   drawn_ = now;
   is_drawn_ = true;
   print(stderr, "\r\033[K" + text(std::chrono::duration<double>(now - began_).count()));

@@ -35,15 +35,15 @@ class Terminal {
   void wrote(std::string_view file, std::string_view what) const;
   void detail(std::string_view text) const;  ///< only under -v
   void error(std::string_view text) const;
-  /// To stdout. Errors: kIo where that cannot take it.
+  /// To stdout, with what was printed there before. Errors: kIo where that cannot take it.
   [[nodiscard]] incise::Status data(std::string_view text) const;
   /// What people read of a result: to stdout, or to stderr where stdout carries a file. Silent under -q.
   void summary(std::string_view text, bool is_stdout_taken) const;
   [[nodiscard]] incise::LogSink log_sink() const;
 };
 
-/// A bar on stderr with the time that is left, where that is a terminal and nobody asked for quiet. It goes with its
-/// work.
+/// A bar on stderr with the time that is left, or, where nobody can tell it, that has gone by; where that is a terminal
+/// and nobody asked for quiet. It goes with its work.
 class ProgressBar {
  public:
   ProgressBar(const Terminal& terminal, std::string unit);
@@ -53,17 +53,19 @@ class ProgressBar {
 
   /// `done` of `total`; drawn ten times a second at most.
   void show(std::size_t done, std::size_t total);
-  /// Of work of which nobody knows how much is left: for how long it has been going on.
-  void show_time();
+  /// Of work in stages of which nobody knows how long they take: which one it is at, and for how long it has been going
+  /// on. `done` of `total` came before.
+  void show_stage(std::string_view name, std::size_t done, std::size_t total);
 
  private:
-  void draw(const std::function<std::string(double seconds)>& text);
+  void draw(const std::function<std::string(double seconds)>& text, bool at_once = false);
 
   using Clock = std::chrono::steady_clock;
 
   bool is_on_, is_drawn_ = false;
   std::string unit_;
   Clock::time_point began_, drawn_;
+  std::size_t stage_ = 0;
 };
 
 /// From now on Ctrl-C and SIGTERM end the program with 130 or 143: at once while nothing is being written, else after

@@ -144,6 +144,21 @@ std::string bash_completion(const CLI::App& root) {
   return text;
 }
 
+std::string bash_completion_by_help(const std::string& name) {
+  std::string function = "_" + name;
+  std::replace(function.begin(), function.end(), '-', '_');
+  return function +
+         "() {\n"
+         "  local word=${COMP_WORDS[COMP_CWORD]} options=\n"
+         "  COMPREPLY=()\n"
+         "  case $word in -*) ;; *) return ;; esac\n"
+         "  options=$(\"${COMP_WORDS[0]}\" --help 2>/dev/null | grep -oE -e '--[a-z][a-z-]*' | sort -u)\n"
+         "  COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
+         "}\n"
+         "complete -o default -F " +
+         function + " " + name + "\n";
+}
+
 std::string zsh_completion(const CLI::App& root) {
   const std::string name = root.get_name(), function = function_of(root);
   std::string text = "#compdef " + name + "\n# Completes " + name + " in zsh. For this shell: source <(" + name +

@@ -13,4 +13,7 @@ namespace incise_apps {
 /// The same for zsh, with what each option does.
 [[nodiscard]] std::string zsh_completion(const CLI::App& root);
 
+/// For bash, of another program, whose options are asked for by its --help when they are wanted.
+[[nodiscard]] std::string bash_completion_by_help(const std::string& name);
+
 }  // namespace incise_apps

@@ -13,6 +13,11 @@ namespace {
 
 constexpr std::size_t kBarWidth = 30;
 
+std::string bar_text(double share) {
+  const auto filled = static_cast<std::size_t>(share * kBarWidth);
+  return "[" + std::string(filled, '#') + std::string(kBarWidth - filled, ' ') + "] ";
+}
+
 }  // namespace
 
 std::string one_line(std::string_view text) {
@@ -32,11 +37,14 @@ std::string clock_text(double seconds) {
 
 std::string progress_text(std::size_t done, std::size_t total, std::string_view unit, double seconds) {
   const double share = static_cast<double>(done) / static_cast<double>(total);
-  const auto filled = static_cast<std::size_t>(share * kBarWidth);
-  std::string text = "[" + std::string(filled, '#') + std::string(kBarWidth - filled, ' ') + "] ";
-  text += std::to_string(done) + " of " + std::to_string(total) + " " + std::string(unit);
+  std::string text = bar_text(share) + std::to_string(done) + " of " + std::to_string(total) + " " + std::string(unit);
   if (done > 0 && seconds >= 1) text += ", " + clock_text(seconds * (1 - share) / share) + " left";
   return text;
+}
+
+std::string stage_text(std::string_view name, std::size_t done, std::size_t total, double seconds) {
+  return bar_text(static_cast<double>(done) / static_cast<double>(total)) + "stage " + std::to_string(done + 1) +
+         " of " + std::to_string(total) + ": " + std::string(name) + ", " + clock_text(seconds);
 }
 
 }  // namespace incise_apps

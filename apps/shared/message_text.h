@@ -18,4 +18,8 @@ namespace incise_apps {
 /// time that is left is told once it can be: after a second, and where something is done.
 [[nodiscard]] std::string progress_text(std::size_t done, std::size_t total, std::string_view unit, double seconds);
 
+/// "[######      ] stage 2 of 5: cutting, 0:07" of work whose stages take times that nobody knows before: for how long
+/// it has been going on. `done` stages came before this one.
+[[nodiscard]] std::string stage_text(std::string_view name, std::size_t done, std::size_t total, double seconds);
+
 }  // namespace incise_apps

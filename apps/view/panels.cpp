@@ -285,7 +285,7 @@ float research_width(float wanted) {
   return std::clamp(room, kLeastWidth * em(), wanted);
 }
 
-/// Of a panel of this width whose left edge is to be so far from the left one of all panels.
+/// Of a panel of this width whose left edge is to be `left` from the left one of all panels.
 float share_of_left(float left, float width) {
   const float room = ImGui::GetMainViewport()->Size.x - 2 * kMargin * em() - width;
   return room > 0 ? std::min(1.0F, left / room) : 0;

@@ -20,7 +20,7 @@ export class Beat {
     Object.assign(this, { hop, timer, clock });
   }
 
-  /** Acts again so many ms after this act was due. */
+  /** Acts again this number of ms after this act was due. */
   wait(ms) {
     const now = this.clock();
     this.#due = Math.max((this.#due ?? now) + ms, now - LATEST_MS);

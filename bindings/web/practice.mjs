@@ -4,7 +4,7 @@
 
 const STROKE = 25; // frames
 
-/** A cube of so many cells a side in a session of its own, which is cut for so many frames; every stroke is taken back. */
+/** A cube of some cells a side in a session of its own, which is cut for some frames; every stroke is taken back. */
 export class Practice {
   #session;
   #left;

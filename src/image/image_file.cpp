@@ -9,6 +9,7 @@
 
 #include "image/image_header.h"
 #include "image/inflate.h"
+#include "image/voxel_bytes.h"
 #include "incise/io/load_file.h"
 
 namespace incise {
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Headers of text may carry much, but not more than this.
-constexpr std::uint64_t kLongestHeader = std::uint64_t{1} << 20U;
+constexpr std::size_t kLongestHeader = std::size_t{1} << 20U;
 constexpr io::ReadLimits kLimits = {std::uint64_t{1} << 36U};
 
 Error bad_file(const std::string& name, const std::string& what) {
@@ -51,41 +52,24 @@ bool skip_what_is_before(std::string_view bytes, ImageHeader& header) {
   return true;
 }
 
-Error too_few(const std::string& name, std::uint64_t there, std::uint64_t wanted) {
-  return bad_file(name, "has " + std::to_string(there) + " bytes of voxels, but its header promises " +
-                            std::to_string(wanted) + "; is it cut off?");
-}
-
-/// Finds the voxels in the file that has them; `buffer` holds them where they had to be unpacked.
-Result<std::string_view> find_voxels(ImageHeader& header, std::string_view file, const std::string& name,
-                                     std::string& buffer) {
+/// Finds the voxels in the file that has them.
+Result<VoxelBytes> find_voxels(ImageHeader& header, std::string_view file, const std::string& name) {
   const std::uint64_t wanted = bytes_of(header.layout);
-  std::string why;
   if (is_gzip(file) && !header.is_deflated) {
     if (header.line_skip > 0 || header.is_at_end) return bad_file(name, "is gzipped as a whole; gunzip it first");
-    if (!inflate_first(file, header.offset + header.byte_skip + wanted, buffer, why)) return bad_file(name, why);
-    file = buffer;
+    return VoxelBytes(file, header.offset + header.byte_skip, name);
   }
   if (!skip_what_is_before(file, header)) return too_few(name, 0, wanted);
   if (header.is_at_end && !header.is_deflated) {
     if (file.size() < wanted) return too_few(name, file.size(), wanted);
-    return file.substr(file.size() - static_cast<std::size_t>(wanted));
+    return VoxelBytes(file.substr(file.size() - static_cast<std::size_t>(wanted)), name);
   }
-  const auto offset = static_cast<std::size_t>(std::min<std::uint64_t>(header.offset, file.size()));
-  file.remove_prefix(offset);
-  if (header.is_deflated) {
-    std::string voxels;
-    if (!inflate_first(file, wanted, voxels, why)) return bad_file(name, why);
-    buffer = std::move(voxels);
-    file = buffer;
-  }
-  if (file.size() < wanted) return too_few(name, file.size(), wanted);
-  return file.substr(0, static_cast<std::size_t>(wanted));
+  file.remove_prefix(static_cast<std::size_t>(std::min<std::uint64_t>(header.offset, file.size())));
+  return header.is_deflated ? VoxelBytes(file, 0, name) : VoxelBytes(file, name);
 }
 
 Result<ImageFile> assemble(ImageHeader header, std::string_view file, bool is_packed, const std::string& name) {
-  std::string buffer;
-  Result<std::string_view> voxels = find_voxels(header, file, name, buffer);
+  Result<VoxelBytes> voxels = find_voxels(header, file, name);
   if (!voxels) return voxels.error();
   Result<LabelImage> image = decode(header.layout, *voxels, name);
   if (!image) return image.error();
@@ -100,7 +84,7 @@ Result<ImageFile> assemble(ImageHeader header, std::string_view file, bool is_pa
 Result<ImageFile> read_image(std::string_view bytes, const std::string& name, const io::SiblingLoader& sibling) {
   std::string beginning, why;
   const bool is_zipped = is_gzip(bytes);
-  if (is_zipped && !inflate_first(bytes, kLongestHeader, beginning, why)) return bad_file(name, why);
+  if (is_zipped && !InflateStream(bytes).read(kLongestHeader, beginning, why)) return bad_file(name, why);
   Result<ImageHeader> header = read_header(is_zipped ? std::string_view(beginning) : bytes, name);
   if (!header) return header.error();
   if (const std::string problem = problem_of(header->layout); !problem.empty()) return bad_file(name, problem);

@@ -21,10 +21,11 @@ bool is_gzip(std::string_view bytes) {
 namespace {
 
 constexpr int kEitherWindow = 15 + 32;  // gzip or zlib, by their headers
-constexpr std::uint64_t kMaxInflation = 1040;
 constexpr std::size_t kChunk = std::size_t{1} << 26U;
 
-class Inflater {
+}  // namespace
+
+class InflateStream::Inflater {
  public:
   explicit Inflater(std::string_view bytes) : left_(bytes) { is_ready_ = inflateInit2(&z_, kEitherWindow) == Z_OK; }
   Inflater(const Inflater&) = delete;
@@ -60,17 +61,13 @@ class Inflater {
   bool is_ready_ = false, is_done_ = false;
 };
 
-}  // namespace
+InflateStream::InflateStream(std::string_view bytes) : inflater_(std::make_unique<Inflater>(bytes)) {}
 
-bool inflate_first(std::string_view bytes, std::uint64_t size, std::string& out, std::string& why) {
-  Inflater inflater(bytes);
-  if (!inflater.is_ready()) return why = "zlib cannot start", false;
-  const std::uint64_t most = std::min<std::uint64_t>(size, kMaxInflation * (bytes.size() + 1));
+bool InflateStream::read(std::size_t size, std::string& out, std::string& why) {
   out.clear();
-  out.reserve(static_cast<std::size_t>(most));
-  while (out.size() < most && !inflater.is_done()) {
-    const std::size_t room = static_cast<std::size_t>(std::min<std::uint64_t>(most - out.size(), kChunk));
-    if (!inflater.append(out, room)) {
+  if (!inflater_->is_ready()) return why = "zlib cannot start", false;
+  while (out.size() < size && !inflater_->is_done()) {
+    if (!inflater_->append(out, std::min(size - out.size(), kChunk))) {
       return why = "the compressed voxels are damaged or cut off; fetch the file again", false;
     }
   }
@@ -79,12 +76,19 @@ bool inflate_first(std::string_view bytes, std::uint64_t size, std::string& out,
 
 #else
 
-bool inflate_first(std::string_view, std::uint64_t, std::string&, std::string& why) {
+class InflateStream::Inflater {};
+
+InflateStream::InflateStream(std::string_view) {}
+
+bool InflateStream::read(std::size_t, std::string&, std::string& why) {
   why = "is gzipped, which this build cannot read; gunzip it first";
   return false;
 }
 
 #endif
+
+InflateStream::InflateStream(InflateStream&&) noexcept = default;
+InflateStream::~InflateStream() = default;
 
 }  // namespace image
 }  // namespace v0

@@ -27,9 +27,9 @@ constexpr double kDamping = 0.03;
 /// bring the volumes about.
 constexpr double kMostDifference = 0.6, kMostChange = 0.1, kEager = 0.8;
 constexpr int kBalanceSweeps = 60;
-/// Faces around a point make an edge where the normal of one of them is turned so far from their mean (cosine). Planes
-/// are taken near the middles of the faces, the point counting so much beside their other corners; planes that are
-/// alike do not move the point along them (damping, relative), nor do any by more than this share of the mean edge.
+/// Faces around a point make an edge where the normal of one of them is turned this far from their mean (cosine).
+/// Planes are taken near the middles of the faces, the point counting this much beside their other corners; planes that
+/// are alike do not move the point along them (damping, relative), nor do any by more than this share of the mean edge.
 constexpr double kCrease = 0.8, kCreaseNear = 0.5, kCreaseDamping = 0.03, kMostToCrease = 0.6;
 
 /// Whether a tet is within the bounds.

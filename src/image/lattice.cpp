@@ -13,7 +13,7 @@ namespace {
 
 /// Distance in spacings below which the two sides of a label make it thin.
 constexpr double kThin = 3;
-/// Two sides lie opposite each other where their normals are turned against each other at least so far (cosine).
+/// Two sides lie opposite each other where their normals are turned against each other at least this far (cosine).
 constexpr double kOpposite = 0.5;
 /// Shares below this make no interface.
 constexpr double kShare = 0.15;

@@ -65,15 +65,22 @@ Status check_options(const MeshLabelsOptions& o) {
   return o.threads >= 1 && o.threads <= 256 ? Status() : bad_option("1 to 256 threads may be used; mend it");
 }
 
+Error nothing_to_mesh() {
+  return bad_image(
+      "the image has no voxel of a label other than 0 that could be meshed; choose other labels, or a smaller size");
+}
+
+/// Whether an image is background alone: found out before anything as large as it is made.
+bool is_background(const LabelImage& image) {
+  return std::all_of(image.labels.begin(), image.labels.end(), [](std::int32_t label) { return label == 0; });
+}
+
 /// Whether there is something to mesh, and not too much.
 Status check_amount(const LabelVolume& volume, const MeshLabelsOptions& options) {
   const std::vector<std::uint64_t> counts = volume.count_voxels();
   double voxels = 0;
   for (std::size_t l = 1; l < counts.size(); ++l) voxels += static_cast<double>(counts[l]);
-  if (voxels == 0) {
-    return bad_image(
-        "the image has no voxel of a label other than 0 that could be meshed; choose other labels, or a smaller size");
-  }
+  if (voxels == 0) return nothing_to_mesh();
   const Vec3& s = volume.spacing();
   if (const double least = kLeastSize * s.minCoeff(); options.size < (1.0 - 1e-6) * least) {
     return bad_image("tets of size " + fmt_length(options.size) + " mm are smaller than half a voxel; give " +
@@ -238,6 +245,7 @@ Result<LabelMesh> mesh_labels(const LabelImage& image, const MeshLabelsOptions& 
   if (!options.volumes.empty() && options.volumes.size() != image.labels.size()) {
     return bad_option("as many volumes as labels must be given, or none; mend them");
   }
+  if (is_background(image)) return nothing_to_mesh();
 #if defined(__cpp_exceptions)
   try {
     return LabelMesher(image, options).run();

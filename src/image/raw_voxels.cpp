@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <unordered_map>
 
 namespace incise {
@@ -15,6 +16,8 @@ inline namespace v0 {
 namespace image {
 namespace {
 
+/// Bytes that are decoded at once: whole voxels of every type.
+constexpr std::uint64_t kDecodedAtOnce = std::uint64_t{1} << 20U;
 /// Steps that are so near a plane, relative to their lengths, span no volume.
 constexpr double kFlatSteps = 1e-6;
 /// Lengths of steps, mm: what lies outside is damage, not anatomy.
@@ -95,25 +98,42 @@ Error no_label(T value, std::size_t labels, const std::string& name) {
           name + ": has the value " + std::to_string(value) + ", which is no whole number of 32 bits" + remedy};
 }
 
+/// Appends the voxels of one piece; false where one has no label, which `value` is then.
 template <class T>
-Result<LabelImage> decode_as(const VoxelLayout& layout, std::string_view bytes, const std::string& name) {
-  LabelImage image;
-  const std::size_t n = bytes.size() / sizeof(T);
-  image.voxels.resize(n);
-  LabelTable<T> table(layout.slope, layout.intercept);
+bool append_voxels(const VoxelLayout& layout, std::string_view bytes, LabelTable<T>& table, LabelImage& image,
+                   T& value) {
+  const std::size_t first = image.voxels.size(), n = bytes.size() / sizeof(T);
+  image.voxels.resize(first + n);
   for (std::size_t v = 0; v < n; ++v) {
-    T value;
     std::memcpy(&value, bytes.data() + v * sizeof(T), sizeof(T));
     if (layout.is_big_endian) value = swapped(value);
     const std::size_t number = table.number_of(value);
-    if (number >= kMostLabels) return no_label(value, table.labels().size(), name);
-    image.voxels[v] = static_cast<std::uint16_t>(number);
+    if (number >= kMostLabels) return false;
+    image.voxels[first + v] = static_cast<std::uint16_t>(number);
+  }
+  return true;
+}
+
+template <class T>
+Result<LabelImage> decode_as(const VoxelLayout& layout, VoxelBytes& bytes, const std::string& name) {
+  LabelImage image;
+  const std::uint64_t wanted = bytes_of(layout);
+  image.voxels.reserve(static_cast<std::size_t>(std::min(wanted, bytes.most()) / sizeof(T)));
+  LabelTable<T> table(layout.slope, layout.intercept);
+  for (std::uint64_t left = wanted; left > 0;) {
+    const auto size = static_cast<std::size_t>(std::min(left, kDecodedAtOnce));
+    const Result<std::string_view> piece = bytes.next(size);
+    if (!piece) return piece.error();
+    if (piece->size() < size) return too_few(name, wanted - left + piece->size(), wanted);
+    T value{};
+    if (!append_voxels(layout, *piece, table, image, value)) return no_label(value, table.labels().size(), name);
+    left -= size;
   }
   sort_labels(image, table.labels());
   return image;
 }
 
-Result<LabelImage> decode_any(const VoxelLayout& layout, std::string_view bytes, const std::string& name) {
+Result<LabelImage> decode_any(const VoxelLayout& layout, VoxelBytes& bytes, const std::string& name) {
   switch (layout.type) {
     case VoxelType::kUint8:
       return decode_as<std::uint8_t>(layout, bytes, name);
@@ -186,7 +206,12 @@ std::uint64_t bytes_of(const VoxelLayout& layout) {
   return layout.size[0] * layout.size[1] * layout.size[2] * bytes_of(layout.type);
 }
 
-Result<LabelImage> decode(const VoxelLayout& layout, std::string_view bytes, const std::string& name) {
+Error too_few(const std::string& name, std::uint64_t there, std::uint64_t wanted) {
+  return {ErrorCode::kBadFile, name + ": has " + std::to_string(there) + " bytes of voxels, but its header promises " +
+                                   std::to_string(wanted) + "; is it cut off?"};
+}
+
+Result<LabelImage> decode(const VoxelLayout& layout, VoxelBytes& bytes, const std::string& name) {
   Result<LabelImage> image = decode_any(layout, bytes, name);
   if (!image) return image;
   for (std::size_t a = 0; a < 3; ++a) image->size[a] = static_cast<std::size_t>(layout.size[a]);

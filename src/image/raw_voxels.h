@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "image/voxel_bytes.h"
 #include "incise/core/result.h"
 #include "incise/image/label_image.h"
 
@@ -56,9 +56,12 @@ void turn_to_ras(VoxelLayout& layout);
 /// Bytes that all voxels take; only where `problem_of` has nothing to say.
 [[nodiscard]] std::uint64_t bytes_of(const VoxelLayout& layout);
 
-/// Makes labels of exactly `bytes_of(layout)` bytes. Errors: kUnsupported for values that are no labels; `name` is the
-/// file's.
-[[nodiscard]] Result<LabelImage> decode(const VoxelLayout& layout, std::string_view bytes, const std::string& name);
+/// Makes labels of the first `bytes_of(layout)` bytes. Errors: kBadFile where there are fewer, kUnsupported for values
+/// that are no labels; `name` is the file's. Memory: 2 bytes per voxel that there can be.
+[[nodiscard]] Result<LabelImage> decode(const VoxelLayout& layout, VoxelBytes& bytes, const std::string& name);
+
+/// That there are not as many bytes as the header says.
+[[nodiscard]] Error too_few(const std::string& name, std::uint64_t there, std::uint64_t wanted);
 
 }  // namespace image
 }  // namespace v0

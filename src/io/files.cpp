@@ -9,16 +9,9 @@
 #include <cstring>
 #include <memory>
 
+#include "incise/io/part_file.h"
 #include "io/gzip.h"
 #include "io/text.h"
-
-#if (defined(__unix__) || defined(__APPLE__)) && !defined(__EMSCRIPTEN__)
-#define INCISE_HAS_PROCESSES 1
-#include <signal.h>
-#include <unistd.h>
-#else
-#define INCISE_HAS_PROCESSES 0
-#endif
 
 namespace incise {
 inline namespace v0 {
@@ -36,58 +29,11 @@ Error io_error(ErrorCode code, const fs::path& path, const std::string& what) {
   return {code, path.string() + ": " + what};
 }
 
-// What is being written beside its place is called NAME.PROCESS.NUMBER.incise-part.
-constexpr std::string_view kPart = ".incise-part";
-
-long process_number() {
-#if INCISE_HAS_PROCESSES
-  return static_cast<long>(getpid());
-#else
-  return 0;
-#endif
-}
-
-bool is_running([[maybe_unused]] std::int64_t process) {
-#if INCISE_HAS_PROCESSES
-  return kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
-#else
-  return true;
-#endif
-}
-
-// Whether a file was being written in the place of `path` by a process that is no more.
-bool is_stale(const std::string& name, const std::string& beside) {
-  if (name.size() <= beside.size() + kPart.size() || name.compare(0, beside.size(), beside) != 0) return false;
-  if (name.compare(name.size() - kPart.size(), kPart.size(), kPart) != 0) return false;
-  const std::string_view rest = std::string_view(name).substr(beside.size());
-  std::int64_t process = 0;
-  return parse_int(rest.substr(0, rest.find('.')), process) && process > 0 && process <= 0x7FFFFFFF &&
-         !is_running(process);
-}
-
-// Takes away what killed processes left of earlier attempts to write this file, as far as it is found among the first
-// names of its folder: a series of many files would look at all of them each time.
-void remove_stale(const fs::path& path) {
-  constexpr unsigned kNamesToLookAt = 1000;
-  std::error_code code;
-  unsigned looked_at = 0;
-  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-  const std::string beside = path.filename().string() + ".";
-  std::vector<fs::path> stale;
-  for (fs::directory_iterator at(folder, code), end; !code && at != end && looked_at < kNamesToLookAt;
-       at.increment(code), ++looked_at) {
-    if (is_stale(at->path().filename().string(), beside)) stale.push_back(at->path());
-  }
-  for (const fs::path& file : stale) fs::remove(file, code);
-}
-
 // A new file beside `path`, of a name that nobody has.
 File open_beside(const fs::path& path, fs::path& temporary) {
-  remove_stale(path);
-  for (int i = 0; i < 1000; ++i) {
-    temporary = path;
-    temporary += "." + std::to_string(process_number()) + "." + std::to_string(i);
-    temporary += kPart;
+  remove_stale_parts(path);
+  for (unsigned i = 0; i < 1000; ++i) {
+    temporary = part_file(path, i);
     File file(std::fopen(temporary.string().c_str(), "wbx"));
     if (file || errno != EEXIST) return file;
   }

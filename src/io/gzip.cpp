@@ -24,7 +24,9 @@ namespace {
 constexpr int kGzipWindow = 15 + 16;
 constexpr std::size_t kMaxChunk = std::size_t{1} << 30U;
 /// Meshes shrink to a tenth, in regular boxes to a fiftieth. What grows further than this, and beyond 64 MiB, is none.
-constexpr std::uint64_t kMostGrowth = 200, kSmall = std::uint64_t{64} << 20U;
+constexpr std::uint64_t kMostGrowth = 64, kSmall = std::uint64_t{64} << 20U;
+/// Bytes of what is unpacked to be counted alone.
+constexpr std::size_t kCountedAtOnce = std::size_t{1} << 18U;
 
 Bytef* as_bytes(const char* p) {
   return reinterpret_cast<Bytef*>(const_cast<char*>(p));
@@ -70,34 +72,82 @@ bool has_gzip() {
   return true;
 }
 
+namespace {
+
+enum class Unpacked { kToTheEnd, kRoomIsFull, kFailed };
+
+// Fills `room`, and says whether the members end there; `filled` counts what came.
+Unpacked unpack(Inflater& inflater, char* room, std::size_t size, std::size_t& filled, std::string& why) {
+  filled = 0;
+  for (;;) {
+    std::size_t got = 0;
+    const int code = inflater.step(room + filled, size - filled, got);
+    filled += got;
+    if (code == Z_STREAM_END) {
+      if (!inflater.has_member()) return Unpacked::kToTheEnd;
+      if (!inflater.restart()) return why = "zlib cannot restart", Unpacked::kFailed;
+    } else if (code != Z_OK && code != Z_BUF_ERROR) {
+      return why = "the gzip stream is damaged; fetch the file again", Unpacked::kFailed;
+    } else if (filled == size) {
+      return Unpacked::kRoomIsFull;
+    } else if (got == 0 && inflater.at_end()) {
+      return why = "the gzip stream ends too early; fetch the file again", Unpacked::kFailed;
+    }
+  }
+}
+
+// Unpacks without keeping anything, until more than `most` bytes came.
+Unpacked count(Inflater& inflater, std::uint64_t most, std::uint64_t& counted, std::string& why) {
+  std::string chunk(kCountedAtOnce, '\0');
+  Unpacked state = Unpacked::kRoomIsFull;
+  while (state == Unpacked::kRoomIsFull && counted <= most) {
+    std::size_t got = 0;
+    state = unpack(inflater, chunk.data(), chunk.size(), got, why);
+    counted += got;
+  }
+  return state;
+}
+
+// What the last member says that it unpacks to: of a file with one member its size, modulo 4 GiB.
+std::uint64_t stated_size(std::string_view bytes) {
+  std::uint64_t size = 0;
+  for (std::size_t i = 0; i < 4 && bytes.size() >= 4; ++i) {
+    size = (size << 8U) | static_cast<unsigned char>(bytes[bytes.size() - 1 - i]);
+  }
+  return size;
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+  return bytes < (1U << 20U) ? std::to_string(bytes) + " bytes" : std::to_string(bytes >> 20U) + " MiB";
+}
+
+std::string too_large(std::uint64_t most, std::uint64_t max_bytes) {
+  const std::string ratio = most < max_bytes ? ", where text grows to " + std::to_string(kMostGrowth) +
+                                                   " times its gzipped size at most, or to " + mebibytes(kSmall)
+                                             : ", the most that is read";
+  return "gunzips to more than " + mebibytes(most) + ratio + "; if it is no damage, gunzip it yourself";
+}
+
+}  // namespace
+
 bool gunzip(std::string_view bytes, std::uint64_t max_bytes, std::string& out, std::string& why) {
   Inflater inflater(bytes, kGzipWindow);
   if (!inflater.ready()) return why = "zlib cannot start", false;
+  const std::uint64_t most = std::min(max_bytes, std::max(kSmall, kMostGrowth * bytes.size()));
+  const std::uint64_t stated = stated_size(bytes);
+  out.resize(stated <= most ? static_cast<std::size_t>(stated) : 0);
   std::size_t filled = 0;
-  max_bytes = std::min<std::uint64_t>(max_bytes, std::max<std::uint64_t>(kSmall, kMostGrowth * bytes.size()));
-  out.resize(std::min<std::uint64_t>(max_bytes, 4 * bytes.size() + 1024));
-  for (;;) {
-    if (filled == out.size()) {
-      if (filled >= max_bytes)
-        return why = "gunzips to more than " + std::to_string(max_bytes) + " bytes, the most that is taken of " +
-                     std::to_string(bytes.size()) + "; gunzip it yourself",
-               false;
-      out.resize(std::min<std::uint64_t>(max_bytes, 2 * out.size()));
-    }
-    std::size_t got = 0;
-    const int code = inflater.step(out.data() + filled, out.size() - filled, got);
-    filled += got;
-    if (code == Z_STREAM_END) {
-      if (!inflater.has_member()) break;
-      if (!inflater.restart()) return why = "zlib cannot restart", false;
-    } else if (code != Z_OK && code != Z_BUF_ERROR) {
-      return why = "the gzip stream is damaged; fetch the file again", false;
-    } else if (got == 0 && inflater.at_end()) {
-      return why = "the gzip stream ends too early; fetch the file again", false;
-    }
-  }
-  out.resize(filled);
-  return true;
+  Unpacked state = unpack(inflater, out.data(), out.size(), filled, why);
+  std::uint64_t whole = filled;
+  // More members than one, or more than the last says: nothing is kept before all of it is known to be taken.
+  if (state == Unpacked::kRoomIsFull) state = count(inflater, most, whole, why);
+  if (whole > most) return why = too_large(most, max_bytes), false;
+  if (state == Unpacked::kFailed) return false;
+  out.resize(static_cast<std::size_t>(whole));
+  if (whole == filled) return true;
+  Inflater again(bytes, kGzipWindow);
+  if (!again.ready()) return why = "zlib cannot start", false;
+  return unpack(again, out.data(), out.size(), filled, why) != Unpacked::kFailed;
 }
 
 bool inflate_to(std::string_view bytes, char* out, std::size_t size) {

@@ -16,8 +16,8 @@ inline constexpr std::uint64_t kMaxInflation = 1040;
 /// Whether bytes begin as a gzip stream does. Cost: O(1).
 [[nodiscard]] bool is_gzip(std::string_view bytes);
 
-/// Gunzip all members of `bytes`, to at most `max_bytes` and, beyond 64 MiB, 200 times their size. On failure returns
-/// false and says why.
+/// Gunzip all members of `bytes`, to at most `max_bytes` and, beyond 64 MiB, 64 times their size. No more memory is
+/// taken than what comes out, and none for what is refused as too large. On failure returns false and says why.
 [[nodiscard]] bool gunzip(std::string_view bytes, std::uint64_t max_bytes, std::string& out, std::string& why);
 
 /// Inflate one zlib stream to exactly `size` bytes at `out`.

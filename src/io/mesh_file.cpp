@@ -11,6 +11,7 @@
 #include "io/formats.h"
 #include "io/gzip.h"
 #include "io/reader.h"
+#include "io/surface_kind.h"
 
 namespace incise {
 inline namespace v0 {
@@ -21,6 +22,8 @@ bool refuse(Job& job, const std::string& what) {
   return job.fail(what + " cannot be read; " + readable_formats(), ErrorCode::kUnsupported);
 }
 
+constexpr const char* kSurface = "a surface (it holds no tets; incise mesh fills it)";
+
 // Known formats that are of no use here, by their first bytes.
 const char* unsupported_kind(std::string_view bytes) {
   using std::string_view_literals::operator""sv;
@@ -29,9 +32,7 @@ const char* unsupported_kind(std::string_view bytes) {
   if (bytes.starts_with("\1\0\0\0"sv) || bytes.starts_with("\0\0\0\1"sv)) return "binary MEDIT (.meshb)";
   if (bytes.starts_with("PK\3\4")) return "a zip archive";
   if (bytes.starts_with("\4\x22M\x18")) return "an LZ4 archive";
-  if (bytes.starts_with("solid ") || bytes.starts_with("OFF")) {
-    return "a surface (it holds no tets; incise mesh fills it)";
-  }
+  if (bytes.starts_with("solid ") || bytes.starts_with("OFF") || is_binary_stl(bytes)) return kSurface;
   if (bytes.starts_with("CDF") || bytes.starts_with("NRRD")) return "this kind of file";
   return nullptr;
 }
@@ -59,25 +60,41 @@ bool is_nastran(std::string_view bytes) {
   });
 }
 
+std::vector<double> numbers_in(std::string_view line) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+    double number = 0;
+    if (end > at && parse_double(line.substr(at, end - at), number)) numbers.push_back(number);
+    at = end + 1;
+  }
+  return numbers;
+}
+
+/// A surface in the manner of .obj: lines of vertices and of faces.
+bool is_obj(std::string_view bytes) {
+  const auto has = [bytes](const char* word) {
+    return any_line(bytes, [word](std::string_view line) { return line.starts_with(word); });
+  };
+  return has("v ") && (has("f ") || has("vn ") || has("vt ") || has("mtllib ") || has("o ") || has("g "));
+}
+
 /// What a text that begins with numbers alone is, where that is known and of no use here.
 const char* unsupported_numbers(std::string_view bytes) {
-  std::vector<double> first;
+  std::vector<double> first, second;
   any_line(bytes, [&](std::string_view line) {
     line = trim(line.substr(0, line.find('#')));  // without its comment
     if (line.empty()) return false;
-    for (std::size_t at = 0; at < line.size();) {
-      const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
-      double number = 0;
-      if (end > at && parse_double(line.substr(at, end - at), number)) first.push_back(number);
-      at = end + 1;
-    }
-    return true;
+    const bool is_second = !first.empty();
+    (is_second ? second : first) = numbers_in(line);
+    return is_second || first.empty();
   });
   if (first.size() == 1 && first[0] == -1) return "I-DEAS universal (.unv)";
   if (first.size() == 5) return "AVS UCD (.inp)";
   const bool is_tetgen = first.size() > 1 && (first[1] == 3 || first[1] == 4 || first[1] == 10);
-  if (first.size() == 3 && !is_tetgen) return "FreeFem (.msh of a plane mesh)";
-  return nullptr;
+  if (first.size() != 3 || is_tetgen) return nullptr;
+  const bool is_plane = second.size() == 3;  // a vertex and its label
+  return is_plane ? "FreeFem (.msh of a plane mesh)" : "FreeFem (.msh of a mesh in space)";
 }
 
 /// Known formats of text that are of no use here.
@@ -85,6 +102,7 @@ const char* unsupported_text(std::string_view bytes) {
   const bool is_gmsh = any_line(bytes, [](std::string_view line) {
     return line.starts_with("$MeshFormat") || line.starts_with("$NOD") || line.starts_with("$Nodes");
   });
+  if (!is_gmsh && is_obj(bytes)) return kSurface;
   if (!is_gmsh && is_nastran(bytes)) return "Nastran bulk data (.bdf, .nas)";
   return unsupported_numbers(bytes);
 }
@@ -142,18 +160,6 @@ bool run(Job& job, const std::vector<MeshFormat>& own) {
 Error complete(Error error) {
   if (error.message.find(';') == std::string::npos) error.message += "; the file is damaged: export the mesh again";
   return error;
-}
-
-/// Whether this is text whose lines end in carriage returns alone, as old programs of the Macintosh write them.
-bool ends_lines_by_return(std::string_view bytes) {
-  const auto has = [&](char c) { return bytes.find(c) != std::string_view::npos; };
-  return has('\r') && !has('\n') && !has('\0');
-}
-
-std::string with_line_feeds(std::string_view bytes) {
-  std::string text(bytes);
-  std::replace(text.begin(), text.end(), '\r', '\n');
-  return text;
 }
 
 Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, const SiblingLoader& load,

@@ -242,10 +242,22 @@ class PlyReader {
   bool big_ = false;
 };
 
+// The file with line feeds in its header, where that ends its lines in carriage returns alone and binary rows follow;
+// else nothing.
+std::string with_lines_in_header(std::string_view bytes) {
+  constexpr std::string_view kEnd = "end_header\r";
+  if (!bytes.starts_with("ply\r") || bytes.starts_with("ply\r\n")) return {};
+  const std::size_t at = bytes.find(kEnd);
+  if (at == std::string_view::npos) return {};
+  const std::size_t length = at + kEnd.size();
+  return with_line_feeds(bytes.substr(0, length)) + std::string(bytes.substr(length));
+}
+
 }  // namespace
 
 bool read_ply(std::string_view bytes, const std::string& name, Error& error, PlyContent& out) {
-  return PlyReader(bytes, name, error, out).run();
+  const std::string converted = with_lines_in_header(bytes);
+  return PlyReader(converted.empty() ? bytes : converted, name, error, out).run();
 }
 
 bool read_ply_tets(Job& job) {

@@ -132,15 +132,45 @@ void LeftOut::add(std::string_view kind, std::uint64_t n) {
   }
 }
 
+namespace {
+
+constexpr std::size_t kMostKindsTold = 12;
+
+std::string counted_kind(std::uint64_t count, std::string_view kind) {
+  return std::to_string(count) + " " + (count == 1 ? singular(kind) : std::string(kind));
+}
+
+}  // namespace
+
+std::string singular(std::string_view kind) {
+  // The noun ends before "of type 99" and before the digits of "hexahedra27".
+  std::size_t end = std::min(kind.find(" of "), kind.size());
+  while (end > 0 && kind[end - 1] >= '0' && kind[end - 1] <= '9') --end;
+  const std::string_view noun = kind.substr(0, end);
+  const std::string rest(kind.substr(end));
+  if (noun.ends_with("hedra")) return std::string(noun.substr(0, noun.size() - 1)) + "on" + rest;
+  return std::string(noun.substr(0, noun.ends_with('s') ? noun.size() - 1 : noun.size())) + rest;
+}
+
 void LeftOut::note(std::vector<std::string>& notes) const {
-  std::string text;
-  std::size_t left = counts_.size();
+  std::vector<std::string> told;
+  std::uint64_t all = 0, more = 0;
   for (const auto& [kind, count] : counts_) {
-    if (!text.empty()) text += left == 1 ? " and " : ", ";
-    text += std::to_string(count) + " " + kind;
-    --left;
+    all += count;
+    if (told.size() < kMostKindsTold) {
+      told.push_back(counted_kind(count, kind));
+    } else {
+      more += count;
+    }
   }
-  if (!text.empty()) notes.push_back(text + " were left out; only tets are cut");
+  if (more > 0) {
+    told.push_back(std::to_string(more) + " of " + std::to_string(counts_.size() - kMostKindsTold) + " more kinds");
+  }
+  std::string text;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == told.size() ? " and " : ", ") + told[i];
+  }
+  if (!text.empty()) notes.push_back(text + (all == 1 ? " was" : " were") + " left out; only tets are cut");
 }
 
 bool to_label(double value, std::int32_t& out) {

@@ -71,6 +71,9 @@ class IdMap {
   std::int64_t repeated_ = 0;
 };
 
+/// One of what a kind names many of: "hexahedron" of "hexahedra", "cell of type 99" of "cells of type 99".
+[[nodiscard]] std::string singular(std::string_view kind);
+
 /// Counts, by what they are, the elements that a reader has no use for.
 class LeftOut {
  public:

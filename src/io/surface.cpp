@@ -11,21 +11,13 @@
 #include "io/gzip.h"
 #include "io/ply.h"
 #include "io/reader.h"
+#include "io/surface_kind.h"
 #include "io/text.h"
 
 namespace incise {
 inline namespace v0 {
 namespace io {
 namespace {
-
-constexpr std::size_t kStlHeader = 84;    // 80 bytes of text and a count
-constexpr std::size_t kStlTriangle = 50;  // normal, three points, two spare bytes
-
-std::uint32_t load_u32(const char* p) {
-  std::uint32_t bits = 0;
-  for (std::size_t i = 4; i-- > 0;) bits = (bits << 8U) | static_cast<unsigned char>(p[i]);
-  return bits;
-}
 
 float load_float(const char* p) {
   const std::uint32_t bits = load_u32(p);
@@ -39,11 +31,6 @@ void append_float(std::string& out, double number) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   for (unsigned i = 0; i < 4; ++i) out += static_cast<char>((bits >> (8 * i)) & 255U);
-}
-
-bool is_binary_stl(std::string_view bytes) {
-  return bytes.size() >= kStlHeader && (bytes.size() - kStlHeader) / kStlTriangle >= load_u32(bytes.data() + 80) &&
-         (bytes.size() - kStlHeader) == std::size_t{load_u32(bytes.data() + 80)} * kStlTriangle;
 }
 
 // Text has no zero bytes, the numbers of binary files have.
@@ -250,6 +237,8 @@ bool check(const std::string& name, Error& error, const SurfaceSoup& surface) {
 Result<SurfaceSoup> read_plain(std::string_view bytes, const std::string& name) {
   SurfaceSoup out;
   Error error;
+  std::string converted;
+  if (!is_binary_stl(bytes) && ends_lines_by_return(bytes)) bytes = converted = with_line_feeds(bytes);
   if (read_surface_as(bytes, name, error, out) && check(name, error, out)) return out;
   if (error.message.find(';') == std::string::npos) error.message += "; the file is damaged: export the surface again";
   return error;
@@ -379,20 +368,24 @@ Result<SurfaceSoup> read_surface(const std::filesystem::path& path, const ReadLi
   });
 }
 
+Result<std::string> write_surface_bytes(std::string_view extension, const SurfaceSoup& surface) {
+  return guarded<std::string>(std::string(extension), [&]() -> Result<std::string> {
+    if (!is_sound(surface)) return Error{ErrorCode::kBadArgument, "a vertex number of the surface is out of range"};
+    if (extension == ".obj") return write_obj(surface);
+    if (extension == ".stl") return write_stl(surface);
+    if (extension == ".ply") return write_ply(surface);
+    if (extension == ".off") return write_off(surface);
+    return Error{ErrorCode::kBadArgument,
+                 "no surface can be written as " + in_quotes(extension) + "; use .obj, .stl, .ply or .off"};
+  });
+}
+
 Status write_surface(const std::filesystem::path& path, const SurfaceSoup& surface) {
-  if (!is_sound(surface)) return Error{ErrorCode::kBadArgument, "a vertex number of the surface is out of range"};
   if (Status status = check_place(path); !status.ok()) return status;
   const Extension extension = extension_of(path);
-  std::string bytes;
-  if (extension.name == ".obj") bytes = write_obj(surface);
-  if (extension.name == ".stl") bytes = write_stl(surface);
-  if (extension.name == ".ply") bytes = write_ply(surface);
-  if (extension.name == ".off") bytes = write_off(surface);
-  if (bytes.empty()) {
-    return Error{ErrorCode::kBadArgument,
-                 "no surface can be written as " + in_quotes(extension.name) + "; use .obj, .stl, .ply or .off"};
-  }
-  return store_packed({path}, {std::move(bytes)}, extension.gzipped);
+  Result<std::string> bytes = write_surface_bytes(extension.name, surface);
+  if (!bytes.ok()) return bytes.error();
+  return store_packed({path}, {std::move(bytes).value()}, extension.gzipped);
 }
 
 FineSurface to_fine_surface(const SurfaceSoup& surface) {

@@ -151,6 +151,17 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
+bool ends_lines_by_return(std::string_view bytes) {
+  const auto has = [&](char c) { return bytes.find(c) != std::string_view::npos; };
+  return has('\r') && !has('\n') && !has('\0');
+}
+
+std::string with_line_feeds(std::string_view bytes) {
+  std::string text(bytes);
+  std::replace(text.begin(), text.end(), '\r', '\n');
+  return text;
+}
+
 std::string in_quotes(std::string_view text) {
   std::string out = "'";
   for (const char c : text.substr(0, 40)) out += c >= ' ' && c <= '~' ? c : '?';

@@ -26,6 +26,12 @@ void append_int(std::string& out, std::int64_t value);
 /// Trim spaces, tabs and carriage returns.
 [[nodiscard]] std::string_view trim(std::string_view text);
 
+/// Whether this is text whose lines end in carriage returns alone, as old programs of the Macintosh write them.
+[[nodiscard]] bool ends_lines_by_return(std::string_view bytes);
+
+/// The same text with a line feed in the place of each carriage return.
+[[nodiscard]] std::string with_line_feeds(std::string_view bytes);
+
 /// `text` in quotes, cut to 40 characters, with unprintable ones as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

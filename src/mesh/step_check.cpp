@@ -51,7 +51,7 @@ bool is_returned(const TetMesh& mesh, Side side) {
                      [&](VertexId v) { return std::find(behind.begin(), behind.end(), v) != behind.end(); });
 }
 
-/// Whether each entry of a sorted list is there just so often.
+/// Whether each entry of a sorted list is there exactly `times` times.
 template <class T>
 bool is_each_there(const std::vector<T>& sorted, std::size_t times) {
   for (std::size_t first = 0, end = 0; first < sorted.size(); first = end) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the command talks: what it wrote, JSON, stdin and stdout, warnings, files of another kind.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -85,6 +87,101 @@ TEST_F(CliHabits, meshes_come_by_stdin_and_go_by_stdout) {
   EXPECT_EQ(run_on(full_scene().dump(), {"simulate", "-", "--frames", "2", "-q"}).code, 0);
 }
 
+const std::string kTetrahedronOff = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+
+TEST_F(CliHabits, surfaces_come_by_stdin_and_go_by_stdout) {
+  const std::string obj = folder_ / "a.obj";
+  const Outcome to_file = run_on(kTetrahedronOff, {"convert", "-", obj});
+  ASSERT_EQ(to_file.code, 0) << to_file.err;
+  EXPECT_NE(to_file.err.find("4 triangles"), std::string::npos) << to_file.err;
+  const Outcome stl = run_on(kTetrahedronOff, {"convert", "/dev/stdin", "-", "--format", "stl"});
+  EXPECT_EQ(stl.out.size(), 84U + 4 * 50) << stl.err;
+  const Outcome walls = run({"convert", cube_, "-", "--format", "off"});
+  EXPECT_EQ(walls.out.substr(0, 12), "OFF\n56 108 0") << walls.err;
+  EXPECT_EQ(run({"convert", cube_, folder_ / "a.stl", "--format", "stl"}).code, 0);
+  const Outcome other = run({"convert", cube_, obj, "--format", "stl"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("writes .stl files"), std::string::npos) << other.err;
+}
+
+TEST_F(CliHabits, a_recording_comes_by_stdin) {
+  const std::string record = folder_ / "r.jsonl";
+  ASSERT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.4", "--record", record, "-q"}).code, 0);
+  std::string text = read(record);
+  const std::string name = "\"cube.mesh\"";
+  if (const std::size_t at = text.find(name); at != std::string::npos) {
+    text.replace(at, name.size(), json(cube_).dump());  // there it is named from where the command runs
+  }
+  for (const char* in : {"-", "/dev/stdin"}) {
+    const Outcome replay = run_on(text, {"replay", in, "--verify"});
+    EXPECT_EQ(replay.code, 0) << replay.err;
+    EXPECT_EQ(replay.out, run({"replay", record, "--verify"}).out);
+  }
+}
+
+TEST_F(CliHabits, stdin_has_one_name_in_messages) {
+  for (const char* in : {"-", "/dev/stdin"}) {
+    for (const std::vector<std::string>& command :
+         std::vector<std::vector<std::string>>{{"info", in},
+                                               {"cut", in, "--plane", "1,0,0,0.4"},
+                                               {"cut", cube_, "--blade", in},
+                                               {"convert", in, folder_ / "a.obj"},
+                                               {"mesh", in, "-o", folder_ / "a.mesh", "--size", "1"},
+                                               {"simulate", in},
+                                               {"replay", in}}) {
+      const Outcome outcome = run_on("nothing of use\n", command);
+      EXPECT_EQ(outcome.code, 3) << command[0];
+      EXPECT_EQ(outcome.err.find("incise: error: stdin:"), 0U) << outcome.err;
+      EXPECT_EQ(outcome.err.find("/dev/stdin"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(json::parse(run_on(read(cube_), {"info", in, "--json"}).out)["file"], "stdin");
+  }
+  EXPECT_EQ(run_on("{}", {"batch", "-", "-o", folder_ / "out"}).code, 2);
+  const Outcome mesh = run_on(kTetrahedronOff, {"mesh", "-", "-o", folder_ / "a.mesh", "--size", "1"});
+  EXPECT_NE(mesh.err.find("give a surface as a file"), std::string::npos) << mesh.err;
+}
+
+TEST_F(CliHabits, what_is_no_recording_is_refused_before_it_fills_the_memory) {
+  const Outcome device = run({"replay", "/dev/zero"});
+  EXPECT_EQ(device.code, 3);
+  EXPECT_NE(device.err.find("is a device"), std::string::npos) << device.err;
+  const Outcome zeros = run_on(std::string(1000, '\0'), {"replay", "-"});
+  EXPECT_EQ(zeros.code, 3);
+  EXPECT_NE(zeros.err.find("stdin:1: a zero byte"), std::string::npos) << zeros.err;
+}
+
+TEST_F(CliHabits, what_stdout_does_not_take_is_a_failure) {
+  const std::string record = folder_ / "r.jsonl", scene = folder_.write("scene.json", full_scene().dump());
+  ASSERT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.4", "--record", record, "-q"}).code, 0);
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"cut", cube_, "--plane", "1,0,0,0.4"},
+                                             {"improve", cube_},
+                                             {"simulate", scene, "--frames", "1"},
+                                             {"replay", record},
+                                             {"info", cube_},
+                                             {"check", cube_, "--json"},
+                                             {"help"},
+                                             {"help", "cut"},
+                                             {"--version"},
+                                             {"man"}}) {
+    const Outcome full = run_to("/dev/full", command);
+    EXPECT_EQ(full.code, 1) << command[0];
+    EXPECT_NE(full.err.find("error: stdout: writing failed"), std::string::npos) << full.err;
+  }
+  EXPECT_EQ(run_to("/dev/full", {"cut", cube_, "--plane", "1,0,0,0.4", "-q"}).code, 0) << "nothing was to be printed";
+}
+
+TEST_F(CliHabits, what_killed_runs_left_goes_whatever_is_written) {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  const std::string ending = "." + std::to_string(child) + ".0.incise-part";
+  const std::string mesh = folder_ / "a.vtu", report = folder_ / "a.json", record = folder_ / "a.jsonl";
+  for (const char* name : {"a.vtu", "a.json", "a.jsonl"}) folder_.write(name + ending, "half");
+  ASSERT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.4", "-o", mesh, "--report", report, "--record", record}).code, 0);
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a.json", "a.jsonl", "a.vtu", "cube.mesh"}));
+}
+
 TEST_F(CliHabits, stdout_takes_one_thing_in_a_format_that_is_named) {
   const auto expect_usage = [&](std::vector<std::string> words, const std::string& part) {
     const Outcome outcome = run(words);
@@ -123,9 +220,13 @@ TEST_F(CliHabits, writes_the_variant_of_gmsh_that_is_asked_for) {
 TEST_F(CliHabits, warns_of_a_plane_or_a_blade_that_misses) {
   const Outcome plane = run({"cut", cube_, "--plane", "2,0,0,5"});
   EXPECT_EQ(plane.code, 0);
-  EXPECT_NE(plane.err.find("warning: the plane 2,0,0,5 misses the mesh: nothing was cut; its box has d from 0 to 2"),
+  EXPECT_NE(plane.err.find("warning: the plane 2,0,0,5 misses the mesh: nothing was cut; d has to lie between 0 and 2"),
             std::string::npos)
       << plane.err;
+  const Outcome beside = run({"cut", cube_, "--plane", "1,0,0,1"});
+  EXPECT_NE(beside.err.find("the plane 1,0,0,1 only touches the mesh: nothing was cut; d has to lie between 0 and 1"),
+            std::string::npos)
+      << beside.err;
   EXPECT_EQ(run({"cut", cube_, "--plane", "2,0,0,5", "-q"}).err, "");
   EXPECT_EQ(run({"cut", cube_, "--plane", "2,0,0,1"}).err.find("warning"), std::string::npos);
   const std::string blade = folder_.write("blade.json", R"({"format":"incise-blade","version":1,"strokes":[

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what the command writes with Gmsh, meshio and VTK, where they are installed.
+"""Reads what the command writes with another reader, where that is installed.
 
-usage: other_readers.py INCISE; exit 77: none of them is there
+usage: other_readers.py INCISE READER; READER: meshio, Gmsh or VTK; exit 77: it is not there
 """
 import itertools
 import os
@@ -110,8 +110,8 @@ def expected_of(incise, path):
             "regions": regions, "strokes": {1}, "pieces": {0, 1}}
 
 
-def count_failures(incise, there, regions):
-    """How often a reader finds something else in a cut cube of these regions than what was written."""
+def count_failures(incise, reader, regions):
+    """How often the reader finds something else in a cut cube of these regions than what was written."""
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         cube, cut = os.path.join(folder, "cube.mesh"), os.path.join(folder, "cut.vtu")
@@ -120,31 +120,29 @@ def count_failures(incise, there, regions):
         by_hand = os.path.join(folder, "cut.mesh")
         subprocess.run([incise, "convert", cut, by_hand, "-q"], check=True)
         expected = expected_of(incise, by_hand)
-        for name, (read, formats) in there.items():
-            for written in formats:
-                path = os.path.join(folder, written + "." + written.split("4")[0].split("2")[0])
-                subprocess.run([incise, "convert", cut, path, "--format", written, "-q"], check=True)
-                found = read(path)
-                if written == "msh22":  # where 0 stands for no group
-                    found["regions"].update({0: expected["regions"][0]} if 0 in expected["regions"] else {})
-                wrong = {key: (value, expected[key]) for key, value in found.items() if value != expected[key]}
-                failures += 1 if wrong else 0
-                print("%s reads %s of the regions %s: %s" % (name, written, regions, wrong or "as it was written"))
+        name, read, formats = reader
+        for written in formats:
+            path = os.path.join(folder, written + "." + written.split("4")[0].split("2")[0])
+            subprocess.run([incise, "convert", cut, path, "--format", written, "-q"], check=True)
+            found = read(path)
+            if written == "msh22":  # where 0 stands for no group
+                found["regions"].update({0: expected["regions"][0]} if 0 in expected["regions"] else {})
+            wrong = {key: (value, expected[key]) for key, value in found.items() if value != expected[key]}
+            failures += 1 if wrong else 0
+            print("%s reads %s of the regions %s: %s" % (name, written, regions, wrong or "as it was written"))
     return failures
 
 
-def main(incise):
-    there = {}
-    for name, (module, read, formats) in READERS.items():
-        try:
-            __import__(module)
-            there[name] = (read, formats)
-        except ImportError:
-            print("%s is not installed" % name)
-    if not there:
+def main(incise, name):
+    module, read, formats = READERS[name]
+    try:
+        __import__(module)
+    except ImportError:
+        print("%s is not installed" % name)
         return 77
-    return 1 if sum(count_failures(incise, there, regions) for regions in ((0, 0), (0, 2), (3, 4))) else 0
+    reader = (name, read, formats)
+    return 1 if sum(count_failures(incise, reader, regions) for regions in ((0, 0), (0, 2), (3, 4))) else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(sys.argv[1], sys.argv[2]))

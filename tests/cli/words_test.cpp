@@ -44,6 +44,11 @@ TEST(MessageText, tells_how_far_work_is_and_how_long_it_takes_yet) {
   EXPECT_EQ(left(1300), ", 1:05:00 left");
 }
 
+TEST(MessageText, tells_which_stage_work_is_at_and_for_how_long_it_has_gone_on) {
+  EXPECT_EQ(incise_apps::stage_text("cutting", 1, 4, 75),
+            "[" + std::string(7, '#') + std::string(23, ' ') + "] stage 2 of 4: cutting, 1:15");
+}
+
 TEST(CommandWords, suggest_the_nearest_word_or_none) {
   const std::vector<std::string> known = {"cut", "convert", "check"};
   EXPECT_EQ(incise_apps::suggestion("cutt", known), " (did you mean cut?)");
@@ -84,6 +89,15 @@ TEST(Completion, of_bash_knows_commands_options_and_values) {
   EXPECT_EQ(completed("incise convert a.vtu b.msh --format msh2"), "msh22\n");
   EXPECT_EQ(completed("incise completion ''"), "bash zsh\n");
   EXPECT_EQ(completed("incise help cu"), "cut\n");
+}
+
+TEST(Completion, of_bash_asks_the_window_for_its_options) {
+  if (!has_program("bash")) GTEST_SKIP() << "there is no bash";
+  const std::string script = run({"completion", "bash"}).out +
+                             "incise-view() { echo '  --headless  Draw'; echo '  -h,--help  Help'; }\n"
+                             "COMP_WORDS=(incise-view --he); COMP_CWORD=1; _incise_view; echo ${COMPREPLY[@]}\n"
+                             "complete -p incise-view\n";
+  EXPECT_EQ(shell_says("bash", script), "--headless --help\ncomplete -o default -F _incise_view incise-view\n");
 }
 
 TEST(Completion, of_zsh_is_sound) {

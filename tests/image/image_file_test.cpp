@@ -2,6 +2,7 @@
 #include "incise/image/image_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <fstream>
 
@@ -173,6 +174,27 @@ TEST(ReadLabels, nrrd_with_skips) {
   const std::string lines =
       replaced(nrrd_header(shorts(), false, "raw", "v"), "my key:=x", "line skip: 2\nbyte skip: 3");
   expect_test_image(read_labels_bytes(lines, "a.nhdr", gives("v", "one\ntwo\nxyz" + raw)));
+}
+
+/// The most memory that this process has had, bytes.
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+TEST(ReadLabels, packed_voxels_are_never_held_unpacked) {
+  constexpr std::size_t kSide = 300, kBytes = 4 * kSide * kSide * kSide;
+  std::string bytes =
+      "NRRD0004\ntype: unsigned int\ndimension: 3\nsizes: 300 300 300\nencoding: gzip\nendian: little\n"
+      "space: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n";
+  const std::string slice(kBytes / kSide, '\0');
+  for (std::size_t k = 0; k < kSide; ++k) bytes += gzipped(slice);
+  const std::size_t before = peak_memory();
+  const auto file = read_labels_bytes(bytes);
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_EQ(file->image.voxels.size(), kBytes / 4);
+  EXPECT_LT(peak_memory() - before, kBytes);  // 2 bytes for each voxel of 4
 }
 
 TEST(ReadLabels, inrimage) {

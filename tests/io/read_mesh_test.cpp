@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "io/fixtures.h"
 #include "io/gzip.h"
+#include "io/reader.h"
 
 namespace incise::read_mesh_test {
 namespace {
@@ -348,10 +350,33 @@ TEST(ReadMesh, gzip_that_grows_like_a_bomb_is_refused_with_the_limit) {
   bytes.resize(large, ' ');
   std::string packed;
   ASSERT_TRUE(io::gzip(bytes, packed));
-  ASSERT_LT(packed.size() * 200, large);
+  ASSERT_LT(packed.size() * 64, large);
   const auto refused = read_mesh_bytes(packed, "a.mesh.gz");
   ASSERT_FALSE(refused.ok());
-  EXPECT_NE(refused.error().message.find("more than 67108864 bytes"), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("more than 64 MiB"), std::string::npos) << refused.error().message;
+}
+
+TEST(ReadMesh, gzip_that_grows_more_than_64_times_is_refused_before_memory_is_taken) {
+  std::string bytes(std::size_t{2} << 20U, '\0');
+  std::mt19937 any(1);
+  for (char& c : bytes) c = static_cast<char>(any());
+  bytes.resize(std::size_t{160} << 20U, ' ');
+  std::string packed, out, why;
+  ASSERT_TRUE(io::gzip(bytes, packed));
+  ASSERT_GT(packed.size() * 128, bytes.size());
+  EXPECT_FALSE(io::gunzip(packed, std::uint64_t{4} << 30U, out, why));
+  EXPECT_NE(why.find("64 times"), std::string::npos) << why;
+  EXPECT_LT(out.capacity(), 1000U);
+}
+
+TEST(ReadMesh, gzip_of_several_members_is_read_whole) {
+  std::string first, second, out, why;
+  ASSERT_TRUE(io::gzip(std::string(3'000'000, 'a'), first));
+  ASSERT_TRUE(io::gzip("bc", second));
+  ASSERT_TRUE(io::gunzip(first + second, 1U << 30U, out, why)) << why;
+  EXPECT_EQ(out, std::string(3'000'000, 'a') + "bc");
+  ASSERT_TRUE(io::gunzip(second + first, 1U << 30U, out, why)) << why;
+  EXPECT_EQ(out, "bc" + std::string(3'000'000, 'a'));
 }
 
 TEST(ReadMesh, devices_are_refused) {
@@ -376,7 +401,12 @@ TEST(ReadMesh, lines_may_end_in_carriage_returns) {
 
 TEST(ReadMesh, formats_of_text_that_are_not_read_are_named) {
   EXPECT_SAYS("8 5 0 0 0\n1 0 0 0\n", "AVS UCD");
-  EXPECT_SAYS("5 8 6\n0 0 1\n", "FreeFem");
+  EXPECT_SAYS("5 8 6\n0 0 1\n", "FreeFem (.msh of a plane mesh)");
+  EXPECT_SAYS("5 1 6\n0 0 1 2\n", "FreeFem (.msh of a mesh in space)");
+  EXPECT_SAYS("# by hand\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "incise mesh fills it");
+  std::string stl(84 + 50, '\1');
+  stl.replace(80, 4, std::string("\1\0\0\0", 4));
+  EXPECT_SAYS(stl, "incise mesh fills it");
   EXPECT_SAYS("    -1\n  2411\n         1         1         1        11\n", "I-DEAS universal");
   EXPECT_SAYS("$ a model\nSOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", "Nastran");
   EXPECT_SAYS("GRID    1               0.0     0.0     0.0\n", "Nastran");
@@ -397,16 +427,30 @@ TEST(ReadMesh, elements_that_are_left_out_are_counted_by_name) {
   EXPECT_EQ(notes_of(replaced(bytes_of("medit.mesh"), "Edges\n1\n1 2 0\n",
                               "Edges\n1\n1 2 0\nHexahedra\n1\n1 2 3 4 5 1 2 3 0\nQuadrilaterals\n2\n1 2 3 4 0\n1 2 3 4 "
                               "0\nPrisms\n1\n1 2 3 4 5 1 0\n")),
-            "1 hexahedra, 1 prisms and 2 quadrilaterals" + rest);
+            "1 hexahedron, 1 prism and 2 quadrilaterals" + rest);
   EXPECT_EQ(notes_of(replaced(bytes_of("v2.msh"), "$Elements\n3\n",
                               "$Elements\n5\n8 5 2 0 1 9 7 5 3 1 9 7 5\n9 3 2 0 1 9 7 5 3\n")),
-            "1 hexahedra and 1 quadrilaterals" + rest);
+            "1 hexahedron and 1 quadrilateral" + rest);
   std::string vtk = replaced(bytes_of("ascii.vtk"), "CELLS 2 10\n", "CELLS 4 22\n5 0 1 2 3 4\n5 0 1 2 3 4\n");
   vtk = replaced(replaced(vtk, "CELL_TYPES 2\n", "CELL_TYPES 4\n14 99 "), "CELL_DATA 2", "CELL_DATA 4");
-  EXPECT_EQ(notes_of(replaced(vtk, "default\n0 7", "default\n0 0 0 7")), "1 cells of type 99 and 1 pyramids" + rest);
+  EXPECT_EQ(notes_of(replaced(vtk, "default\n0 7", "default\n0 0 0 7")), "1 cell of type 99 and 1 pyramid" + rest);
   EXPECT_EQ(notes_of(replaced(bytes_of("abaqus.inp"), "*ELSET,",
                               "*ELEMENT, TYPE=C3D8R\n7, 1, 2, 3, 4,\n5, 1, 2, 3\n8, 1, 2, 3, 4, 5, 1, 2, 3\n*ELSET,")),
             "2 elements of type 'c3d8r'" + rest);
+}
+
+TEST(ReadMesh, a_few_kinds_that_are_left_out_are_named_and_the_others_counted) {
+  io::LeftOut one, many;
+  one.add("polyhedra");
+  std::vector<std::string> notes;
+  one.note(notes);
+  EXPECT_EQ(notes[0], "1 polyhedron was left out; only tets are cut");
+  for (int type = 100; type < 250; ++type) many.add("cells of type " + std::to_string(type), 2);
+  many.note(notes);
+  EXPECT_NE(notes[1].find("2 cells of type 111 and 276 of 138 more kinds were left out"), std::string::npos)
+      << notes[1];
+  EXPECT_EQ(io::singular("triangles6"), "triangle6");
+  EXPECT_EQ(io::singular("elements of type 'c3d8r'"), "element of type 'c3d8r'");
 }
 
 TEST(ReadMesh, base64_of_the_wrong_length_is_refused) {

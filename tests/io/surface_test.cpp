@@ -80,6 +80,45 @@ TEST(Surface, ascii_stl_polygons_and_negative_indices_are_read) {
   EXPECT_EQ(obj->triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
 }
 
+/// The text with other line ends.
+std::string with_ends(const std::string& text, const std::string& end) {
+  std::string out;
+  for (const char c : text) out += c == '\n' ? end : std::string(1, c);
+  return out;
+}
+
+TEST(Surface, lines_may_end_in_carriage_returns) {
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", faces = "3 0 1 2\n3 0 2 3\n";
+  const std::string ply_header =
+      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string texts[] = {"OFF\n# two\n4 2 0\n" + points + faces,
+                               "# four\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n",
+                               "ply\nformat ascii 1.0\ncomment of two\n" + ply_header + points + faces,
+                               "solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n"
+                               "facet\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendfacet\nendsolid a\n"};
+  for (const std::string& text : texts) {
+    for (const char* end : {"\n", "\r", "\r\n"}) {
+      const auto read = io::read_surface_bytes(with_ends(text, end));
+      ASSERT_TRUE(read.ok()) << text << read.error().message;
+      EXPECT_EQ(read->triangles.size(), 2U) << text;
+    }
+  }
+}
+
+TEST(Surface, a_header_before_binary_rows_may_end_its_lines_in_carriage_returns) {
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
+      "element face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
+  const std::string rows("\n\r\0\1\0\r\0\1\n\3\0\1\2", 13);
+  for (const char* end : {"\n", "\r", "\r\n"}) {
+    const auto read = io::read_surface_bytes(with_ends(header, end) + rows);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    EXPECT_EQ(read->points[0], Vec3(10, 13, 0));
+    EXPECT_EQ(read->triangles.size(), 1U);
+  }
+}
+
 TEST(Surface, bad_surfaces_are_refused) {
   for (const char* bytes :
        {"", "v 0 0 0\nf 1 2 3\n", "v 0 0 nan\n", "OFF\n1 1 0\n0 0 0\n3 0 1 2\n", "OFF\n99999 1 0\n0 0 0\n",

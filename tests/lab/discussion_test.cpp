@@ -37,7 +37,7 @@ std::vector<Stroke> random_planes(std::uint64_t seed, unsigned count) {
   return strokes;
 }
 
-/// Sets of so many planes: the benchmark's, and those of some seeds.
+/// Sets of `count` planes: the benchmark's, and those of some seeds.
 std::vector<std::vector<Stroke>> sets_of_planes(unsigned count, const std::vector<std::uint64_t>& seeds) {
   std::vector<std::vector<Stroke>> sets = {benchmark_planes(count)};
   for (const std::uint64_t seed : seeds) sets.push_back(random_planes(seed, count));

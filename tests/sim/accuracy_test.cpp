@@ -116,7 +116,7 @@ TEST(Accuracy, AStiffBodyComesToRestByItselfOnceItMovesAsAWhole) {
   EXPECT_LT(early, 0.5 * sag);
 }
 
-/// A light cantilever's sag, as a share of Timoshenko's; `n` cubic cells across, under so many hundredths of gravity.
+/// A light cantilever's sag, as a share of Timoshenko's; `n` cubic cells across, under `load` hundredths of gravity.
 double relative_sag(std::uint32_t n, double load = 1, bool sleeps = true) {
   const Beam beam{{4 * n, n, n}, Vec3(0.2, 0.05, 0.05)};
   constexpr double kYoung = 100e3;

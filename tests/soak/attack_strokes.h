@@ -46,7 +46,7 @@ struct Attack {
   std::vector<Stroke> single;         ///< the same sheet in one stroke; empty where there is no such stroke
   std::optional<std::size_t> pieces;  ///< that must come out; none where that is not known
   double growth_limit = 1.6;          ///< new tets, against those of `single`
-  double few_tets = 40;               ///< or against so many, where `single` makes fewer
+  double few_tets = 40;               ///< or against this number, where `single` makes fewer
   bool encloses_nothing = false;      ///< every wall must reach the skin: no bubble inside
 };
 

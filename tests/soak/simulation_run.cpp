@@ -33,7 +33,7 @@ constexpr double kEnergyGain = 1e-3;   // in a frame in which nothing is done to
 constexpr double kRunaway = 0.02;      // likewise: beyond, it is a fault whatever is judged
 constexpr double kJournalGain = 0.03;  // of elastic energy where the solver follows the mesh, of its peak
 constexpr double kConserved = 1e-12;
-constexpr std::uint64_t kReplayed = 10;  // one in so many scenes, by its seed
+constexpr std::uint64_t kReplayed = 10;  // one scene in this number, by its seed
 
 std::string number(double value) {
   std::array<char, 40> text;
@@ -134,7 +134,7 @@ std::size_t count_pieces(const TetMesh& mesh) {
   return count;
 }
 
-/// Says every so many frames how a scene gets on.
+/// Says at intervals of frames how a scene gets on.
 class FrameLog {
  public:
   explicit FrameLog(unsigned every) : every_(every) {}

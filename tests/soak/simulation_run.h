@@ -23,8 +23,8 @@ struct SimulationOutcome {
 /// Runs a scene up to the first fault. After each frame: places and momenta are finite, nothing flies apart, a body to
 /// which nothing was done has gained no energy, and following the mesh has added next to none; where the mesh has
 /// changed, the validity contract (where steps touched it; all of it after each stroke), and a conserved attribute's
-/// sum through the frame's steps; the mass. With `log_every` above 0 it says on stderr every so many frames where it
-/// is, how large the mesh is, and where the time went.
+/// sum through the frame's steps; the mass. With `log_every` above 0 it says on stderr at that interval of frames where
+/// it is, how large the mesh is, and where the time went.
 SimulationOutcome run_simulation(const SimulationCase& scene, unsigned threads, unsigned log_every = 0);
 
 /// How long a campaign of simulations goes on.

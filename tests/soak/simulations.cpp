@@ -53,7 +53,7 @@ std::vector<Vec3> between(const std::vector<Vec3>& a, const std::vector<Vec3>& b
   return edge;
 }
 
-/// A random stroke, straight or wavy, taken in so many frames.
+/// A random stroke, straight or wavy, taken in this number of frames.
 FrameStroke random_frames(Random& random, const Box& box, unsigned first, unsigned frames) {
   const Stroke stroke = random_stroke(random, box);
   FrameStroke result{first, stroke.name, {}, random.integer(0, 5) == 0};

@@ -18,9 +18,9 @@
 //        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
 //        incise_soak attack|hands [--meshes FILE|made|corpus...] [--kinds A,B] [--options A,B] [--cases N] [--case N]
 //                                 [--keep FOLDER] [--limit SECONDS]
-// INCISE_SOAK_SECONDS: go on for so long (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
-// INCISE_SOAK_STROKES: `strokes` and `models` end after so many. A failure comes back with the seed that it
-// names, `--rounds 1` or `--only NAME`, and the same other arguments.
+// INCISE_SOAK_SECONDS: go on for this time (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
+// INCISE_SOAK_STROKES: `strokes` and `models` end after this number of strokes. A failure comes back with the seed that
+// it names, `--rounds 1` or `--only NAME`, and the same other arguments.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -72,7 +72,7 @@ struct Settings {
   unsigned frames = 2000;  // of a scene
   unsigned log_every = 0;  // frames
   bool judges_energy = false;
-  unsigned every = 1;  // of so many combinations one is run
+  unsigned every = 1;  // of this number of combinations one is run
   std::size_t max_tets = SIZE_MAX;
   std::string only, skip;  // parts of file names
 };
@@ -110,7 +110,7 @@ struct CutCourse {
   const char* name;
   CutOptions cut;
   Upkeep upkeep = Upkeep::kNone;
-  unsigned share = 1;  ///< of the corpus campaign's strokes: one in so many
+  unsigned share = 1;  ///< of the corpus campaign's strokes: one in this number
 
   [[nodiscard]] bool is_paper() const { return cut.profile == Profile::kPaper; }
 };

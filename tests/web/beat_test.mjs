@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Beat } from '../../bindings/web/beat.mjs';
 
-/** When frames begin that take so many ms each and are due every `period`. Timers are as browsers have them: 4 ms at least. */
+/** When frames begin that take `takes` ms each and are due every `period`. Timers are as browsers have them: 4 ms at least. */
 function beginnings(takes, period) {
   const began = [];
   let now = 1000, next = now;

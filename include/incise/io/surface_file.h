@@ -31,6 +31,13 @@ namespace io {
 /// `write_mesh`.
 [[nodiscard]] Status write_surface(const std::filesystem::path& path, const SurfaceSoup& surface);
 
+/// Make the bytes of a surface's file in memory.
+///
+/// @param extension  ".obj", ".stl", ".ply" or ".off"; nothing is gzipped.
+/// Errors: `kBadArgument` for other extensions and vertex numbers out of range; `kOutOfMemory`. Cost: O(n).
+/// Thread-safe.
+[[nodiscard]] Result<std::string> write_surface_bytes(std::string_view extension, const SurfaceSoup& surface);
+
 /// Merge points of exactly equal coordinates; the first of each stays, in order.
 ///
 /// @return how many points went. Cost: O(n log n).

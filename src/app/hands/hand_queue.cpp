@@ -11,7 +11,7 @@ inline namespace v0 {
 namespace app {
 namespace {
 
-constexpr double kStraight = 0.05;         // of the edge's length: so far from a straight way a place may be left out
+constexpr double kStraight = 0.05;         // of the edge's length: this near a straight way a place may be left out
 constexpr std::size_t kMostLeftOut = 256;  // at once; bounds the cost of a push
 
 double distance_to_segment(const Vec3& point, const Vec3& from, const Vec3& to) {

@@ -24,9 +24,19 @@ std::uintmax_t size_of(const fs::path& path) {
   return code ? 0 : size;
 }
 
-/// The shard whose worker writes NAME.shard-I-of-N or NAME.shard-I-of-N.incise-part; nothing for any other file.
+bool is_numbered(const fs::path& name) {
+  const std::string ending = name.extension().string();
+  return ending.size() > 1 && ending.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
+/// The shard whose worker writes NAME.shard-I-of-N or, as `io::part_file` names it until it is whole,
+/// NAME.shard-I-of-N.PROCESS.NUMBER.incise-part; nothing for any other file.
 std::optional<Shard> shard_of_leftover(const fs::path& file) {
-  const fs::path name = file.extension() == ".incise-part" ? file.stem() : file.filename();
+  fs::path name = file.filename();
+  if (name.extension() == ".incise-part") {
+    name = name.stem();
+    while (is_numbered(name)) name = name.stem();
+  }
   const std::string ending = name.extension().string();
   return ending.empty() ? std::nullopt : shard_named(std::string_view(ending).substr(1));
 }

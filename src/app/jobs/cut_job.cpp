@@ -39,6 +39,32 @@ class StepCount {
   std::size_t done_ = 0, total_ = 0;
 };
 
+/// Tells what is under way where strokes are cut as a whole: measuring, cutting and maintaining for each of them, and
+/// measuring the result.
+class Stages {
+ public:
+  explicit Stages(const CutJob& job) : job_(job), total_(2 + 2 * job.strokes.size()) {}
+
+  void measuring() const { tell("measuring", 0); }
+  void cutting(std::size_t stroke) const { tell("cutting", 1 + 2 * stroke); }
+  void maintaining(std::size_t stroke) const { tell("improving the mesh at the cut", 2 + 2 * stroke); }
+  /// What maintenance calls between two operations.
+  [[nodiscard]] std::function<void()> tick(std::size_t stroke) const {
+    if (!is_on()) return {};
+    return [this, stroke] { maintaining(stroke); };
+  }
+  void ending() const { tell("measuring the result", total_ - 1); }
+
+ private:
+  [[nodiscard]] bool is_on() const { return job_.stage && !job_.by_steps; }
+  void tell(const char* name, std::size_t done) const {
+    if (is_on()) job_.stage(name, done, total_);
+  }
+
+  const CutJob& job_;
+  std::size_t total_;
+};
+
 bool is_paper(const CutJob& job) {
   return job.engine.cut.profile == Profile::kPaper;
 }
@@ -79,6 +105,8 @@ StepCount::StepCount(const CutJob& job) : job_(job) {
 /// maintenance.
 Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, StepCount& count, detail::Upkeep& upkeep,
                JobReport& report) {
+  const Stages stages(job);
+  stages.cutting(index);
   detail::StepSamples samples;
   const auto cut = job.by_steps ? cut_by_steps : cut_whole;
   const Result<StrokeReport> stroke = cut(engine, job.strokes[index], samples, count);
@@ -89,7 +117,7 @@ Status cut_one(RecordedEngine& engine, const CutJob& job, std::size_t index, Ste
   MaintainReport maintained{stroke->maintain, {}};
   const bool completes = is_paper(job) && index + 1 == job.strokes.size();
   for (unsigned run = 0; run < (completes ? 2 : 1); ++run) {
-    const Result<double> upkeep_ms = upkeep.run(engine, maintained);
+    const Result<double> upkeep_ms = upkeep.run(engine, maintained, stages.tick(index));
     if (!upkeep_ms.ok()) return upkeep_ms.error();
     samples.extend(*upkeep_ms, maintained.times);
     maintained.times = {};
@@ -145,11 +173,13 @@ Result<JobResult> run_cut(io::LoadedMesh loaded, const CutJob& job, bool wants_m
   report.strokes = job.strokes.size();
   if (const Status status = check_blades(job, rest_bounds(loaded.mesh)); !status.ok()) return status.error();
   if (job.method) return detail::run_lab_cut(std::move(loaded), job, wants_mesh, std::move(report));
+  Stages(job).measuring();
   detail::measure_before(loaded.mesh, report);
   Result<RecordedEngine> engine = RecordedEngine::create(std::move(loaded.mesh), engine_options(job),
                                                          {job.record, loaded.source.file, job.options.seed});
   if (!engine.ok()) return engine.error();
   if (const Status status = cut_all(*engine, job, report); !status.ok()) return status.error();
+  Stages(job).ending();
   Components pieces = detail::measure_end(engine->engine(), report);
   if (!report.change.ok && !job.strokes.empty()) {
     if (const Status status = keep_last_valid(*engine, job, report); !status.ok()) return status.error();

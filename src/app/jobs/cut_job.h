@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "app/jobs/report.h"
@@ -19,6 +20,9 @@ namespace app {
 
 /// The greatest budget of time for maintenance, in microseconds: an hour.
 inline constexpr std::uint64_t kMaxBudgetUs = 3'600'000'000;
+
+/// What is told of a job in stages: the name of the one that it is at, how many came before it, and how many there are.
+using StageSink = std::function<void(std::string_view name, std::size_t done, std::size_t total)>;
 
 struct CutJob {
   std::vector<Stroke> strokes;
@@ -41,6 +45,9 @@ struct CutJob {
   /// Called before each step of the blade and after the last: steps done, steps in all. A stroke that is cut as a whole
   /// is one step. May be empty.
   std::function<void(std::size_t done, std::size_t total)> progress;
+  /// Where strokes are cut as a whole by the engine, called as each stage begins, and between two operations of
+  /// maintenance. May be empty.
+  StageSink stage;
 };
 
 /// What a job on a mesh gives back.

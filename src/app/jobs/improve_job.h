@@ -16,7 +16,7 @@ struct ImproveJob {
   /// Microseconds for the work, at most `kMaxBudgetUs`; finding the tets that need it is not counted. 0: no clock,
   /// `engine.maintain.work_units` are the budget. The paper's maintenance is never bounded.
   std::uint64_t budget_us = 0;
-  std::function<void()> tick = {};  ///< called between two operations, some thousand times a second; may be empty
+  StageSink stage = {};  ///< called as each stage begins, and between two operations of one; may be empty
 };
 
 /// Maintains a whole loaded mesh, cut or not, and measures it before and after: `quality_cut` is as `quality_before`.

@@ -135,6 +135,13 @@ Status replay_all(Engine& engine, RecordingReader& reader, const ReplayJob& job,
   return {};
 }
 
+/// From where a recording names its files: where it lies itself, or, as it comes by stdin, where the program runs.
+fs::path folder_of(const fs::path& recording) {
+  std::error_code code;
+  const fs::path folder = recording.parent_path();
+  return folder == "/dev" || folder == "/dev/fd" ? fs::current_path(code) : folder;
+}
+
 void finish(const Engine& engine, const io::LoadedMesh& loaded, bool wants_mesh, ReplayResult& result) {
   const Components pieces = find_components(engine.mesh());
   result.after = detail::counts_of(engine.mesh(), pieces);
@@ -183,8 +190,13 @@ Result<std::optional<ReplayDifference>> replay_call(Engine& engine, const Record
 }
 
 Result<ReplayResult> run_replay(const ReplayJob& job) {
-  if (is_simulation_recording(job.recording)) return run_simulation_replay(job);
-  Result<RecordingReader> reader = RecordingReader::open(job.recording);
+  Result<LineSource> lines = LineSource::open(job.recording);
+  if (!lines.ok()) return lines.error();
+  const Result<std::string> header = lines->header();
+  if (!header.ok()) return header.error();
+  const fs::path folder = folder_of(job.recording);
+  if (is_simulation_header(*header)) return run_simulation_replay(job, std::move(lines).value(), folder);
+  Result<RecordingReader> reader = RecordingReader::open(std::move(lines).value(), folder);
   if (!reader.ok()) return reader.error();
   Result<io::LoadedMesh> loaded = load_recorded_mesh(reader->header(), job.recording);
   if (!loaded.ok()) return loaded.error();

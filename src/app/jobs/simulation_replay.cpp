@@ -113,8 +113,9 @@ Result<io::LoadedMesh> load_recorded_model(const SimulationHeader& header) {
                {}};
 }
 
-Result<ReplayResult> run_simulation_replay(const ReplayJob& job) {
-  Result<SimulationReader> reader = SimulationReader::open(job.recording);
+Result<ReplayResult> run_simulation_replay(const ReplayJob& job, LineSource lines,
+                                           const std::filesystem::path& folder) {
+  Result<SimulationReader> reader = SimulationReader::open(std::move(lines), folder);
   if (!reader.ok()) return reader.error();
   Result<io::LoadedMesh> loaded = load_recorded_model(reader->header());
   if (!loaded.ok()) return loaded.error();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/model/extension.h"
+#include "incise/io/load_file.h"
 #include "incise/io/mesh_export.h"
 #include "incise/io/mesh_loader.h"
 #include "incise/io/surface_file.h"
@@ -21,26 +22,26 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> kSurfaces = {".obj", ".stl", ".ply", ".off"};
 
-Result<Conversion> write_surface(const fs::path& out, const io::SurfaceSoup& surface, Conversion done) {
-  if (const Status status = io::write_surface(out, surface); !status.ok()) return status.error();
-  done.files = {out};
-  done.vertices = surface.points.size();
-  done.triangles = surface.triangles.size();
-  return done;
+bool is_stdin(const fs::path& in) {
+  return in == "/dev/stdin";
 }
 
-Result<Conversion> convert_surface(const fs::path& in, const fs::path& out) {
-  Result<io::SurfaceSoup> surface = io::read_surface(in);
-  if (!surface.ok()) return surface.error();
-  return write_surface(out, *surface, {});
+/// Whether a file that is no mesh may be a surface.
+bool may_be_surface(const fs::path& in, const Error& why_no_mesh) {
+  return is_surface_extension(in) || (is_stdin(in) && why_no_mesh.code == ErrorCode::kUnsupported);
 }
 
-Result<Conversion> mesh_to_surface(io::MeshFile file, const fs::path& in, const fs::path& out) {
+Result<BoundaryOf> boundary_of(io::MeshFile file, const fs::path& in) {
   Result<io::LoadedMesh> loaded = io::build_mesh(std::move(file), in);
   if (!loaded.ok()) return loaded.error();
-  Conversion done;
-  done.notes = loaded->source.notes;
-  return write_surface(out, io::to_surface(loaded->mesh), std::move(done));
+  return BoundaryOf{io::to_surface(loaded->mesh), loaded->source.notes};
+}
+
+Result<Conversion> convert_to_surface(const fs::path& in, const fs::path& out) {
+  const Result<BoundaryOf> boundary = read_boundary(in);
+  if (!boundary.ok()) return boundary.error();
+  if (const Status status = io::write_surface(out, boundary->surface); !status.ok()) return status.error();
+  return Conversion{boundary->notes, {out}, boundary->surface.points.size(), 0, boundary->surface.triangles.size()};
 }
 
 }  // namespace
@@ -60,6 +61,18 @@ bool is_surface_extension(const fs::path& path) {
   return std::find(kSurfaces.begin(), kSurfaces.end(), extension_of(path)) != kSurfaces.end();
 }
 
+Result<BoundaryOf> read_boundary(const fs::path& in) {
+  Result<std::string> bytes = std::string();
+  if (is_stdin(in)) bytes = io::load_file(in);  // it comes once
+  if (!bytes.ok()) return bytes.error();
+  Result<io::MeshFile> file = is_stdin(in) ? io::read_mesh_bytes(*bytes, in.string()) : io::read_mesh(in);
+  if (file.ok()) return boundary_of(std::move(file).value(), in);
+  if (!may_be_surface(in, file.error())) return file.error();
+  Result<io::SurfaceSoup> surface = is_stdin(in) ? io::read_surface_bytes(*bytes, in.string()) : io::read_surface(in);
+  if (!surface.ok()) return surface.error();
+  return BoundaryOf{std::move(surface).value(), {}};
+}
+
 Result<Conversion> convert(const fs::path& in, const fs::path& out, const io::WriteOptions& options) {
   const bool wants_surface = options.extension.empty() && is_surface_extension(out);
   if (!wants_surface && options.extension.empty() && !is_mesh_extension(out)) {
@@ -68,9 +81,9 @@ Result<Conversion> convert(const fs::path& in, const fs::path& out, const io::Wr
         out.string() + ": unknown extension; use " + mesh_extensions() + ", or for surfaces " + kSurfaceExtensions,
         {}};
   }
+  if (wants_surface) return convert_to_surface(in, out);
   Result<io::MeshFile> file = io::read_mesh(in);
-  if (!file.ok()) return wants_surface && is_surface_extension(in) ? convert_surface(in, out) : file.error();
-  if (wants_surface) return mesh_to_surface(std::move(file).value(), in, out);
+  if (!file.ok()) return file.error();
   io::drop_mid_nodes(*file);
   const io::MeshData& data = file->data;
   if (const Status status = io::write_mesh(out, data, options); !status.ok()) return status.error();

@@ -8,6 +8,7 @@
 
 #include "incise/core/result.h"
 #include "incise/io/mesh_file.h"
+#include "incise/io/surface_file.h"
 
 namespace incise {
 inline namespace v0 {
@@ -29,6 +30,16 @@ struct Conversion {
   std::uint64_t tets = 0;                    ///< 0 for a surface
   std::uint64_t triangles = 0;               ///< of a surface, or with labels in a mesh
 };
+
+/// A surface that is to be written, from a surface or as the boundary of a mesh.
+struct BoundaryOf {
+  io::SurfaceSoup surface;
+  std::vector<std::string> notes;  ///< what was left out, in words
+};
+
+/// Reads a mesh, of which the boundary is taken, or a surface. Of /dev/stdin the content says which it is.
+/// Errors: as the readers. Cost: O(n).
+[[nodiscard]] Result<BoundaryOf> read_boundary(const std::filesystem::path& in);
 
 /// Converts mesh to mesh as it stands, mesh to surface (its boundary), or surface to surface.
 ///

@@ -15,6 +15,8 @@ namespace app {
 namespace {
 
 constexpr std::size_t kMaxRegionsShown = 12;
+/// Percent of the time of a check of a million tets that has gone by after its stages.
+constexpr std::size_t kInspected = 50, kBuilt = 70, kMeasured = 80;
 
 void measure_extent(const TetSoup& soup, MeshInfo& info) {
   bool is_first = true;
@@ -108,14 +110,23 @@ MeshInfo inspect(const io::MeshFile& file, const std::filesystem::path& path) {
   return info;
 }
 
-Result<MeshCheck> check_mesh(io::MeshFile file, const std::filesystem::path& path) {
+Result<MeshCheck> check_mesh(io::MeshFile file, const std::filesystem::path& path,
+                             const std::function<void(std::size_t done, std::size_t total)>& progress) {
+  const auto tell = [&](std::size_t percent) {
+    if (progress) progress(percent, 100);
+  };
   MeshCheck check;
+  tell(0);
   check.info = inspect(file, path);
+  tell(kInspected);
   Result<io::LoadedMesh> loaded = io::build_mesh(std::move(file), path);
   if (!loaded.ok()) return loaded.error();
+  tell(kBuilt);
   check.quality = measure_quality(loaded->mesh);
+  tell(kMeasured);
   check.validity = validate(loaded->mesh, ValidateLevel::kGeometry);
   check.ok = check.validity.ok && !breaks_contract(check.info.defects);
+  tell(100);
   return check;
 }
 

@@ -38,7 +38,11 @@ struct MeshCheck {
 [[nodiscard]] MeshInfo inspect(const io::MeshFile& file, const std::filesystem::path& path);
 
 /// Looks at a file's content and measures it. Errors: as `build_mesh`. Cost: as `find_defects` and `validate`.
-[[nodiscard]] Result<MeshCheck> check_mesh(io::MeshFile file, const std::filesystem::path& path);
+/// @param progress  called before each stage and at the end: how much of the work is done, of `total`, by what the
+///                  stages take of a large mesh. May be empty.
+[[nodiscard]] Result<MeshCheck> check_mesh(
+    io::MeshFile file, const std::filesystem::path& path,
+    const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 
 /// JSON with a newline at the end.
 [[nodiscard]] std::string to_json(const MeshInfo& info);

@@ -47,7 +47,7 @@ struct RecordedCall {
   Stroke stroke;                          ///< of cut
   std::vector<Vec3> positions;            ///< of positions: one per vertex slot, length unit of the mesh
   std::uint64_t limit = kUnlimitedWork;   ///< of maintain: the work units allowed
-  std::optional<std::uint64_t> stop_ask;  ///< of maintain: it was told to stop when it had asked so often; unset: never
+  std::optional<std::uint64_t> stop_ask;  ///< of maintain: it was told to stop at this ask; unset: never
   std::uint64_t work_units = 0;           ///< of maintain and improve: spent
   std::optional<ErrorCode> error;         ///< how the call failed, if it did; never kBadArgument
   std::uint64_t hash = 0;                 ///< `TetMesh::hash` after the call

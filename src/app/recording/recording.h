@@ -65,6 +65,17 @@ class BasicRecordingReader {
     return open(LineSource(std::move(text), path.string()), path.parent_path());
   }
 
+  /// The same for lines of which the header alone may have been read.
+  static Result<BasicRecordingReader> open(LineSource lines, const std::filesystem::path& folder) {
+    BasicRecordingReader reader(std::move(lines));
+    const Result<std::string> line = reader.lines_.header();
+    if (!line.ok()) return line.error();
+    Result<Header> header = Codec::parse_header(*line, reader.file_name(), folder);
+    if (!header.ok()) return header.error();
+    reader.header_ = std::move(header).value();
+    return reader;
+  }
+
   [[nodiscard]] const Header& header() const { return header_; }
   [[nodiscard]] const std::string& file_name() const { return lines_.file_name(); }
   /// Bytes of the file that were read so far.
@@ -86,16 +97,6 @@ class BasicRecordingReader {
 
  private:
   explicit BasicRecordingReader(LineSource lines) : lines_(std::move(lines)) {}
-
-  static Result<BasicRecordingReader> open(LineSource lines, const std::filesystem::path& folder) {
-    BasicRecordingReader reader(std::move(lines));
-    const Result<std::string> line = reader.lines_.header();
-    if (!line.ok()) return line.error();
-    Result<Header> header = Codec::parse_header(*line, reader.file_name(), folder);
-    if (!header.ok()) return header.error();
-    reader.header_ = std::move(header).value();
-    return reader;
-  }
 
   LineSource lines_;
   Header header_;

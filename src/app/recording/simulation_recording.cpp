@@ -289,12 +289,8 @@ Result<SimulationCall> SimulationCodec::parse_call(std::string_view text, std::s
   return call;
 }
 
-bool is_simulation_recording(const std::filesystem::path& path) {
-  Result<LineSource> source = LineSource::open(path);
-  if (!source.ok()) return false;
-  const Result<std::string> line = source->header();
-  if (!line.ok()) return false;
-  const Result<JsonValue> root = parse_json(*line, path.string(), kLineLimits);
+bool is_simulation_header(std::string_view line) {
+  const Result<JsonValue> root = parse_json(line, "", kLineLimits);
   const JsonValue* format = root.ok() ? root->find("format") : nullptr;
   return format != nullptr && format->text == "incise-simulation";
 }

@@ -64,8 +64,8 @@ struct SimulationCodec {
 using SimulationWriter = BasicRecordingWriter<SimulationCodec>;
 using SimulationReader = BasicRecordingReader<SimulationCodec>;
 
-/// Whether a file begins as a recording of a simulation does. Whatever else it is, it is not read further.
-[[nodiscard]] bool is_simulation_recording(const std::filesystem::path& path);
+/// Whether the first line of a recording says that it is one of a simulation.
+[[nodiscard]] bool is_simulation_header(std::string_view line);
 
 }  // namespace app
 }  // namespace v0

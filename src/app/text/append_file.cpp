@@ -10,6 +10,7 @@
 #include <string>
 #include <system_error>
 
+#include "app/text/part_file.h"
 #include "app/text/write_all.h"
 
 namespace incise {
@@ -18,8 +19,6 @@ namespace app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr mode_t kMode = 0666;
 
 /// While it lives, signals wait: one that ends the program would leave the file beside.
 class SignalsWait {
@@ -61,9 +60,8 @@ Status AppendFile::open_and_write(std::string_view text) {
 
 Status AppendFile::create(std::string_view text) {
   const SignalsWait signals_wait;
-  fs::path beside = path_;
-  beside += ".incise-part";
-  file_ = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kMode);
+  fs::path beside;
+  file_ = open_part(path_, beside);
   if (file_ < 0) return write_error(path_);
   std::error_code code;
   Status status = write_all(file_, text, path_);

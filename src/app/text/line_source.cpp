@@ -3,6 +3,7 @@
 #include "app/text/line_source.h"
 
 #include <fstream>
+#include <system_error>
 
 #include "app/text/line_reader.h"
 #include "app/text/text_file.h"
@@ -13,32 +14,45 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kMaxLineBytes = std::size_t{1} << 30U;
+/// A header holds a scene at most, a line the positions of all vertices.
+constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 27U, kMaxLineBytes = std::size_t{1} << 30U;
+
+Error bad_file(const std::string& file_name, const std::string& what) {
+  return {ErrorCode::kBadFile, file_name + what, {}};
+}
 
 }  // namespace
 
 Result<LineSource> LineSource::open(const std::filesystem::path& path) {
   if (const Status status = check_readable(path); !status.ok()) return status.error();
+  std::error_code code;
+  if (std::filesystem::is_character_file(path, code) || std::filesystem::is_block_file(path, code)) {
+    return bad_file(path.string(), ": is a device, which may have no end; give a file, or a pipe");
+  }
   return LineSource(std::make_unique<std::ifstream>(path, std::ios::binary), path.string());
 }
 
 Result<std::string> LineSource::header() {
+  if (header_) return *header_;
   std::string line;
-  if (const Result<bool> got = read(line); !got.ok()) return got.error();
-  if (has_line_end_ || line.empty() || line.front() != '{' || is_whole_json(line)) return line;
-  return Error{
-      ErrorCode::kBadFile, file_name_ + ":1: the header is cut off, so nothing can be replayed; record again", {}};
+  if (const Result<bool> got = read(line, kMaxHeaderBytes); !got.ok()) return got.error();
+  if (has_line_end_ || line.empty() || line.front() != '{' || is_whole_json(line)) return *(header_ = std::move(line));
+  return bad_line("the header is cut off, so nothing can be replayed; record again");
+}
+
+Error LineSource::bad_line(const std::string& what) const {
+  return bad_file(file_name_, ":" + std::to_string(number_) + ": " + what);
 }
 
 Result<bool> LineSource::next(std::string& line) {
-  const Result<bool> got = read(line);
+  const Result<bool> got = read(line, kMaxLineBytes);
   if (!got.ok()) return got;
   is_cut_off_ = *got && !has_line_end_ && !is_whole_json(line);
   return *got && !is_cut_off_;
 }
 
 /// Reads up to the next newline or the end; false where nothing is left.
-Result<bool> LineSource::read(std::string& line) {
+Result<bool> LineSource::read(std::string& line, std::size_t most) {
   using Traits = std::istream::traits_type;
   std::streambuf& bytes = *text_->rdbuf();
   ++number_;
@@ -50,10 +64,9 @@ Result<bool> LineSource::read(std::string& line) {
       has_line_end_ = true;
       return true;
     }
-    if (line.size() == kMaxLineBytes) {
-      return Error{ErrorCode::kBadFile,
-                   file_name_ + ":" + std::to_string(number_) + ": the line is longer than 1 GiB; is this a recording?",
-                   {}};
+    if (byte == 0) return bad_line("a zero byte, which no text has; is this a recording?");
+    if (line.size() == most) {
+      return bad_line("the line is longer than " + std::to_string(most >> 20U) + " MiB; is this a recording?");
     }
     line += Traits::to_char_type(byte);
   }

@@ -2,6 +2,7 @@
 // Files are opened with stdio rather than streams, which do not say why they fail.
 #include "app/text/text_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <system_error>
 
+#include "app/text/part_file.h"
 #include "app/text/write_all.h"
 
 namespace incise {
@@ -32,15 +34,12 @@ Error io_error(const fs::path& path, const std::string& what) {
   return {ErrorCode::kIo, path.string() + ": " + what, {}};
 }
 
-bool write_file(const fs::path& path, std::string_view text) {
-  File file(std::fopen(path.string().c_str(), "wb"));
-  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) return false;
-  return std::fclose(file.release()) == 0;
-}
-
-Status write_in_place(const fs::path& path, std::string_view text) {
-  if (write_file(path, text)) return {};
-  return write_error(path);
+/// Writes to what was opened for `path`, and closes it.
+Status write_and_close(int file, std::string_view text, const fs::path& path) {
+  if (file < 0) return write_error(path);
+  Status status = write_all(file, text, path);
+  if (::close(file) != 0 && status.ok()) status = write_error(path);
+  return status;
 }
 
 }  // namespace
@@ -71,22 +70,19 @@ Result<std::string> read_text_file(const fs::path& path, std::size_t max_bytes) 
 }
 
 Status write_text_file(const fs::path& path, std::string_view text) {
-  fs::path beside = path;
-  beside += ".incise-part";
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (fs::is_directory(status)) return io_error(path, "is a directory; name a file");
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(path, text);  // a pipe or a device
-  if (!write_file(beside, text)) {
-    Error error = write_error(path);
-    fs::remove(beside, code);
-    return error;
+  if (fs::exists(status) && !fs::is_regular_file(status)) {  // a pipe or a device
+    return write_and_close(::open(path.c_str(), O_WRONLY | O_CLOEXEC), text, path);
   }
-  fs::rename(beside, path, code);
-  if (!code) return {};
-  Error error = write_error(path, code);
-  fs::remove(beside, code);
-  return error;
+  fs::path beside;
+  const int file = open_part(path, beside);
+  Status written = write_and_close(file, text, path);
+  if (written.ok()) fs::rename(beside, path, code);
+  if (written.ok() && code) written = write_error(path, code);
+  if (!written.ok() && file >= 0) fs::remove(beside, code);
+  return written;
 }
 
 }  // namespace app

@@ -275,7 +275,7 @@ void DeformableBody::State::begin_substep(double h) {
   });
 }
 
-/// More sweeps of what `list_strained` lists, for substeps of so many seconds.
+/// More sweeps of what `list_strained` lists, for substeps of this length, s.
 static constexpr double kUsualSubstep = 1.0 / 240;
 static constexpr unsigned kStrainedSweeps = 20;
 

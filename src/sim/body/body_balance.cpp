@@ -17,9 +17,9 @@ constexpr std::array kSweeps = {1U, 1U, 2U, 4U};
 constexpr double kGain = 0.01;
 /// Strains below are none.
 constexpr double kNoStrain = 1e-3;
-/// Once there are so many vertices by the tets that were touched, and besides, a further ring is taken in only where
-/// there is more than so many times the energy still: where lips that stood apart were joined. In the end all are swept
-/// so often more.
+/// From these numbers of vertices on, by the tets that were touched and besides, a further ring is taken in only where
+/// the energy is still more than this multiple of what it was: where lips that stood apart were joined. In the end all
+/// are swept this number of times more.
 constexpr std::size_t kMostByTouched = 4, kMostBesides = 400;
 constexpr double kFarMore = 1.5;
 constexpr unsigned kMoreSweeps = 24;
@@ -41,7 +41,7 @@ class Balance {
     for (const Taken& taken : taken_) s_.has_changed_star[taken.vertex] = 0;
   }
 
-  /// Whether the tets have more energy than they had, so many times.
+  /// Whether the tets have more energy than `times` what they had.
   [[nodiscard]] bool has_gained(double times = 1) const {
     double sum = 0;
     for (std::size_t i = 0; i < tets_.size(); ++i) sum += energy(i);

@@ -20,7 +20,7 @@ Status DeformableBody::hold(VertexId vertex, double stiffness, const HoldLimit& 
   return {};
 }
 
-/// As the body stands after a step: a pin that slips is left so far behind that it bears just its limit, as a slipping
+/// As the body stands after a step: a pin that slips is left behind until it bears just its limit, as a slipping
 /// spring is; that takes energy away, and never adds any. Returns how many have torn out.
 std::size_t DeformableBody::State::give_way() {
   std::vector<std::uint32_t> torn;

@@ -25,18 +25,18 @@ inline constexpr double kLost = 5;
 inline constexpr double kContactMargin = 0.1;
 /// A vertex deeper than this that was no contact before is let alone: no explosion is worth a repaired overlap.
 inline constexpr double kDeepest = 0.5;
-/// Or than so many of the ways that the two came nearer in a step.
+/// Or, as a multiple, than the way that the two came nearer in a step.
 inline constexpr double kDeepestSteps = 1.5;
 /// How far a search must see at least, in mean edges of the surface, and at most; beyond what it must, the grid of
 /// faces sees by the last two more, so that it serves for some steps.
 inline constexpr double kLeastReach = 0.15, kMostReach = 1.5, kReachMore = 0.1, kReachTimes = 1.5;
 /// A contact keeps its face, without a look at others, as long as it has not slid by more than this, in local edges,
-/// and for so many steps.
+/// and for at most this number of steps.
 inline constexpr double kLookAgain = 0.02;
 inline constexpr unsigned kMostUnseen = 8;
-/// Cells of the grid: so much longer than it sees, in mean edges.
+/// Cells of the grid are longer by this than it sees, in mean edges.
 inline constexpr double kGridCell = 0.6;
-/// A vertex may stand so far beside the nearest point of a face, in edges: from the one on contact gets softer, from
+/// How far a vertex may stand beside the nearest point of a face, in edges: from the one on contact gets softer, from
 /// the other on there is none. Neither depends on the gap: what rests would press and let go by turns.
 inline constexpr double kBesideALittle = 0.03, kBesideFace = 0.1;
 /// The least cosine between the vertex' normal and the face's, turned round: a vertex on the side of a body does not
@@ -50,7 +50,7 @@ inline constexpr double kKnownAsNear = 1e-2, kKnownSquarer = 0.1;
 /// A vertex that lies behind a face by more than this at rest, and no further than it is now, is behind it through the
 /// material: a thin flap is not in contact with its own back.
 inline constexpr double kBehindAtRest = 0.05;
-/// An anchor further from its face than so many of the face's own shares is let go.
+/// An anchor further from its face than this number of the face's own shares is let go.
 inline constexpr double kFarthestAnchor = 8;
 
 /// How often each carried piece is moved to where its neighbours leave it, at the end of a substep.

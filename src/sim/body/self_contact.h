@@ -121,9 +121,9 @@ class SelfContact {
   double reach_ = 0;            // how far the grid saw when it was made
   bool is_grid_stale_ = true;
   double grid_way_ = 0;                    // `way_` when the grid was made
-  double way_ = 0;                         // at most so far has anything moved, ever
+  double way_ = 0;                         // the most that anything has moved, ever
   double step_way_ = 0, jump_ = 0;         // in the last step; between the last two
-  std::vector<double> clear_until_;        // by vertex slot: nothing is near before `way_` has come so far
+  std::vector<double> clear_until_;        // by vertex slot: nothing is near before `way_` has reached this
   std::vector<Contact> contacts_, next_;   // by vertex
   std::vector<std::uint32_t> contact_of_;  // by vertex slot: index + 1
   std::vector<Found> candidates_;

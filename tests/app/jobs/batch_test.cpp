@@ -423,6 +423,7 @@ TEST_F(Batch, a_merge_takes_away_what_killed_workers_left_half_written) {
   run("out", {1, 3});
   run("out", {2, 3});
   const std::string of_killed = folder_.write("out/after/half.vtu.shard-00001-of-00003.incise-part", "<VTK");
+  const std::string of_part = folder_.write("out/after/half.vtu.shard-00001-of-00003.99999.0.incise-part", "<VTK");
   const std::string of_gone = folder_.write("out/before/0.vtu.shard-00007-of-00009", "<VTK");
   const std::string of_live = folder_.write("out/strokes/half.json.shard-00002-of-00003.incise-part", "{");
   const std::string of_other = folder_.write("out/after/notes.txt", "mine");
@@ -432,6 +433,7 @@ TEST_F(Batch, a_merge_takes_away_what_killed_workers_left_half_written) {
   ASSERT_TRUE(live.ok());
   EXPECT_NE(merged("out"), "");
   EXPECT_FALSE(fs::exists(of_killed));
+  EXPECT_FALSE(fs::exists(of_part));
   EXPECT_FALSE(fs::exists(of_gone));
   EXPECT_TRUE(fs::exists(of_live));
   EXPECT_TRUE(fs::exists(of_other));

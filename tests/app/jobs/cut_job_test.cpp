@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/jobs/improve_job.h"
 #include "app/jobs/job_internal.h"
 #include "app/model/mesh_info.h"
 #include "incise/io/mesh_export.h"
@@ -45,6 +47,52 @@ struct RecordedEngineOf {
       : engine(app::RecordedEngine::create(std::move(mesh), std::move(options)).value()) {}
   app::RecordedEngine engine;
 };
+
+/// What a job tells of its stages, each once.
+struct ToldStages {
+  std::vector<std::string> names;
+  std::size_t total = 0;
+
+  app::StageSink sink() {
+    return [this](std::string_view name, std::size_t done, std::size_t of) {
+      if (done == names.size()) names.emplace_back(name);
+      EXPECT_EQ(done + 1, names.size()) << name;  // one after the other, and none left out
+      total = of;
+    };
+  }
+};
+
+TEST(Stages, of_a_plane_cut_and_of_improvement_are_told_one_after_the_other) {
+  ToldStages cut, improved;
+  Result<io::LoadedMesh> loaded = io::build_mesh(cube_file(), "cube");
+  app::CutJob job;
+  job.strokes.push_back(*plane_stroke(rest_bounds(loaded->mesh), Vec3(2, 1, 0), 1.3));
+  job.stage = cut.sink();
+  ASSERT_TRUE(app::run_cut(std::move(loaded).value(), job, false).ok());
+  EXPECT_EQ(cut.names, (std::vector<std::string>{"measuring", "cutting", "improving the mesh at the cut",
+                                                 "measuring the result"}));
+  EXPECT_EQ(cut.total, 4U);
+  app::ImproveJob improve;
+  improve.stage = improved.sink();
+  io::MeshFile file = cube_file();
+  file.data.soup.points[file.data.soup.tets[300][2]] += Vec3(0.05, 0.03, 0.04);
+  ASSERT_TRUE(app::run_improve(io::build_mesh(file, "cube").value(), improve, false).ok());
+  EXPECT_EQ(improved.names.front(), "measuring");
+  EXPECT_EQ(improved.names.back(), "measuring the result");
+  EXPECT_EQ(improved.total, 4U);
+}
+
+TEST(Stages, of_a_check_go_up_to_the_whole) {
+  std::vector<std::size_t> told;
+  const auto check = app::check_mesh(cube_file(), "cube", [&](std::size_t done, std::size_t total) {
+    EXPECT_EQ(total, 100U);
+    told.push_back(done);
+  });
+  ASSERT_TRUE(check.ok());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.front(), 0U);
+  EXPECT_EQ(told.back(), 100U);
+}
 
 TEST(Percentiles, are_nearest_ranks) {
   std::vector<double> sample;

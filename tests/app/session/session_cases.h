@@ -56,7 +56,7 @@ inline incise::app::HandState hand_at(double x, double depth) {
   return hands;
 }
 
-/// Moves a hand's blade into the cube at x within so many frames, and takes it off.
+/// Moves a hand's blade into the cube at x within `frames` frames, and takes it off.
 inline void cut_by_hand(incise::app::Session& session, double x = 0.52, int frames = 6) {
   for (int i = 0; i <= frames; ++i) EXPECT_TRUE(session.frame(hand_at(x, -0.1 + 0.6 * i / frames)).ok());
   EXPECT_TRUE(session.frame().ok());

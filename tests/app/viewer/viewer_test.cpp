@@ -349,7 +349,7 @@ class DemonstrationTest : public ViewerTest {
     scene["view"] = {{"demonstration", true}};
     show(opened(scene));
   }
-  /// Makes so many frames, and waits for them.
+  /// Makes `frames` frames, and waits for them.
   void run(std::uint64_t frames) {
     const std::uint64_t until = view().figures.frames + frames;
     for (std::uint64_t i = 0; i < frames; ++i) thread_->step();

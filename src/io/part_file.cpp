@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// A part's name has the number of the process that writes it: where that is no more, nobody will finish it.
+#include "incise/io/part_file.h"
+
+#include <cerrno>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "io/text.h"
+
+#if (defined(__unix__) || defined(__APPLE__)) && !defined(__EMSCRIPTEN__)
+#define INCISE_HAS_PROCESSES 1
+#include <signal.h>
+#include <unistd.h>
+#else
+#define INCISE_HAS_PROCESSES 0
+#endif
+
+namespace incise {
+inline namespace v0 {
+namespace io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPart = ".incise-part";
+
+long process_number() {
+#if INCISE_HAS_PROCESSES
+  return static_cast<long>(getpid());
+#else
+  return 0;
+#endif
+}
+
+bool is_running([[maybe_unused]] std::int64_t process) {
+#if INCISE_HAS_PROCESSES
+  return kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
+#else
+  return true;
+#endif
+}
+
+// Whether a file was being written in the place of `path` by a process that is no more.
+bool is_stale(const std::string& name, const std::string& beside) {
+  if (name.size() <= beside.size() + kPart.size() || name.compare(0, beside.size(), beside) != 0) return false;
+  if (name.compare(name.size() - kPart.size(), kPart.size(), kPart) != 0) return false;
+  const std::string_view rest = std::string_view(name).substr(beside.size());
+  std::int64_t process = 0;
+  return parse_int(rest.substr(0, rest.find('.')), process) && process > 0 && process <= 0x7FFFFFFF &&
+         !is_running(process);
+}
+
+}  // namespace
+
+fs::path part_file(const fs::path& path, unsigned number) {
+  fs::path part = path;
+  part += "." + std::to_string(process_number()) + "." + std::to_string(number);
+  part += kPart;
+  return part;
+}
+
+void remove_stale_parts(const fs::path& path) {
+  constexpr unsigned kNamesToLookAt = 1000;
+  std::error_code code;
+  unsigned looked_at = 0;
+  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  const std::string beside = path.filename().string() + ".";
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator at(folder, code), end; !code && at != end && looked_at < kNamesToLookAt;
+       at.increment(code), ++looked_at) {
+    if (is_stale(at->path().filename().string(), beside)) stale.push_back(at->path());
+  }
+  for (const fs::path& file : stale) fs::remove(file, code);
+}
+
+}  // namespace io
+}  // namespace v0
+}  // namespace incise
