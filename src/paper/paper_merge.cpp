@@ -113,6 +113,10 @@ bool is_safe_to_merge(const TetMesh& mesh, TetId tet, VertexId b, VertexId c) {
          is_safe_at_face(surf_edge(b, corner_d), surf_edge(c, corner_d), bcd, abd, acd);
 }
 
+bool is_safe_around(const TetMesh& mesh, std::span<const TetId> ring, VertexId b, VertexId c) {
+  return std::all_of(ring.begin(), ring.end(), [&](TetId tet) { return is_safe_to_merge(mesh, tet, b, c); });
+}
+
 namespace {
 
 class EdgeMerger : private PaperStage {
@@ -203,8 +207,7 @@ class EdgeMerger : private PaperStage {
     }
   }
   bool is_safe_as_printed() {
-    const bool is_safe = std::all_of(plan_.ring.begin(), plan_.ring.end(),
-                                     [&](TetId tet) { return is_safe_to_merge(mesh_, tet, plan_.from, plan_.into); });
+    const bool is_safe = is_safe_around(mesh_, plan_.ring, plan_.from, plan_.into);
     if (census_ != nullptr) {
       ++census_->asked;
       census_->refused += is_safe ? 0U : 1U;

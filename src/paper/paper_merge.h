@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "incise/improve/options.h"
@@ -63,6 +64,9 @@ constexpr bool is_safe_at_face(bool ba, bool ca, bool abc, bool abd, bool acd) {
 /// Necessary, but not sufficient for a safe merge: it looks at one tet (see `CollapsePlanner`). Cost: O(its edges'
 /// rings).
 bool is_safe_to_merge(const TetMesh& mesh, TetId tet, VertexId b, VertexId c);
+
+/// The same for all tets around an edge, `ring`. Cost: the same, for each of them.
+bool is_safe_around(const TetMesh& mesh, std::span<const TetId> ring, VertexId b, VertexId c);
 
 /// What merging asked: edges that the paper's conditions were asked of, and those that they refused.
 struct MergeCensus {

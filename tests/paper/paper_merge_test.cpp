@@ -17,6 +17,7 @@ namespace {
 
 using paper::find_short_edges;
 using paper::find_thin_shape;
+using paper::is_safe_around;
 using paper::is_safe_at_face;
 using paper::is_safe_to_merge;
 using paper::MergeThresholds;
@@ -192,8 +193,7 @@ Verdicts compare_verdicts(const CutBody& body) {
     for (const auto& [i, j] : kEdgeCorners) {
       const VertexId a = mesh.vertices(tet)[i], b = mesh.vertices(tet)[j];
       planner.plan(mesh, a, b, plan);
-      const bool is_safe =
-          std::all_of(plan.ring.begin(), plan.ring.end(), [&](TetId t) { return is_safe_to_merge(mesh, t, a, b); });
+      const bool is_safe = is_safe_around(mesh, plan.ring, a, b);
       verdicts.both += is_safe && plan ? 1U : 0U;
       verdicts.paper_only += is_safe && !plan ? 1U : 0U;
       verdicts.link_only += !is_safe && plan ? 1U : 0U;
@@ -216,6 +216,26 @@ TEST(SafeMerge, is_necessary_for_the_link_condition_but_not_sufficient) {
   EXPECT_EQ(sum.link_only, 0U);
   EXPECT_GT(sum.paper_only, 0U);
   EXPECT_GT(sum.both, 4 * sum.paper_only);
+}
+
+/// An edge is refused by any tet around it, in whatever order they come.
+TEST(SafeMerge, asks_all_tets_around_an_edge) {
+  const CutBody body = cut_as_paper(jittered_cube(4, 2), {{Vec3(0.3, 0.5, 0.9), 0.8}});
+  const TetMesh& mesh = body.mesh;
+  CollapsePlanner planner;
+  CollapsePlan plan;
+  std::size_t of_one = 0;
+  mesh.for_each_tet([&](TetId tet) {
+    const TetVertices v = mesh.vertices(tet);
+    for (const auto& [i, j] : kEdgeCorners) {
+      planner.plan(mesh, v[i], v[j], plan);
+      const auto refuses = [&](TetId other) { return !is_safe_to_merge(mesh, other, v[i], v[j]); };
+      const auto count = std::count_if(plan.ring.begin(), plan.ring.end(), refuses);
+      EXPECT_EQ(is_safe_around(mesh, plan.ring, v[i], v[j]), count == 0);
+      of_one += count > 0 && !refuses(plan.ring.front()) ? 1U : 0U;
+    }
+  });
+  EXPECT_GT(of_one, 10U);
 }
 
 /// Whether an edge or face of a tet lies on the boundary, told from its links alone.
