@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cut/blade_constants.h"
 #include "cut/constants.h"
 #include "cut/cut_context.h"
 #include "cut/spacing.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "cut/constants.h"
 #include "cut/pinched_edges.h"
 #include "incise/mesh/verbs.h"
 #include "paper/coincidence.h"
