@@ -83,9 +83,6 @@ inline constexpr double kUncutShare = 0.125;
 
 // --- vertices that move onto the sheet (`snapping`)
 
-/// Normals whose cross product is this short are of one plane; a vertex that slides in it changes no volume beyond
-/// rounding.
-inline constexpr double kOnePlane = 1e-9;
 /// The snapping distance counts by this share for vertices of skin that cannot be moved onto the sheet, since the wall
 /// then bends to them. Not so for those of older walls: where cuts cross, what lies between them and the sheet would be
 /// splinters.

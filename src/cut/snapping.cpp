@@ -11,6 +11,7 @@
 #include "cut/old_children.h"
 #include "cut/parity.h"
 #include "cut/spacing.h"
+#include "geom/constants.h"
 #include "incise/geom/quality.h"
 
 namespace incise {
