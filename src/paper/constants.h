@@ -12,7 +12,12 @@ namespace incise {
 inline namespace v0 {
 
 /// The most children of a tet: what the ids must have room for.
-inline constexpr std::size_t kMostChildren = 16;
+inline constexpr std::size_t kMostDivided = 16;
+
+/// Sweeps of Jacobi's method that fit a plane: convergence is quadratic, five reach rounding.
+inline constexpr int kPlaneSweeps = 8;
+/// Faces around a vertex, at most: ends the walk on a surface that is broken at load.
+inline constexpr std::size_t kLongestFan = 4096;
 
 /// A sweep that turns sharply more often is not cut as one sheet: an edge of the mesh might cross each of its folds.
 inline constexpr std::size_t kMostTurns = 4;
