@@ -24,9 +24,11 @@ MAY_INCLUDE = {
 # Modules that may use what is private to others: the paper's profile shares sweeps, templates and journal steps; the
 # cited methods share the paper's search for crossings besides.
 MAY_LOOK_INTO = {"paper": ("cut", "improve"), "lab": ("cut", "paper")}
-# What a module is to those above it, though it is not installed: parts, and who calls them.
+# What a module is to those above it, though it is not installed: parts, and who calls them; and constants that modules
+# share which may not include each other.
 PARTS = {
     "cut/cutter.h": ("engine",),
+    "geom/constants.h": ("mesh", "cut", "improve"),
     "improve/maintainer.h": ("engine", "image"),
     "paper/paper_cut.h": ("engine",),
     "paper/paper_maintenance.h": ("engine",),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cut/blade_constants.h"
 #include "cut/twist.h"
 #include "incise/geom/closest.h"
 
@@ -15,37 +16,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// A blade within this many spacings of what it swept before is in its own slit.
-constexpr double kSlitShare = 0.25;
-/// It is asked for at the end of its way, which decides most often, then at places half as far apart; at so many at
-/// most.
-constexpr double kMostSamples = 256;
-/// Points of a blade that moved less than this many spacings wait for more.
-constexpr double kLeastStep = 0.05;
-/// Those that moved less than this many spacings, as the point does that an edge turns about, have not moved.
-constexpr double kStays = 1e-9;
-/// A blade within so many spacings of what it has swept waits until it gets on: folds that are finer enclose vertices.
-constexpr double kWaits = 1.0;
-/// One that comes to what it has swept from so many spacings away closes a ring.
-constexpr double kLeavesFor = 0.4;
-/// It comes by its front if it has left its slit within so many spacings of it.
-constexpr double kByFront = 0.75;
-/// It gets on if so much of its way is along the way that its front has come.
-constexpr double kGetsOn = 0.7;
-/// Within so many spacings of travel behind the front a sheet does not count as meeting itself.
-constexpr double kFrontShare = 1.5;
-/// A sheet lays so many spacings of the one before it, of the same stroke, once more at least. Where the blade has
-/// turned sharply both legs pass within an element of each other, and the wall ends an element before the turn.
-constexpr double kOverlap = 1.0;
-/// One that starts in the slit reaches through its wall by so many spacings.
-constexpr double kThroughSlit = 0.3;
-/// The end of a blade draws back by less than this share of its last segment.
-constexpr double kMostRetreat = 0.5;
-/// Older walls are looked for along the blade at places so many spacings apart, but at so many at most.
-constexpr double kWallShare = 0.5, kMostWallPlaces = 1024;
-/// Strips that fold back onto earlier ones within so many spacings meet them.
-constexpr double kMeetingShare = 1e-6;
 
 std::array<std::uint64_t, 2> keys_of(const SosPoint& a, const SosPoint& b) {
   return {std::min(a.key, b.key), std::max(a.key, b.key)};
@@ -123,7 +93,7 @@ double BladeMotion::distance2_to_front(const Vec3& point) const {
 bool BladeMotion::goes_in_slit(const Vec3& from, const Vec3& to, const OwnSheet& sheet) const {
   const double reach = kSlitShare * spacing_;
   if (!is_on(to, sheet, reach)) return false;
-  const double parts = std::clamp(std::ceil(2.0 * (to - from).norm() / reach), 2.0, kMostSamples);
+  const double parts = std::clamp(std::ceil(2.0 * (to - from).norm() / reach), 2.0, kMostSlitSamples);
   for (double k = 1; k < parts; ++k) {
     if (!is_on(from + (k / parts) * (to - from), sheet, reach)) return false;
   }
@@ -138,10 +108,11 @@ bool BladeMotion::is_on(const Vec3& point, const OwnSheet& sheet, double distanc
   return distance2_to_front(place.point) > tolerance * tolerance;
 }
 
-/// How far a way from a place on the sheet leads away from it, in length units, at most `2 kWaits` spacings.
+/// How far a way from a place on the sheet leads away from it, in length units, at most `2 kWaitsNearSlit` spacings.
 double BladeMotion::furthest_from(const OwnSheet& sheet, const Vec3& from, const Vec3& to) const {
-  const double most = 2.0 * kWaits * spacing_;
-  const double parts = std::clamp(std::ceil(4.0 * (to - from).norm() / (kWaits * spacing_)), 1.0, kMostSamples);
+  const double most = 2.0 * kWaitsNearSlit * spacing_;
+  const double parts =
+      std::clamp(std::ceil(4.0 * (to - from).norm() / (kWaitsNearSlit * spacing_)), 1.0, kMostSlitSamples);
   double furthest = 0;
   for (double k = parts; k >= 1 && furthest < most; --k) {
     const SheetPlace place = sheet.closest(from + (k / parts) * (to - from), most);
@@ -173,7 +144,7 @@ bool BladeMotion::waits(std::span<const std::size_t> points, std::span<const Vec
   if (closes_ring(points, row, sheet)) return false;
   double sum = 0;
   for (const std::size_t c : points) sum += furthest_from(sheet, front_[c].position, row[c]);
-  return sum < kWaits * spacing_ * count;
+  return sum < kWaitsNearSlit * spacing_ * count;
 }
 
 /// Whether a blade on its way from where it left its slit to a row comes by its front.
@@ -235,7 +206,7 @@ bool BladeMotion::comes_round(const Row& to, const OwnSheet& sheet) const {
 
 /// The first rows of a stroke, as far as a sheet that comes round goes over them once more.
 void BladeMotion::note_beginning(const Row& to) {
-  if (length_of(beginning_) < kOverlap * spacing_) beginning_.push_back(to);
+  if (length_of(beginning_) < kLaidAgain * spacing_) beginning_.push_back(to);
 }
 
 /// Whether a blade comes, from elsewhere, to where its stroke began.
@@ -248,7 +219,7 @@ bool BladeMotion::comes_to_beginning(const Row& to) const {
     }
     return false;
   };
-  if (length_of(beginning_) < kOverlap * spacing_) return false;
+  if (length_of(beginning_) < kLaidAgain * spacing_) return false;
   for (std::size_t c = 0; c < to.size(); ++c) {
     if (!is_there(to[c].position) || is_there(front_[c].position)) return false;
   }
@@ -308,7 +279,7 @@ void BladeMotion::leave_behind(const Row& row) {
   trail_.push_back(row);
   double travel = 0;
   std::size_t first = trail_.size() - 1;
-  for (; first > 0 && travel < kOverlap * spacing_; --first) travel += step_between(trail_[first - 1], trail_[first]);
+  for (; first > 0 && travel < kLaidAgain * spacing_; --first) travel += step_between(trail_[first - 1], trail_[first]);
   trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
@@ -556,7 +527,7 @@ BladeMotion::Move BladeMotion::advance(std::span<const Vec3> given, const OwnShe
     for (std::size_t c = 0; c < start.size(); ++c) front_[c].position = start[c];
   }
   if (around.has_older_cuts) stay_before_walls(front(), row, around);
-  const double least2 = std::pow((flushes ? kStays : kLeastStep) * spacing_, 2);
+  const double least2 = std::pow((flushes ? kStandsStill : kLeastBladeStep) * spacing_, 2);
   std::vector<Vec3> wanted(row.begin(), row.end());
   std::vector<std::size_t> free;  // points that are neither in the slit nor where the front is
   for (std::size_t c = 0; c < row.size(); ++c) {

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cut/blade_constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// A border is asked about at places so many spacings apart, but at so many at most.
-constexpr double kSampleShare = 0.2, kMostReachSamples = 4096.0;
 
 Vec3 between(const Vec3& a, const Vec3& b, std::size_t part, std::size_t parts) {
   return a + (static_cast<double>(part) / static_cast<double>(parts)) * (b - a);
@@ -53,7 +52,7 @@ SweptSurface BorderReach::from_row(const BorderPlace& from, const BorderPlace& t
   SweptSurface surface;
   const Vec3 &a = from.at.position, &b = to.at.position;
   const auto parts = static_cast<std::size_t>(
-      std::clamp(std::ceil((b - a).norm() / (kSampleShare * spacing_)), 1.0, kMostReachSamples));
+      std::clamp(std::ceil((b - a).norm() / (kBorderSample * spacing_)), 1.0, kMostReachSamples));
   const std::vector<double> reach = find_reach(from, to, parts);
   const auto on_border = [&](std::size_t i) -> SosPoint {
     return i == 0 ? from.at : (i == parts ? to.at : SosPoint{between(a, b, i, parts), next_key_++});

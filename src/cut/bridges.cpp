@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cut/constants.h"
 #include "incise/geom/triangle_tree.h"
 #include "incise/mesh/star.h"
 
@@ -16,19 +17,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// The sides of the cut are looked for within so many spacings of a place, faces to be opened within so many: what
-/// joins the sides beyond is the body, not the seam.
-constexpr double kBall = 2.5, kOpenWithin = 1.5;
-/// Walls within so many spacings of a seam are looked at.
-constexpr double kNearJoint = 1.0;
-/// A face lies on the sweep if its middle is within so many spacings of it.
-constexpr double kOnSweep = 0.3;
-/// Its middle is beside the sweep, not beyond the border of that, if so much of the way there is across the sweep.
-/// Nearer than so many spacings it is on it.
-constexpr double kBesideSweep = 0.8, kOnSweepExactly = 0.02;
-/// A part between walls that is thinner than so many spacings, on the average, is a shaving, and no side.
-constexpr double kShaving = 0.2;
 
 /// The middle of a tet, or of a side, in the rest shape.
 template <class Element>
@@ -95,7 +83,7 @@ class BridgeCutter {
   /// The tets near a place that walls near it lead to.
   void gather(const Vec3& place) {
     tets_.clear();
-    const double reach = kBall * spacing_;
+    const double reach = kBridgeBall * spacing_;
     const auto add = [&](TetId tet) {
       index_of_.ensure(std::size_t{tet.value} + 1);
       if (index_of_[tet.value] != 0 || (middle_of(mesh_, tet) - place).squaredNorm() > reach * reach) return;

@@ -7,17 +7,12 @@
 #include <cmath>
 #include <utility>
 
+#include "cut/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Strips of more triangles are searched by their tree.
-constexpr std::size_t kFewTriangles = 4;
-/// Coordinates are rounded to this share of their magnitude, with room to spare.
-constexpr double kRounding = 1e-12;
-/// A front that passes a tet's box this close by, as a share of its diagonal, may lie in it.
-constexpr double kCloseBy = 1e-6;
 
 Box box_of(const std::array<Vec3, 4>& p) {
   return {p[0].cwiseMin(p[1]).cwiseMin(p[2]).cwiseMin(p[3]), p[0].cwiseMax(p[1]).cwiseMax(p[2]).cwiseMax(p[3])};
@@ -114,7 +109,7 @@ ContactWalk::Prism ContactWalk::prism_of(const Strip& strip, std::uint32_t trian
     size = std::max(size, p[k].cwiseAbs().maxCoeff());
   }
   const auto plane = [&](const Vec3& normal, const Vec3& through) {
-    return Plane{normal, normal.dot(through), kRounding * size * normal.norm()};
+    return Plane{normal, normal.dot(through), kBoxRounding * size * normal.norm()};
   };
   Prism prism;
   const Vec3 normal = strip.sheet.normal(triangle);

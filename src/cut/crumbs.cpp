@@ -5,17 +5,12 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "cut/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-constexpr std::size_t kMaxCrumbTets = 256;
-constexpr std::size_t kMaxPieceSearch = 512;
-/// A piece may look so many times too thick while it is searched, and as thick as it likes while it has few tets: its
-/// walls come last.
-constexpr double kWhileGrowing = 2.0;
-constexpr std::size_t kFewTets = 32;
 
 class CrumbFinder {
  public:

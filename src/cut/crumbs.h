@@ -4,16 +4,12 @@
 #include <functional>
 #include <vector>
 
+#include "cut/constants.h"
 #include "cut/incision_face.h"
 #include "incise/core/grow_array.h"
 
 namespace incise {
 inline namespace v0 {
-
-/// A piece smaller than this share of the cubed edge length is a crumb: debris of a blade that grazes a vertex. Without
-/// snapping pieces are to be exact, and only what walls that were smoothed leave of a line where three cuts meet is
-/// one.
-inline constexpr double kCrumbShare = 0.02, kExactCrumbShare = 1e-4;
 
 /// The volume below which a piece around a tet is a crumb; 0 far from the blade.
 using CrumbLimit = std::function<double(TetId)>;

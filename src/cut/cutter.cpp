@@ -9,6 +9,7 @@
 #include <new>
 #include <utility>
 
+#include "cut/blade_constants.h"
 #include "cut/blade_motion.h"
 #include "cut/bridges.h"
 #include "cut/constants.h"
@@ -27,48 +28,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Two crossings of one edge at rest, in different steps, that are further apart are two passes of the blade.
-constexpr double kApart = 0.05;
-/// A border of the sheet that lies at most so many spacings beyond the rim of an older cut reaches on into it.
-constexpr double kWeld = 0.08;
-/// It reaches on so many spacings along that cut: further than fronts lie off their blades; or through its wall, where
-/// it meets that at an angle.
-constexpr double kReachOn = 0.3, kReachThrough = 0.12;
-/// A wall that it comes to at an angle may be so many spacings away: tissue that thin is of no use beside a cut.
-constexpr double kWeldThrough = 0.11;
-/// The end of a blade that passes an older wall by less than that stays so many spacings before it.
-constexpr double kBefore = 0.02;
-/// It draws back from walls that it meets at an angle of this sine at least: those along its way are crooked.
-constexpr double kSteep = 0.4;
-/// All of this way lies in the older cut or outside the body: asked at these shares of it, the furthest first.
-constexpr std::array kReachSamples = {1.0, 0.5, 0.1, 0.25, 0.75};
-/// What lies at most so many spacings beyond the rim of an older cut lies in it: rounding, no more.
-constexpr double kInside = 0.02;
-/// A step of a blade in a moving body is taken in parts of an element, at most so many.
-constexpr double kMostStepParts = 64;
-/// A blade that comes from far away is near the body within so many of its diagonals.
-constexpr double kNearBody = 0.1;
-/// A blade this many spacings ahead of the crack's tip cuts on even where that closes the cut behind it: else strong
-/// shaking would hold it for ever.
-constexpr double kGiveWay = 0.75;
-/// One that would come back to what it has left is on another way only if it is as far ahead as this.
-constexpr double kTurnBack = 2.0;
-/// A stroke that goes on from an older front by less than so many spacings takes that front along.
-constexpr double kCarry = 0.3;
-/// The blade starts at an older front where that ends so many spacings behind it at most; and has taken it along where
-/// none of it is left further behind than that.
-constexpr double kAtFront = 0.2, kLag = 0.12;
-/// Where a front cannot follow it is drawn back by so many spacings, and cut from there: nothing that is cut anew is
-/// shorter.
-constexpr double kDrawBack = 0.8;
-/// Whether a blade starts at an older front is asked at places so many spacings apart, but at so many at most.
-constexpr double kStartShare = 0.2, kMostStarts = 1024.0;
-/// A stroke goes on from one whose blade stood within so many spacings from where it starts, at rest and in a body that
-/// has moved: there the tissue tells where that blade would be.
-constexpr double kStands = 0.05;
-/// Front points of a moving body stay while the blade pierces their face within so many spacings.
-constexpr double kPointReach = 0.2;
 
 void add_triangles(SweptTriangles& to, const SweptSurface& surface) {
   const auto first = static_cast<std::uint32_t>(to.points.size());
@@ -206,14 +165,14 @@ bool Cutter::may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std:
   if (!has_moved && !paused.is_in_material) {
     bool stands = true;
     for (std::size_t c = 0; c < row.size(); ++c) {
-      stands = stands && (row[c] - paused.given_row[c]).norm() <= kStands * paused.spacing;
+      stands = stands && (row[c] - paused.given_row[c]).norm() <= kStandsWithin * paused.spacing;
     }
     return stands;
   }
   const std::size_t end = journal.position();
   if (!resume(mesh, journal, pause, first_step, has_moved, paused.tag)) return false;
-  const bool stands =
-      stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row), kStands * stroke_.spacing);
+  const bool stands = stroke_.material.stands_at(mesh, stroke_cut_.complex(), stroke_.edge.divided(row),
+                                                 kStandsWithin * stroke_.spacing);
   stroke_cut_.forget();
   forget_tried(mesh, journal, end);
   return stands;
@@ -465,19 +424,20 @@ Surroundings Cutter::surroundings(const CutContext& context) {
     const double beside = (options_.snap > 0 ? kBesideWall : kBesideExactly) * stroke_.spacing;
     const auto is_open = [&](double share) {
       const Vec3 beyond = place + share * along * outwards;
-      return older.pass(beyond, normal, beside, kInside * stroke_.spacing) || is_outside(beyond);
+      return older.pass(beyond, normal, beside, kInsideOlder * stroke_.spacing) || is_outside(beyond);
     };
     if (older.pass(place, normal, beside, kWeld * stroke_.spacing) &&
         std::all_of(kReachSamples.begin(), kReachSamples.end(), is_open)) {
       return along;
     }
-    return older.meet(place - kInside * stroke_.spacing * outwards, place + kWeldThrough * stroke_.spacing * outwards)
+    return older.meet(place - kInsideOlder * stroke_.spacing * outwards,
+                      place + kWeldThrough * stroke_.spacing * outwards)
                ? across
                : 0.0;
   };
   found.retreat = [this, older](const Vec3& place, const Vec3& outwards, double length) {
-    const double behind = std::min(kWeld * stroke_.spacing, length), before = kBefore * stroke_.spacing;
-    const double met = older.first_met(place - behind * outwards, place + before * outwards, kSteep);
+    const double behind = std::min(kWeld * stroke_.spacing, length), before = kBeforeWall * stroke_.spacing;
+    const double met = older.first_met(place - behind * outwards, place + before * outwards, kSteepSine);
     return met <= 1.0 ? (1.0 - met) * (behind + before) : 0.0;
   };
   return found;
@@ -561,7 +521,7 @@ Status Cutter::end_in_point(const CutContext& context) {
   const std::vector<Vec3>& row = stroke_.last_row;
   if (stroke_.motion.is_at_start() || row.size() < 3 || row.front() != row.back()) return {};
   for (const Vec3& place : row) {
-    if ((place - row.front()).norm() > kStands * stroke_.spacing) return {};
+    if ((place - row.front()).norm() > kStandsWithin * stroke_.spacing) return {};
   }
   const std::vector<Vec3> front = stroke_.motion.front();
   return follow_to(context, std::vector<Vec3>(front.size(), middle_of(front)));
@@ -646,7 +606,7 @@ Status Cutter::follow(const CutContext& context, BladeMotion::Move move) {
 
 /// Whether a strip comes back to what the sheet is done with.
 bool Cutter::comes_back(const CutContext& context, const Strip& strip) {
-  if (!stroke_.is_in_material && stroke_cut_.crosses_own_cut(context, strip, kApart)) return true;
+  if (!stroke_.is_in_material && stroke_cut_.crosses_own_cut(context, strip, kPassesApart)) return true;
   return stroke_cut_.comes_back(context.mesh, strip);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cut/constants.h"
 #include "cut/weights.h"
 #include "incise/geom/predicates.h"
 #include "incise/geom/quality.h"
@@ -13,11 +14,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// The front point inside keeps this barycentric share from every side, where it can.
-constexpr double kInnerMargin = 0.08;
-/// It is drawn along the sheet by this share of an edge at most.
-constexpr double kGreatestDraw = 0.15;
 
 Vec3 blend(const std::array<Vec3, 4>& p, const std::array<double, 4>& weights) {
   return weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2] + weights[3] * p[3];

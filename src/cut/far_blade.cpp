@@ -7,25 +7,18 @@
 #include <array>
 #include <cmath>
 
+#include "cut/blade_constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
-/// Beyond the box parts are longer by this share of their distance from it.
-constexpr double kGrowth = 0.5;
-/// Halvings from a million bodies down to a box, of the three sides of a triangle in turn.
-constexpr unsigned kMostHalvings = 64;
-/// A step is halved at most so often, and has at most so many parts: a blade that slides through the body lengthwise
-/// by many of its sizes goes in longer ones.
-constexpr unsigned kMostDivisions = 40;
-constexpr std::size_t kMostFarParts = 256;
-
 /// Whether a triangle may meet a box; one that passes close by may count.
 bool may_meet(const std::array<Vec3, 3>& p, const Box& box, unsigned depth = 0) {
   const Box own{p[0].cwiseMin(p[1]).cwiseMin(p[2]), p[0].cwiseMax(p[1]).cwiseMax(p[2])};
   if (!own.overlaps(box)) return false;
-  if (depth == kMostHalvings || (own.hi - own.lo).maxCoeff() <= 0.25 * (box.hi - box.lo).maxCoeff()) return true;
+  if (depth == kMostBoxHalvings || (own.hi - own.lo).maxCoeff() <= 0.25 * (box.hi - box.lo).maxCoeff()) return true;
   unsigned longest = 0;
   for (unsigned k = 1; k < 3; ++k) {
     if ((p[(k + 1) % 3] - p[k]).squaredNorm() > (p[(longest + 1) % 3] - p[longest]).squaredNorm()) longest = k;
@@ -105,7 +98,7 @@ std::vector<double> graded_shares(const Vec3& from, const Vec3& to, double spaci
   double first = 0, last = 0;
   if (!(length > spacing) || !clip(from, way, near, first, last)) return {1.0};
   std::vector<double> before, shares;
-  const auto step = [&](double beyond) { return std::max(part, kGrowth * beyond); };
+  const auto step = [&](double beyond) { return std::max(part, kFarGrowth * beyond); };
   for (double at = first; at > 0; at -= step(first - at)) before.push_back(at);
   shares.assign(before.rbegin(), before.rend());
   const double count = std::ceil((last - first) / part);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "cut/blade_constants.h"
 #include "cut/old_children.h"
 #include "incise/geom/box.h"
 #include "incise/geom/quality.h"
@@ -16,22 +17,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// A front lies within so many spacings of the sheet across it, and so far behind the row that goes on from it.
-constexpr double kBeside = 0.1, kBehind = 0.3;
-/// Tets around a vertex that moves may get as bad as this.
-constexpr double kWorstLr = 25.0;
-/// A star keeps its volume but for rounding.
-constexpr double kVolumeTolerance = 1e-12;
-/// To that end a vertex gives way by this share of its way at most.
-constexpr double kMostAcross = 0.2;
-/// A blade that meets the skin at a smaller sine runs along it; skin is flat where its sides' sum has this share of
-/// their areas.
-constexpr double kLeastSlope = 0.1, kFlat = 0.99;
-/// Vertices whose neighbours have moved are tried again so often.
-constexpr unsigned kRounds = 6;
-/// A vertex this close to the blade is there, in spacings.
-constexpr double kThere = 1e-4;
 
 /// A place beside a blade that moves on.
 struct BladePlace {
@@ -55,7 +40,7 @@ class FrontCarrier {
 
   double run() {
     find();
-    for (unsigned round = 0; round < kRounds; ++round) {
+    for (unsigned round = 0; round < kCarryRounds; ++round) {
       bool has_moved = false;
       for (const VertexId vertex : front_) has_moved |= carry(vertex);
       if (!has_moved) break;
@@ -71,7 +56,7 @@ class FrontCarrier {
  private:
   /// The vertices of the front between where the blade was and where it is.
   void find() {
-    const Vec3 margin = Vec3::Constant(kBehind * spacing_);
+    const Vec3 margin = Vec3::Constant(kCarryBehind * spacing_);
     for (std::size_t c = 0; c + 1 < to_.size(); ++c) {
       Box box;
       for (const Vec3& p : {from_[c], from_[c + 1], to_[c], to_[c + 1]}) box.extend(p);
@@ -105,8 +90,9 @@ class FrontCarrier {
       const Vec3 ahead = normal.cross(best.along);
       best.behind = (on - x).dot(ahead);
       const double beside = std::abs((on - x).dot(normal)), past = std::abs((on - x).dot(best.along));
-      best.is_beside = best.behind > kThere * spacing_ && best.behind <= way.dot(ahead) + kBehind * spacing_ &&
-                       beside <= kBeside * spacing_ && past <= kThere * spacing_;
+      best.is_beside = best.behind > kCarriedThere * spacing_ &&
+                       best.behind <= way.dot(ahead) + kCarryBehind * spacing_ && beside <= kCarryBeside * spacing_ &&
+                       past <= kCarriedThere * spacing_;
     }
     return best;
   }
@@ -131,7 +117,7 @@ class FrontCarrier {
     const double volume6 = std::abs(way.dot(growth));
     double whole6 = 0;
     for (const TetId tet : star) whole6 += mesh_.rest_volume6(tet);
-    if (volume6 <= kVolumeTolerance * whole6) return way;
+    if (volume6 <= kCarriedVolume * whole6) return way;
     if (across.squaredNorm() > kMostAcross * kMostAcross * way.squaredNorm()) return std::nullopt;
     return way - across;
   }
@@ -153,7 +139,7 @@ class FrontCarrier {
         area += side.norm();
       }
     }
-    if (!(sum.norm() > kFlat * area)) return std::nullopt;
+    if (!(sum.norm() > kFlatSkin * area)) return std::nullopt;
     return sum.normalized();
   }
   bool carry(VertexId vertex) {
@@ -192,7 +178,7 @@ class FrontCarrier {
       before += signed_volume6(old[0], old[1], old[2], old[3]);
       after += signed_volume6(p[0], p[1], p[2], p[3]);
     }
-    return std::abs(after - before) <= 10 * kVolumeTolerance * before;
+    return std::abs(after - before) <= 10 * kCarriedVolume * before;
   }
   /// Whether tets that stand upright now stay so.
   [[nodiscard]] bool stands(VertexId vertex, const Vec3& moved, std::span<const TetId> star) const {

@@ -5,20 +5,14 @@
 
 #include <algorithm>
 
+#include "cut/blade_constants.h"
 #include "cut/twist.h"
 
 namespace incise {
 inline namespace v0 {
 
-namespace {
-
-/// The direction in which a front has come is that of its last so many spacings; it is known from half of that on.
-constexpr double kRope = 0.5;
-
-}  // namespace
-
 void FrontCourse::begin(std::span<const Vec3> row, double spacing) {
-  length_ = kRope * spacing;
+  length_ = kComeLength * spacing;
   towed_.assign(row.begin(), row.end());
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cut/constants.h"
 #include "cut/division.h"
 #include "cut/spacing.h"
 #include "cut/weights.h"
@@ -16,15 +17,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// The border of a sheet turns where its direction changes by more than this cosine tells.
-constexpr double kStraight = 0.94;
-/// A border that passes this close to an edge at the vertex that stands for the crossing is absorbed by it, where the
-/// face has no split edge: the line from there to the border runs along that edge.
-constexpr double kLeastOpen = 1e-6;
-/// Once the blade goes no further, points slide along the sheet by at most this share of the mean edge to keep off the
-/// edges of their face; what is lacking then they give way across the sheet, but at least the lesser share always.
-constexpr double kMostSlide = 0.03, kLeastMargin = 0.01;
 
 using Face = std::array<VertexId, 3>;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cut/closed_complex.h"
+#include "cut/constants.h"
 #include "cut/older_walls.h"
 #include "cut/strip.h"
 #include "cut/wake.h"
@@ -18,7 +19,8 @@ struct FrontRules {
   double margin = 0.15;  ///< barycentric share that points keep from every edge of their face: smaller ones make
                          ///< slivers, larger ones move the front off the blade
   double spacing = 0.0;  ///< the length of a typical edge of the mesh
-  double beside = 0.2;   ///< an older wall passes so far beside a border that lies in it, as a share of the local edge
+  double beside =
+      kBesideWall;  ///< an older wall passes so far beside a border that lies in it, as a share of the local edge
   const OlderWalls* older = nullptr;  ///< a border that lies in an older cut ends nothing; null: there is none
 };
 
@@ -41,10 +43,6 @@ std::uint64_t update_front_points(const TetMesh& mesh, const OwnSheet& sheet, st
 /// for each point.
 void place_front_points(const TetMesh& mesh, const OwnSheet& sheet, const Wake& wake, double margin,
                         ClosedComplex& complex);
-
-/// How far an older wall may pass beside a place of the sheet that counts as open already, as a share of the local
-/// edge before it was cut (`uncut_length`), with snapping and without; and how far short of that place its rim may end.
-inline constexpr double kBesideWall = 0.2, kBesideExactly = 0.02, kBeyondRim = 0.2;
 
 }  // namespace v0
 }  // namespace incise

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cut/blade_constants.h"
 #include "cut/contact_walk.h"
 #include "cut/far_blade.h"
 #include "cut/twist.h"
@@ -17,46 +18,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Points of the blade stand at most so many spacings apart.
-constexpr double kPointSpacing = 0.25;
-/// The way that the front has come is that of its last so many spacings, of all points within a spacing.
-constexpr double kComeLength = 0.5;
-constexpr std::size_t kNearPoints = 4;
-/// Segments of more parts than this are dense only near the body, if they leave its surroundings: so many of its
-/// diagonals.
-constexpr double kManyParts = 256, kSurroundings = 1.0;
-/// Segments within the surroundings have at most so many parts.
-constexpr double kMostBladeParts = 4096;
-/// The front follows in steps of so many spacings of material; once the blade goes no further, of so many.
-constexpr double kLeastStep = 0.1, kLeastLastStep = 1e-3;
-/// A blade cuts on where it is ahead of the tip by this share of how far it is beside it.
-constexpr double kCone = 0.5;
-/// A blade that has left the body cuts on to where it is once it is so many spacings ahead.
-constexpr double kExitLead = 0.3;
-/// What the map of a tet says of a place outside it counts within so many spacings of what is expected.
-constexpr double kTrust = 1.0;
-/// A place so many spacings from the wall of a cut lies in it: in the plane of a wall, rounding decides what is inside.
-constexpr double kInCut = 0.02;
-/// Material stretches no more than this between the tip and the blade.
-constexpr double kGreatestStretch = 1.5;
-/// A point that is so many spacings from the tet that it left the body by goes with its neighbours, as before it
-/// entered: what that tet says of its place counts no more.
-constexpr double kAway = 1.0;
-/// A point that has left the body goes on by at most so many spacings to be outside of it at rest, too.
-constexpr double kFurther = 1.5;
-/// Points outside stay so many spacings off the surface at least. Those that are off by so many from where it has them
-/// are drawn there, by so many a step: less would only make the strip uneven.
-constexpr double kBeside = 0.02, kOff = 0.3, kDraw = 0.1;
-/// A walk from tet to tet gives up after so many.
-constexpr unsigned kMostTets = 256;
-/// A point that is outside while its front is in the way of the body waits until it is so many spacings on: longer, and
-/// it would leave a thread of tissue behind.
-constexpr double kWaits = 1.0;
-/// The nearest surface is looked for within so many spacings.
-constexpr double kReach = 32.0;
-/// Rounds of drawing nearer to the tet that a point belongs to.
-constexpr unsigned kMostRounds = 6;
 
 using Corners = std::array<Vec3, 4>;
 
@@ -118,7 +79,7 @@ Vec3 to_rest(const TetMesh& mesh, TetId tet, const Vec3& x, bool& is_possible) {
 /// Walks through tets as they stand towards a place; the tet that holds it, or none where the walk leaves the body.
 TetId walk_to(const TetMesh& mesh, TetId from, const Vec3& x) {
   TetId tet = from, before;
-  for (unsigned count = 0; count < kMostTets && tet.is_valid() && mesh.is_live(tet); ++count) {
+  for (unsigned count = 0; count < kMostWalkedTets && tet.is_valid() && mesh.is_live(tet); ++count) {
     std::array<double, 4> weights{};
     if (!weights_in(current_of(mesh, tet), x, weights)) return {};
     std::array<unsigned, 4> order = {0, 1, 2, 3};
@@ -159,7 +120,7 @@ struct NearestMap {
 
 /// The boundary side nearest to a rest point, and its nearest point.
 Side nearest_side(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& rest, double spacing, Vec3& place) {
-  const SurfaceIndex::Nearest nearest = surface.nearest(mesh, rest, kReach * spacing);
+  const SurfaceIndex::Nearest nearest = surface.nearest(mesh, rest, kSurfaceReach * spacing);
   place = nearest.point;
   return nearest.side;
 }
@@ -233,7 +194,7 @@ void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point
   point.is_mapped = false;
   NearestMap nearest;
   bool is_settled = false;
-  for (unsigned round = 0; round < kMostRounds && !is_settled; ++round) {
+  for (unsigned round = 0; round < kMostNearingRounds && !is_settled; ++round) {
     if (point.hint.is_valid() && mesh.is_live(point.hint)) {
       bool is_possible = false;
       const Vec3 mapped = to_rest(mesh, point.hint, point.world, is_possible);
@@ -285,7 +246,7 @@ void MaterialBlade::find_tip(const TetMesh& mesh, const ClosedComplex& complex, 
       point.direction = (taken(rest, current, ahead) - point.tip).normalized();
     }
   }
-  if (beyond > kAway * spacing_) {
+  if (beyond > kAwayFromExit * spacing_) {
     point.master = Master::kNone;
     point.has_entered = false;
   }
@@ -326,7 +287,7 @@ void MaterialBlade::tow(const TetMesh& mesh, std::size_t point, const Vec3& step
   Point& p = points_[point];
   const double length = kComeLength * spacing_;
   if (!p.has_entered) {
-    const Vec3 motion = shortened(p.world - p.before, kLeastStep * spacing_);
+    const Vec3 motion = shortened(p.world - p.before, kLeastMaterialStep * spacing_);
     bool is_possible = false;
     const Vec3 come = p.candidate - to_rest(mesh, p.tet, p.world - motion, is_possible);
     const Vec3& way = is_possible && come.squaredNorm() > 0 ? come : step;
@@ -339,7 +300,7 @@ void MaterialBlade::tow(const TetMesh& mesh, std::size_t point, const Vec3& step
 
 /// Whether the front follows a point of the blade that is so far away in the rest shape.
 bool MaterialBlade::is_due(double step) const {
-  const bool is_long = step >= kLeastStep * spacing_;
+  const bool is_long = step >= kLeastMaterialStep * spacing_;
   return is_last_ ? !is_long && step >= kLeastLastStep * spacing_ : is_long;
 }
 
@@ -355,7 +316,7 @@ bool MaterialBlade::is_behind_others(std::size_t i) const {
   if (leader == nullptr || leader->direction.isZero(0.0)) return false;
   const Vec3 way = point.world - leader->tip, across = way - way.dot(point.along) * point.along;
   const double lead = across.dot(leader->direction), beside = (across - lead * leader->direction).norm();
-  return lead < kCone * beside - kLeastStep * spacing_;
+  return lead < kCone * beside - kLeastMaterialStep * spacing_;
 }
 
 void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, std::size_t i) {
@@ -386,7 +347,7 @@ void MaterialBlade::judge(const TetMesh& mesh, const SurfaceIndex& surface, std:
   const Vec3 straight = point.candidate;
   point.is_accepted =
       was_inside ? push_out(mesh, surface, anchor, point.candidate) : keep_out(mesh, surface, anchor, point.candidate);
-  if (!point.is_accepted && point.lead > kWaits * spacing_) {
+  if (!point.is_accepted && point.lead > kWaitsOutside * spacing_) {
     point.candidate = straight;
     point.is_accepted = keep_out(mesh, surface, anchor, point.candidate, true);
   }
@@ -405,7 +366,7 @@ bool MaterialBlade::lies_in_cut(const TetMesh& mesh, const SurfaceIndex& surface
 bool MaterialBlade::push_out(const TetMesh& mesh, const SurfaceIndex& surface, const Vec3& from, Vec3& rest) {
   const Vec3 way = rest - from;
   for (const double reach : {1.0, 1.5, 2.0, 3.0, 5.0}) {
-    if ((reach - 1) * way.norm() > kFurther * spacing_) return false;
+    if ((reach - 1) * way.norm() > kFurtherOut * spacing_) return false;
     const Vec3 place = from + reach * way;
     const bool is_inside = incise::locate(mesh, surface, {place, next_key_++}).is_valid();
     if (is_inside && !lies_in_cut(mesh, surface, place)) continue;
@@ -428,7 +389,7 @@ bool MaterialBlade::keep_out(const TetMesh& mesh, const SurfaceIndex& surface, c
     if (side.value == kInvalidIndex) return false;
     const auto v = mesh.vertices(side);
     const Vec3 normal = (mesh.rest(v[1]) - mesh.rest(v[0])).cross(mesh.rest(v[2]) - mesh.rest(v[0])).normalized();
-    place = near + kBeside * spacing_ * normal;
+    place = near + kOffSurface * spacing_ * normal;
   }
   if (!has_passed && (place - from).norm() > kTrust * spacing_ && !is_clear(mesh, surface, from, place)) return false;
   rest = place;
@@ -471,7 +432,7 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
     const std::size_t leader = leader_of(i);
     const bool is_free = leader == points_.size();
     if (!is_free && !points_[leader].is_accepted) continue;
-    const double most = kGreatestStretch * (point.world - point.reached).norm() + kLeastStep * spacing_;
+    const double most = kGreatestStretch * (point.world - point.reached).norm() + kLeastMaterialStep * spacing_;
     Vec3 rest = anchors_[i] + shortened(point.candidate - anchors_[i], most);
     if (!is_free) {
       Vec3 with = anchors_[i] + shortened(points_[leader].candidate - anchors_[leader], most);
@@ -480,8 +441,8 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
       const Vec3 mapped = tet.is_valid() ? to_rest(mesh, tet, point.world, is_possible) : with;
       if (is_possible && (mapped - with).norm() <= kTrust * spacing_) with = mapped;
       const Vec3 off = point.candidate - with;
-      const bool is_off = point.is_mapped && off.norm() > kOff * spacing_;
-      rest = is_off ? Vec3(with + shortened(off, kDraw * spacing_)) : with;
+      const bool is_off = point.is_mapped && off.norm() > kDrawnFrom * spacing_;
+      rest = is_off ? Vec3(with + shortened(off, kDrawnBy * spacing_)) : with;
     }
     const Vec3& inner = anchors_[is_free ? points_.size() / 2 : leader];
     Vec3 round = rest;
@@ -491,7 +452,7 @@ void MaterialBlade::follow_entered(const TetMesh& mesh, const SurfaceIndex& surf
       point.is_accepted = true;
       rest = round;
     }
-    if (!point.is_accepted && (straight - anchors_[i]).norm() > kWaits * spacing_) {
+    if (!point.is_accepted && (straight - anchors_[i]).norm() > kWaitsOutside * spacing_) {
       rest = straight;
       point.is_accepted = keep_out(mesh, surface, anchors_[i], rest, true);
     }

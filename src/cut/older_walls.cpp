@@ -5,17 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cut/constants.h"
 #include "incise/geom/closest.h"
 
 namespace incise {
 inline namespace v0 {
-
-namespace {
-
-/// A wall whose normal has this cosine with the sheet's runs along it. Fronts are crooked: 0.9 misses their facets.
-constexpr double kAlongOlder = 0.5;
-
-}  // namespace
 
 bool is_inside_master(const ClosedComplex& complex, Side wall) {
   const std::uint32_t index = complex.find(wall.tet());
@@ -47,7 +41,7 @@ bool OlderWalls::pass(const Vec3& place, const Vec3& normal, double beside, doub
     const Vec3 &a = mesh_.rest(v[0]), &b = mesh_.rest(v[1]), &c = mesh_.rest(v[2]);
     const Vec3 area = (b - a).cross(c - a);
     const double length = area.norm(), cosine = area.dot(n);
-    if (!(std::abs(cosine) > kAlongOlder * length)) return;
+    if (!(std::abs(cosine) > kRunsAlongOlder * length)) return;
     if (std::abs(area.dot(place - a)) > 1.001 * reach * length) return;  // off its plane: a cheap bound of `across`
     const Vec3 way = place - closest_on_triangle(place, a, b, c).point;
     const double across = way.dot(area) / length;

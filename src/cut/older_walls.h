@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cut/closed_complex.h"
+#include "cut/constants.h"
 #include "cut/surface_index.h"
 
 namespace incise {
@@ -33,12 +34,9 @@ class OlderWalls {
   [[nodiscard]] bool meet(const Vec3& from, const Vec3& to) const { return first_met(from, to) <= 1.0; }
   /// Where it meets the first one, at an angle of `least_sine` or more: the share of the way; above 1 where it meets
   /// none. Cost: the same.
-  [[nodiscard]] double first_met(const Vec3& from, const Vec3& to, double least_sine = kAcross) const;
+  [[nodiscard]] double first_met(const Vec3& from, const Vec3& to, double least_sine = kAcrossWallSine) const;
 
  private:
-  /// A segment meets a wall at an angle of which this is the sine at least: in its plane, rounding would decide.
-  static constexpr double kAcross = 0.1;
-
   const TetMesh& mesh_;
   const SurfaceIndex& surface_;
   const ClosedComplex& complex_;

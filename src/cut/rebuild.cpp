@@ -4,19 +4,12 @@
 // faces takes another master in, the pipeline leads that one through the stages behind it.
 #include "cut/rebuild.h"
 
+#include "cut/constants.h"
 #include "cut/master_links.h"
 #include "cut/master_vertices.h"
 
 namespace incise {
 inline namespace v0 {
-
-namespace {
-
-/// Closing a face may pinch another edge. Rounds beyond are not worth their time: what is pinched by then is opened as
-/// it is.
-constexpr unsigned kMaxPinchRounds = 64;
-
-}  // namespace
 
 class Rebuild::Run {
  public:

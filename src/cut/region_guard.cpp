@@ -8,23 +8,13 @@
 #include <string>
 #include <utility>
 
+#include "cut/blade_constants.h"
 #include "incise/geom/box.h"
 #include "incise/geom/triangle_tree.h"
 
 namespace incise {
 inline namespace v0 {
 namespace {
-
-// All of the mean edge of the regions' surface.
-constexpr double kMargin = 0.4;   // that the edge keeps: more than snapping, which would take the surface into the cut
-constexpr double kDivide = 0.5;   // between points of the edge
-constexpr double kSample = 0.15;  // between places where the edge is looked at
-constexpr double kRow = 0.125;    // between poses: no region is passed through, nor swept between two of them
-constexpr double kAround = 3;     // of the surface beside the blade's way that is looked at
-constexpr double kLeastLeft = 0.5;  // of the edge, from one pose to the next: else it lies flat on the region
-constexpr int kHalvings = 10;       // to find where the edge would enter
-constexpr std::size_t kMostPoints = 512;
-constexpr double kMostRows = 10000;
 
 bool is_among(const std::vector<std::int32_t>& regions, std::int32_t region) {
   return std::find(regions.begin(), regions.end(), region) != regions.end();
@@ -131,8 +121,8 @@ Result<std::vector<Vec3>> RegionGuard::begin(const TetMesh& mesh, std::span<cons
   places_.clear();
   points_.clear();
   for (std::uint32_t s = 0; s + 1 < edge.size(); ++s) {
-    const double parts = spacing_ > 0 ? (edge[s + 1] - edge[s]).norm() / (kDivide * spacing_) : 1;
-    const double most = static_cast<double>(std::max<std::size_t>(1, kMostPoints / edge.size()));
+    const double parts = spacing_ > 0 ? (edge[s + 1] - edge[s]).norm() / (kGuardPoints * spacing_) : 1;
+    const double most = static_cast<double>(std::max<std::size_t>(1, kMostGuardPoints / edge.size()));
     const double count = std::clamp(std::ceil(parts), 1.0, most);
     for (double k = 0; k < count; k += 1) places_.push_back({s, k / count});
   }
@@ -140,8 +130,8 @@ Result<std::vector<Vec3>> RegionGuard::begin(const TetMesh& mesh, std::span<cons
   std::vector<Vec3> points = divided(edge);
   Box near;
   for (const Vec3& p : points) near.extend(p);
-  near.lo -= Vec3::Constant(kAround * spacing_);
-  near.hi += Vec3::Constant(kAround * spacing_);
+  near.lo -= Vec3::Constant(kGuardAround * spacing_);
+  near.hi += Vec3::Constant(kGuardAround * spacing_);
   const Surface surface(mesh, regions_, shape_, near);
   for (std::size_t i = 0; i < points.size() && spacing_ > 0; ++i) {
     if (i == 0 ? is_out(surface, points[0]) : is_clear(surface, points[i - 1], points[i])) continue;
@@ -159,18 +149,18 @@ RegionGuard::Surface RegionGuard::surface_near(const TetMesh& mesh, const std::v
   for (const std::vector<Vec3>* points : {&goals, &goals_, &points_}) {
     for (const Vec3& p : *points) near.extend(p);
   }
-  near.lo -= Vec3::Constant(kAround * spacing_);
-  near.hi += Vec3::Constant(kAround * spacing_);
+  near.lo -= Vec3::Constant(kGuardAround * spacing_);
+  near.hi += Vec3::Constant(kGuardAround * spacing_);
   return {mesh, regions_, shape_, near};
 }
 
 bool RegionGuard::is_out(const Surface& surface, const Vec3& point) const {
-  return surface.put_out(point, kMargin * spacing_, kAround * spacing_) == point;
+  return surface.put_out(point, kGuardMargin * spacing_, kGuardAround * spacing_) == point;
 }
 
 /// Whether all of the edge between two points is outside; the first is.
 bool RegionGuard::is_clear(const Surface& surface, const Vec3& a, const Vec3& b) const {
-  const double parts = std::ceil((b - a).norm() / (kSample * spacing_));
+  const double parts = std::ceil((b - a).norm() / (kGuardSample * spacing_));
   for (double k = 1; k < parts; k += 1) {
     if (!is_out(surface, a + k / parts * (b - a))) return false;
   }
@@ -180,7 +170,7 @@ bool RegionGuard::is_clear(const Surface& surface, const Vec3& a, const Vec3& b)
 /// How far towards `b` the edge from `a`, which is outside, may reach.
 Vec3 RegionGuard::reach(const Surface& surface, const Vec3& a, const Vec3& b) const {
   double clear = 0, blocked = 1;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kGuardHalvings; ++i) {
     const double half = 0.5 * (clear + blocked);
     (is_clear(surface, a, a + half * (b - a)) ? clear : blocked) = half;
   }
@@ -230,7 +220,7 @@ void RegionGuard::step(const Surface& surface, const std::vector<Vec3>& goals) {
 bool RegionGuard::is_way_clear(const Surface& surface, const std::vector<Vec3>& next) const {
   double way = 0;
   for (std::size_t i = 0; i < next.size(); ++i) way = std::max(way, (next[i] - points_[i]).norm());
-  const double parts = std::ceil(way / (kRow * spacing_));
+  const double parts = std::ceil(way / (kGuardRow * spacing_));
   for (double k = 1; k < parts; k += 1) {
     Vec3 before = points_[0] + k / parts * (next[0] - points_[0]);
     if (!is_out(surface, before)) return false;
@@ -250,7 +240,7 @@ std::vector<Vec3> RegionGuard::move(const TetMesh& mesh, std::span<const Vec3> e
   const std::vector<Vec3> from = goals_;
   double way = 0;
   for (std::size_t i = 0; i < goals.size(); ++i) way = std::max(way, (goals[i] - from[i]).norm());
-  const double parts = std::clamp(std::ceil(way / (kRow * spacing_)), 1.0, kMostRows);
+  const double parts = std::clamp(std::ceil(way / (kGuardRow * spacing_)), 1.0, kMostGuardRows);
   for (double k = 1; k <= parts; k += 1) {
     std::vector<Vec3> between = goals;
     for (std::size_t i = 0; i < goals.size() && k < parts; ++i) between[i] = from[i] + k / parts * (goals[i] - from[i]);
@@ -267,7 +257,7 @@ Result<Stroke> hold_outside(const TetMesh& mesh, const Stroke& stroke, const std
     const std::string name = stroke.name.empty() ? "" : "stroke \"" + stroke.name + "\": ";
     return Error{first.error().code, name + first.error().message};
   }
-  const double row = kRow * mean_edge(mesh, regions);
+  const double row = kGuardRow * mean_edge(mesh, regions);
   if (!(row > 0)) return stroke;
   Stroke held;
   held.name = stroke.name;
@@ -277,7 +267,7 @@ Result<Stroke> hold_outside(const TetMesh& mesh, const Stroke& stroke, const std
     const std::vector<Vec3>&from = stroke.edges[k - 1], &to = stroke.edges[k];
     double way = 0;
     for (std::size_t i = 0; i < from.size(); ++i) way = std::max(way, (to[i] - from[i]).norm());
-    const double rows = std::clamp(std::ceil(way / row), 1.0, kMostRows);
+    const double rows = std::clamp(std::ceil(way / row), 1.0, kMostGuardRows);
     const std::size_t before = held.times.size();
     bool is_held = guard.holds();
     for (double r = 1; r <= rows; r += 1) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "cut/constants.h"
 #include "cut/old_children.h"
 #include "incise/geom/quality.h"
 #include "incise/mesh/star.h"
@@ -14,11 +15,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// A vertex is looked for this share of the way to the middle of a tet that it had: on its own side of a wall.
-constexpr double kInwards = 0.02;
-/// A place that would have a weight below this in a tet is sampled in it as it was before anything moved.
-constexpr double kLeastWeight = -2.0;
 
 class Reversal {
  public:
@@ -112,7 +108,7 @@ class Reversal {
   /// The present tet that holds a vertex that comes back.
   [[nodiscard]] std::uint32_t holder_of(const Back& back) const {
     const Vec3& place = back.image->rest;
-    const Vec3 inwards = back.volume6 > 0 ? Vec3(place + kInwards * (back.middle - place)) : place;
+    const Vec3 inwards = back.volume6 > 0 ? Vec3(place + kReversalInwards * (back.middle - place)) : place;
     return present_.holding(inwards, 0, present_.size());
   }
   void restore_places(Transaction& transaction) {
@@ -131,11 +127,11 @@ class Reversal {
     const Vec3& rest = back.image->rest;
     const std::uint32_t holder = stars_.holding(rest, back.first, back.last);
     MaterialPlace place = place_in(mesh_, stars_.id(holder), rest);
-    for (std::size_t i = back.first; i < back.last && !(place.inside > kLeastWeight); ++i) {
+    for (std::size_t i = back.first; i < back.last && !(place.inside > kLeastSampledWeight); ++i) {
       const MaterialPlace other = place_in(mesh_, stars_.id(static_cast<std::uint32_t>(i)), rest);
       if (!(place.inside >= other.inside)) place = other;
     }
-    if (!(place.inside > kLeastWeight)) place = stars_.place_in(holder, rest);
+    if (!(place.inside > kLeastSampledWeight)) place = stars_.place_in(holder, rest);
     transaction.move(back.image->id, rest, place.basis, place.weights);
   }
   /// Of the tets that give way the one in which the middle of another one lies.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "cut/constants.h"
 #include "cut/sweep.h"
 #include "incise/mesh/tet_mesh.h"
 
@@ -60,11 +61,10 @@ std::optional<double> find_between(const TetMesh& mesh, const Sheet& sheet, Vert
 /// `is_near(place, distance)` tells.
 template <class IsNear>
 bool is_graze(const Vec3& from, const Vec3& normal_from, const Vec3& to, const Vec3& normal_to, IsNear&& is_near) {
-  constexpr double kChordShare = 0.1;  // a chord that stays this share of its length away is as good as on the sheet
   const Vec3 chord = to - from;
   if (!(normal_from.dot(normal_to) > 0)) return false;
   if ((chord.dot(normal_from) > 0) != (chord.dot(normal_to) > 0)) return true;
-  return is_near(Vec3(0.5 * (from + to)), kChordShare * chord.norm());
+  return is_near(Vec3(0.5 * (from + to)), kGrazeChord * chord.norm());
 }
 
 namespace detail {

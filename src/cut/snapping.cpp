@@ -11,6 +11,7 @@
 #include "cut/old_children.h"
 #include "cut/parity.h"
 #include "cut/spacing.h"
+#include "geom/constants.h"
 #include "incise/geom/quality.h"
 
 namespace incise {
@@ -113,11 +114,8 @@ struct Constraint {
   Vec3 first = Vec3::Zero(), second = Vec3::Zero();  ///< unit normals
 };
 
-/// Normals this close are one plane; a vertex that slides in it changes no volume beyond rounding.
-constexpr double kFlat = 1e-9;
-
 void add_plane(Constraint& constraint, const Vec3& normal) {
-  const auto is_same = [&](const Vec3& n) { return n.cross(normal).squaredNorm() <= kFlat * kFlat; };
+  const auto is_same = [&](const Vec3& n) { return n.cross(normal).squaredNorm() <= kOnePlane * kOnePlane; };
   if (constraint.planes >= 1 && is_same(constraint.first)) return;
   if (constraint.planes >= 2 && is_same(constraint.second)) return;
   if (constraint.planes == 0) constraint.first = normal;
@@ -231,16 +229,6 @@ struct Candidate {
   }
 };
 
-/// It reaches less far for vertices of skin that cannot be moved onto the sheet, since the wall then bends to them. Not
-/// so for those of older walls: where cuts cross, what lies between them and the sheet would be splinters.
-constexpr double kBentReach = 0.5;
-/// A wall whose normal has this cosine with the sheet's lies along it; older walls are crooked at their fronts.
-constexpr double kAlong = 0.9, kAlongOlder = 0.8;
-/// Older walls attract within this share of the spacing at least, whatever the snapping distance: without snapping
-/// those that the sheet goes on from, at less than 8 degrees, since where planes cross the pieces are to be exact. With
-/// it, those at less than 8 degrees attract from so many times as far: strokes of a hand that wanders by a tenth of the
-/// body's mean edge to either side are one, also where edges are shorter than that. More, and thin slices are not cut.
-constexpr double kLeastOlderReach = 0.02, kAlongExactly = 0.99, kParallelReach = 1.15;
 /// Whether the places of two neighbours on the sheet belong to one smooth part of it: not to two layers.
 bool is_on_same_part(const OnVertex& on, const Vec3& place, const Vec3& normal) {
   return on.normal.dot(normal) > 0.3 && std::abs(on.normal.dot(place - on.target)) <= 0.3 * on.spacing;
@@ -339,7 +327,7 @@ class CloseVertices {
   [[nodiscard]] bool is_on_older_cut(const OnVertex& on, std::span<const std::uint32_t> star) const {
     const double reach = older_reach() * uncut_length(on.spacing, rules_.spacing);
     if (on.distance > std::max(reach, parallel_reach() * rules_.spacing)) return false;
-    return lies_along(on, star, 1, snap_ > 0 && on.distance <= reach ? kAlongOlder : kAlongExactly);
+    return lies_along(on, star, 1, snap_ > 0 && on.distance <= reach ? kSnapAlongOlder : kAlongExactly);
   }
   [[nodiscard]] bool passed_around(std::span<const std::uint32_t> star) const {
     return std::none_of(star.begin(), star.end(), [&](std::uint32_t m) { return has_odd_face(complex_[m].flagged); });
@@ -358,7 +346,7 @@ class CloseVertices {
   }
   /// Whether a surface at a vertex lies along the sheet: one with a tag of at least `least_tag`, so 1 leaves out skin.
   [[nodiscard]] bool lies_along(const OnVertex& on, std::span<const std::uint32_t> star, std::uint32_t least_tag,
-                                double cosine = kAlong) const {
+                                double cosine = kSnapAlong) const {
     bool lies_along = false;
     for_each_surface(mesh_, complex_, on.vertex, star, [&](const Vec3& normal, std::uint32_t tag) {
       lies_along |= tag != kBorder && tag >= least_tag && std::abs(normal.dot(on.normal)) > cosine;
@@ -460,9 +448,6 @@ double volume6(const std::array<Vec3, 4>& p) {
   return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
 }
 
-/// A move changes the volume of a star by rounding alone, or not at all: overlapping input tets would not obey.
-constexpr double kVolumeTolerance = 1e-11;
-
 /// The live tets around a closed vertex, on all sides of the cut.
 void gather_star(const TetMesh& mesh, ClosedComplex& complex, std::uint32_t master, VertexId vertex,
                  std::vector<TetId>& star) {
@@ -491,7 +476,7 @@ bool keeps_volumes(const TetMesh& mesh, const ClosedComplex& complex, VertexId v
     before += old_volume;
     after += volume;
   }
-  return std::abs(after - before) <= kVolumeTolerance * before;
+  return std::abs(after - before) <= kSnappedVolume * before;
 }
 
 /// A rest point in the coordinates of the tet around one copy of a vertex that holds it best.

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 
+#include "cut/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Uncut tets tell how long edges were before cuts where they are at least this share of those looked at.
-constexpr double kUncutShare = 0.125;
 
 /// Some edges, and how long they are together.
 struct Edges {

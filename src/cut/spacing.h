@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cut/constants.h"
 #include "incise/mesh/tet_mesh.h"
 
 namespace incise {
@@ -21,7 +22,6 @@ double uncut_volume(const TetMesh& mesh);
 /// How long edges around a place may have been before cuts made them `length` long, in a mesh whose typical edge before
 /// it was cut is `spacing` long: that, but by a factor of 8 longer at most, for a mesh may be finer in places.
 [[nodiscard]] inline double uncut_length(double length, double spacing) {
-  constexpr double kMostShortened = 8.0;
   return std::max(length, std::min(spacing, kMostShortened * length));
 }
 

@@ -5,15 +5,10 @@
 
 #include <algorithm>
 
+#include "cut/constants.h"
+
 namespace incise {
 inline namespace v0 {
-
-namespace {
-
-/// Material stands where a vertex does within this share of a tet's size: the rounding of interpolation.
-constexpr double kSamePlace = 1e-9;
-
-}  // namespace
 
 void StarParts::find_parts(const TetMesh& mesh, std::vector<StarTet>& star) {
   for (std::uint32_t i = 0; i < star.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cut/constants.h"
 #include "cut/parity.h"
 #include "cut/pinched_edges.h"
 #include "cut/spacing.h"
@@ -19,23 +20,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Split points keep this share of their edge on either side, where snapping is on.
-constexpr double kSplitClamp = 0.02;
-/// Two crossings of one edge closer than this share of it are one graze, not two sheets.
-constexpr double kGrazeShare = 0.02;
-/// The margin of front points once the blade has stopped: nothing has to be simulated beside them until they are
-/// maintained.
-constexpr double kFinalMargin = 0.04;
-/// What lies further behind the front than so many spacings is settled, at rest and in a body that moves: less than
-/// that, and a blade that trembles would come back to it.
-constexpr double kBand = 0.5, kMovingBand = 1.0;
-/// What is crossed at most this share of an edge beyond the rim of an older cut, where the sheet ends there, is let go.
-constexpr double kLetGo = 0.3;
-/// Two crossings of an edge within so many spacings of travel are a corner of the blade's way: the cut passes it by.
-constexpr double kCorner = 1.5;
-/// An edge crossed twice is bisected at most so often.
-constexpr unsigned kMaxBisectionRounds = 8;
 
 /// Whether an edge of the complex is one of a side of a master.
 bool has_edge(const Master& master, unsigned side, std::uint32_t edge) {
@@ -419,7 +403,7 @@ bool StrokeCut::crosses_own_cut(const CutContext& context, const Strip& strip, d
   return std::any_of(crossed_->begin(), crossed_->end(), [&](const StripCrossing& crossing) {
     const ClosedEdge& edge = complex_.edges()[crossing.edge];
     if (crossing.count % 2 == 0 || !edge.is_crossed || std::abs(crossing.t - edge.t) < least_apart ||
-        sheet_.travel() - edge.travel < kCorner * spacing_) {
+        sheet_.travel() - edge.travel < kCornerTravel * spacing_) {
       return false;
     }
     bool is_done = true;

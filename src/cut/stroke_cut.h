@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cut/closed_complex.h"
+#include "cut/constants.h"
 #include "cut/contact_walk.h"
 #include "cut/cut_context.h"
 #include "cut/front_points.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cut/constants.h"
 #include "incise/geom/closest.h"
 #include "incise/mesh/bounds.h"
 
@@ -14,13 +15,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-constexpr double kMaxCells = 4e6, kMostAlong = 6e4;
-/// A cell is so many mean edges of the surface wide.
-constexpr double kCellEdges = 2.0;
-/// The grid is built anew, with cells for the edges of then, once it lists so many times the sides of when it was
-/// built, and so many more: cuts add ten times as many, and each search of a cell looks at all of its sides.
-constexpr std::size_t kGrown = 4, kGrownBy = 1000;
 
 Box box_of(const TetMesh& mesh, Side side) {
   const auto v = mesh.vertices(side);
@@ -95,7 +89,7 @@ void SurfaceIndex::build(const TetMesh& mesh) {
   double size = kCellEdges * length / static_cast<double>(sides.size());
   size = std::max(size, 1e-6 * extent.maxCoeff());
   const auto cells_at = [&](double s) { return (extent.x() / s + 1) * (extent.y() / s + 1) * (extent.z() / s + 1); };
-  while (cells_at(size) > kMaxCells || extent.maxCoeff() / size > kMostAlong) size *= 1.25;
+  while (cells_at(size) > kMostIndexCells || extent.maxCoeff() / size > kMostIndexAlong) size *= 1.25;
   inverse_size_ = size > 0 ? 1.0 / size : 0.0;  // where all points coincide there is one cell
   for (int k = 0; k < 3; ++k) {
     counts_[static_cast<std::size_t>(k)] = static_cast<std::uint16_t>(extent[k] * inverse_size_ + 1);
@@ -159,17 +153,16 @@ Box SurfaceIndex::room_of(const Cell& cell) const {
 /// Cell by cell outwards. A side lies in all cells that it is listed in, so that cells which lie further away than the
 /// nearest so far need no look; next to their bounds rounding decides, which a margin makes up for.
 SurfaceIndex::Nearest SurfaceIndex::nearest(const TetMesh& mesh, const Vec3& place, double most) const {
-  constexpr double kRounding = 1e-9;
   Nearest best;
   if (heads_.empty()) return best;
-  const double size = 1.0 / inverse_size_, margin = kRounding * (size + place.cwiseAbs().maxCoeff());
+  const double size = 1.0 / inverse_size_, margin = kCellRounding * (size + place.cwiseAbs().maxCoeff());
   double least = most * most;
   const auto visit = [&](Side side) {
     if (side == best.side) return;
     const auto v = mesh.vertices(side);
     const Vec3 &a = mesh.rest(v[0]), &b = mesh.rest(v[1]), &c = mesh.rest(v[2]);
     const Box box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-    if (box.distance2(place) > (1 + kRounding) * least) return;  // most need no closer look
+    if (box.distance2(place) > (1 + kCellRounding) * least) return;  // most need no closer look
     const ClosestPoint near = closest_on_triangle(place, a, b, c);
     if (near.distance2 > least || (near.distance2 == least && best.side < side)) return;
     least = near.distance2;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "cut/constants.h"
 #include "incise/core/grow_array.h"
 #include "incise/geom/box.h"
 #include "incise/geom/intersect.h"
@@ -263,10 +264,9 @@ void SurfaceIndex::for_each_in_shell(const Cell& middle, std::uint16_t away, Vis
 template <class Visit>
 void for_each_side_near(const TetMesh& mesh, const SurfaceIndex& index, const std::array<Vec3, 3>& p, Visit&& visit,
                         unsigned depth = 0) {
-  constexpr unsigned kMaxHalvings = 100;  // from a million bodies down to a cell takes 60
   const Box box{p[0].cwiseMin(p[1]).cwiseMin(p[2]), p[0].cwiseMax(p[1]).cwiseMax(p[2])};
   if (!index.is_near(box)) return;
-  if (depth == kMaxHalvings || index.is_small(box)) {
+  if (depth == kMostCellHalvings || index.is_small(box)) {
     index.for_each_near(mesh, box, visit);
     return;
   }

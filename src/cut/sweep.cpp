@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "cut/blade_constants.h"
 #include "incise/geom/closest.h"
 #include "incise/geom/intersect.h"
 
@@ -66,9 +67,6 @@ class PointGrid {
   std::vector<std::vector<std::uint32_t>> index_;
   bool is_closed_ = false;
 };
-
-/// A triangle that is thinner than this share of its length has no normal of its own: it closes a seam.
-constexpr double kSeamShare = 1e-9;
 
 using Corners = std::array<SosPoint, 3>;
 
@@ -198,13 +196,12 @@ bool meet(const Corners& a, const Corners& b, double slit) {
 /// Whether one triangle laps over another one: a place a little inside one of its corners, or of the middles of its
 /// edges, lies within `slit` of the other, but for what they share.
 bool laps(const Corners& a, const Corners& b, double slit) {
-  constexpr double kInset = 0.05;  // one that ends where the other begins does not lap over it
   const auto is_shared = [&](const SosPoint& p) {
     return std::any_of(b.begin(), b.end(), [&](const SosPoint& q) { return p.key == q.key; });
   };
   const Vec3 centre = (a[0].position + a[1].position + a[2].position) / 3.0;
   const auto is_on = [&](const Vec3& p) {
-    const Vec3 place = p + kInset * (centre - p);
+    const Vec3 place = p + kLapInset * (centre - p);
     return closest_on_triangle(place, b[0].position, b[1].position, b[2].position).distance2 <= slit * slit;
   };
   bool does_lap = false;

@@ -8,16 +8,12 @@
 #include <optional>
 #include <utility>
 
+#include "cut/blade_constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// The point that a segment turns about moves less than this share of what its ends do.
-constexpr double kPivotShare = 0.5;
-
-/// One that moves by less than this share of the tolerance does so by rounding alone.
-constexpr double kHolds = 1e-8;
 
 /// How far the middle of the ruled surface between two segments lies off the diagonal of its two triangles.
 double twist_of(const Vec3& a, const Vec3& b, const Vec3& d, const Vec3& e) {
@@ -78,7 +74,7 @@ Shares where_twisted(std::span<const Vec3> from, std::span<const Vec3> to, doubl
   Shares parts;
   for (std::size_t c = 0; c + 1 < from.size(); ++c) {
     const double twist = twist_of(from[c], from[c + 1], to[c], to[c + 1]);
-    parts.push_back(even_shares(std::clamp(std::ceil(twist / tolerance), 1.0, EdgeDivision::kMostParts)));
+    parts.push_back(even_shares(std::clamp(std::ceil(twist / tolerance), 1.0, kMostTwistParts)));
   }
   return parts;
 }

@@ -27,16 +27,14 @@ class EdgeDivision {
 
   /// Divides the segments further that turn on the way between two divided rows: where they turn about a point of their
   /// own and both ends move by more than `tolerance` (length units, above 0), and until their triangles lie within it
-  /// of the ruled surface; at most `kMostParts` parts at a time of a segment, or of each side of that point. Returns
-  /// the shares at which each segment of a divided row is divided now, the last one 1; empty where nothing changes.
-  /// Cost: O(points).
+  /// of the ruled surface; at most `kMostTwistParts` parts at a time of a segment, or of each side of that point.
+  /// Returns the shares at which each segment of a divided row is divided now, the last one 1; empty where nothing
+  /// changes. Cost: O(points).
   std::vector<std::vector<double>> divide(std::span<const Vec3> from, std::span<const Vec3> to, double tolerance);
   /// How many points the undivided edge has.
   [[nodiscard]] std::size_t points() const { return shares_.size() + 1; }
   /// A row of the edge with the points in between.
   [[nodiscard]] std::vector<Vec3> divided(std::span<const Vec3> row) const { return incise::divided(row, shares_); }
-
-  static constexpr double kMostParts = 64;
 
  private:
   std::vector<std::vector<double>> shares_;  // of each segment of the edge, the last one 1

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/constants.h"
 #include "incise/mesh/bounds.h"
 
 namespace incise {
@@ -15,24 +16,6 @@ inline namespace v0 {
 namespace detail {
 
 namespace {
-
-constexpr double kGiveAt = 0.1;       // of the spacing: by how much a spring is pressed where the tissue yields
-constexpr double kNarrowestZone = 1;  // of the spacing: radius in which tissue bears the edge: some vertices
-constexpr double kWidestZone = 0.25;  // of the body's least extent: likewise
-constexpr double kMostEdges = 3;      // of the spacing: likewise; more vertices would only cost more
-constexpr double kYieldsAt = 0.95;    // of what it bears: vertices on the rim of a zone need not all be at theirs
-constexpr double kAhead = 0.05;       // of the spacing: how far ahead of the front the edge has hold of the tissue
-constexpr double kBehind = 0.25;  // of the spacing: how far behind the front an edge is told to be that does not yield
-constexpr double kSlides = 0.5;   // of the spacing: how far along the edge a point keeps its material
-constexpr double kSpan = 0.5;     // of the spacing: between points of the edge
-constexpr double kPoint = 1e-3;   // of the spacing: a blade no wider than this is a point
-constexpr double kLetGo = 0.5;    // of the spacing: withdrawn by this, the blade has let go of the tissue
-constexpr double kMostBulge = 1.25;  // what tissue along the edge may be pressed together by: more is a ragged front
-constexpr std::size_t kTangentSpan = 3;  // points to both sides by which the direction of the edge is told
-constexpr unsigned kSteps = 16;          // in which the way ahead of a front is looked at
-constexpr unsigned kHalvings = 10;       // of a way, to find a place on it
-constexpr std::size_t kMostSamples = 64;
-constexpr std::size_t kMostTets = 200;  // that are looked at for material that has come into another tet
 
 double resistance(const Material& material) {
   return material.toughness + material.cut_friction;
@@ -67,7 +50,7 @@ void BladeCoupling::begin(const BladePose& pose, const TetMesh& mesh, const Mate
   samples_.clear();
   if (!resists_) return;
   const Box box = rest_bounds(mesh);
-  const double widest = std::min(kWidestZone * (box.hi - box.lo).minCoeff(), kMostEdges * spacing);
+  const double widest = std::min(kWidestZone * (box.hi - box.lo).minCoeff(), kMostZoneReach * spacing);
   widest_zone_ = std::max(widest, kNarrowestZone * spacing);
   sample(pose);
   zone_ = {};
@@ -75,9 +58,9 @@ void BladeCoupling::begin(const BladePose& pose, const TetMesh& mesh, const Mate
 
 /// Points along the edge, its own among them: as many for all poses of the stroke.
 void BladeCoupling::sample(const BladePose& pose) {
-  const std::size_t segments = pose.edge.size() - 1, most = std::max<std::size_t>(1, kMostSamples / segments);
+  const std::size_t segments = pose.edge.size() - 1, most = std::max<std::size_t>(1, kMostEdgePoints / segments);
   for (std::size_t i = 0; i < segments; ++i) {
-    const double parts = (pose.edge[i + 1] - pose.edge[i]).norm() / (kSpan * spacing_);
+    const double parts = (pose.edge[i + 1] - pose.edge[i]).norm() / (kEdgeSpan * spacing_);
     const auto count = std::min(most, static_cast<std::size_t>(std::max(1.0, parts)));
     for (std::size_t k = 0; k < count; ++k) {
       Sample& s = samples_.emplace_back();
@@ -156,7 +139,7 @@ double BladeCoupling::length_within(std::size_t index, const Vec3& way, const Te
   const Vec3 from = sample.grip->place(mesh);
   Vec3 last = sample.rest;
   double in = 0, out = 1;
-  for (unsigned i = 0; i < kHalvings; ++i) {
+  for (unsigned i = 0; i < kPlaceHalvings; ++i) {
     const double half = 0.5 * (in + out);
     const auto found = walk_to(mesh, BodyShape::kCurrent, from + half * way, sample.grip->tet);
     if (found) last = found->place(mesh, BodyShape::kRest);
@@ -224,7 +207,7 @@ void BladeCoupling::enter(const TetMesh& mesh) {
 void BladeCoupling::enter(Sample& sample, const TissuePoint& inside, const TetMesh& mesh) {
   double out = 0, in = 1;
   TissuePoint entry = inside;
-  for (unsigned i = 0; i < kHalvings; ++i) {
+  for (unsigned i = 0; i < kPlaceHalvings; ++i) {
     const double half = 0.5 * (out + in);
     const auto found = walk_to(mesh, BodyShape::kCurrent, sample.cut + half * (sample.place - sample.cut), entry.tet);
     if (found) entry = *found;
@@ -335,7 +318,7 @@ BladePose BladeCoupling::yield(const TetMesh& mesh) {
   pool();
   for (Sample& s : samples_) {
     if (!s.grip) continue;
-    s.retreat = std::max(s.lead, 0.0) + s.ahead + kBehind * spacing_;
+    s.retreat = std::max(s.lead, 0.0) + s.ahead + kToldBehind * spacing_;
     go_on(s, mesh);
     account(s);
   }
@@ -346,7 +329,7 @@ BladePose BladeCoupling::yield(const TetMesh& mesh) {
   for (Sample& s : samples_) {
     s.cut = s.place - s.retreat * direction_;
     pose.edge.push_back(s.cut);
-    if (s.grip && s.lag <= 0 && s.lead < -kLetGo * spacing_) s.grip.reset();
+    if (s.grip && s.lag <= 0 && s.lead < -kWithdrawn * spacing_) s.grip.reset();
   }
   return pose;
 }
@@ -404,8 +387,8 @@ double BladeCoupling::paid_way(Sample& sample, const TetMesh& mesh) const {
     last = rest;
     return true;
   };
-  for (unsigned i = 0; i <= kSteps; ++i) {
-    beyond = sample.lead * i / kSteps;
+  for (unsigned i = 0; i <= kStepsAhead; ++i) {
+    beyond = sample.lead * i / kStepsAhead;
     if (!try_at(beyond)) break;
   }
   for (unsigned i = 0; i < 5 && way < beyond; ++i) {
@@ -429,8 +412,9 @@ void BladeCoupling::retreat_outside() {
 
 /// Whether the edge has drawn together, as a ring does that closes below what it has cut around.
 bool BladeCoupling::is_point() const {
-  return std::all_of(samples_.begin(), samples_.end(),
-                     [&](const Sample& s) { return (s.place - samples_.front().place).norm() <= kPoint * spacing_; });
+  return std::all_of(samples_.begin(), samples_.end(), [&](const Sample& s) {
+    return (s.place - samples_.front().place).norm() <= kPointWidth * spacing_;
+  });
 }
 
 /// A point stays one, wherever the tissue holds it back: the cut ends in it.
@@ -483,12 +467,12 @@ void BladeCoupling::take_hold(Sample& sample, const TetMesh& mesh, std::span<con
     return;
   }
   const BodyShape shape = sample.has_slipped ? BodyShape::kCurrent : BodyShape::kRest;
-  const Vec3 place = sample.has_slipped ? Vec3(sample.cut + kAhead * spacing_ * direction_) : sample.rest;
+  const Vec3 place = sample.has_slipped ? Vec3(sample.cut + kHoldsAhead * spacing_ * direction_) : sample.rest;
   auto found = find_among(mesh, shape, place, fresh);
-  if (!found) found = find_around(mesh, shape, place, sample.grip->vertices, kMostTets);
+  if (!found) found = find_around(mesh, shape, place, sample.grip->vertices, kMostSearchedTets);
   sample.grip.reset();
   if (!found) return;
-  if (sample.has_slipped) sample.ahead = kAhead * spacing_;
+  if (sample.has_slipped) sample.ahead = kHoldsAhead * spacing_;
   sample.slid = Vec3::Zero();
   grip(sample, *found, mesh);
 }

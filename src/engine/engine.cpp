@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cut/cutter.h"
+#include "engine/constants.h"
 #include "improve/maintainer.h"
 #include "incise/mesh/bounds.h"
 #include "paper/paper_cut.h"
@@ -31,9 +32,6 @@ void tell(const LogSink& log, const CutStatistics& cut) {
                                 " edges were left whole beside flat tets: the parts may hang together there");
   }
 }
-
-/// So many strokes can be gone on from after undo: each keeps its band and what it swept.
-constexpr std::size_t kKeptContinuations = 16;
 
 std::uint32_t highest_tag(const TetMesh& mesh) {
   std::uint32_t highest = 0;
@@ -539,8 +537,8 @@ Result<MaintainReport> Engine::Conductor::improve(const ShouldStop& should_stop)
 
 void Engine::Conductor::push_operation(bool is_stroke, Continuation continuation) {
   operations_.push_back({journal_.position(), is_stroke, std::move(continuation), paper_cutter_.front()});
-  if (operations_.size() > kKeptContinuations) {
-    operations_[operations_.size() - kKeptContinuations - 1].continuation = {};
+  if (operations_.size() > detail::kKeptContinuations) {
+    operations_[operations_.size() - detail::kKeptContinuations - 1].continuation = {};
   }
   undone_.clear();
   stroke_count_ += is_stroke ? 1U : 0U;

@@ -12,16 +12,13 @@
 #include <set>
 #include <utility>
 
+#include "engine/constants.h"
 #include "incise/geom/closest.h"
 
 namespace incise {
 inline namespace v0 {
 namespace detail {
 namespace {
-
-constexpr double kJawsPerFrame = 1.0 / 32;  // by which jaws close or open at most: tissue is gathered, not struck
-constexpr double kSkinFirst =
-    1e-3;  // of the radius: skin that is no further than the nearest triangle by this is taken
 
 /// All vertices in the ball; where there is none, the nearest one.
 std::vector<VertexId> in_ball(const TetMesh& mesh, std::span<const Vec3> positions, const Hook& hook) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "engine/blade_coupling.h"
+#include "engine/constants.h"
 #include "engine/hook_grip.h"
 #include "engine/sutures.h"
 #include "engine/wall_area.h"
@@ -24,9 +25,6 @@ namespace {
 Error bad(std::string message) {
   return {ErrorCode::kBadArgument, std::move(message), {}};
 }
-
-/// Of the mean edge at load: as far outside of the tissue an end of a suture may be.
-constexpr double kSutureReach = 0.25;
 
 double stiffest(const Materials& materials) {
   const auto soft = [](const Material& material) { return material.rigid ? 0.0 : material.young; };
@@ -111,7 +109,7 @@ struct Simulation::State {
         solver(std::move(made)),
         options(std::move(chosen)),
         spacing(mean_edge_length(engine.mesh())),
-        sutures(kSutureReach * spacing, options.body.length_unit) {}
+        sutures(detail::kSutureReach * spacing, options.body.length_unit) {}
 
   Engine engine;
   std::unique_ptr<Solver> solver;

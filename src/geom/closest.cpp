@@ -5,13 +5,12 @@
 
 #include <algorithm>
 
+#include "geom/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Squared sine of the angle at a below which the normal is too rough to trust the face alone.
-constexpr double kThin = 1e-12;
 
 /// Where on the segment a b, from 0 to 1, the point nearest to p lies.
 double segment_parameter(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -60,7 +59,7 @@ ClosestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, co
   const double sum = wa + wb + wc;
   const Vec3 point = a + (wb / sum) * ab + (wc / sum) * ac;
   const ClosestPoint face{point, {wa / sum, wb / sum, wc / sum}, (p - point).squaredNorm(), TriangleFeature::kFace};
-  if (normal2 > kThin * ab.squaredNorm() * ac.squaredNorm()) {
+  if (normal2 > kThinCorner * ab.squaredNorm() * ac.squaredNorm()) {
     return face;
   }
   const ClosestPoint border = closest_on_border(p, {&a, &b, &c});

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geom/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
@@ -37,7 +39,6 @@ EdgeLengths edge_lengths(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
 }
 
 double degrees_of(double cosine) {
-  constexpr double kDegreesPerRadian = 57.295779513082320877;
   return kDegreesPerRadian * std::acos(cosine);
 }
 

@@ -5,20 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "geom/constants.h"
 #include "incise/geom/closest.h"
 
 namespace incise {
 inline namespace v0 {
-
-namespace {
-
-constexpr std::size_t kLeafSize = 4;
-
-/// A box is passed over only where it is clearly too far: distances to boxes and to triangles round differently, and
-/// triangles at equal distances must all be seen for the lowest to win.
-constexpr double kSlack = 1.0 - 1e-12;
-
-}  // namespace
 
 class TriangleTree::Builder {
  public:
@@ -51,7 +42,7 @@ class TriangleTree::Builder {
   void add(std::size_t first, std::size_t last) {
     const std::size_t index = tree_.nodes_.size();
     tree_.nodes_.push_back({box_of_range(first, last), 0, 0});
-    if (last - first <= kLeafSize) {
+    if (last - first <= kTreeLeafSize) {
       add_leaf(index, first, last);
       return;
     }
@@ -131,7 +122,7 @@ TriangleTree::Hit TriangleTree::closest(const Vec3& point, double max_distance) 
   }
   while (height > 0) {
     const Pending top = stack[--height];
-    if (top.distance2 * kSlack > best.distance2) {
+    if (top.distance2 * kBoxSlack > best.distance2) {
       continue;
     }
     const Node& node = nodes_[top.node];

@@ -82,10 +82,9 @@ inline constexpr double kTypicalShare = 0.9;
 /// factor, the greatest chord a share of the local edge.
 inline constexpr double kChordShare = 0.25, kChordSlack = 6.0, kGreatestChord = 0.07;
 
-// --- what is one surface: cosines and sines of angles between unit normals
+// --- what is one surface: cosines and sines of angles between unit normals; what is one plane, `kOnePlane` of geom
+// says
 
-/// Normals whose cross product is this short belong to one plane: rounding.
-inline constexpr double kFlat = 1e-9;
 /// Faces whose normals have at least this cosine with the first of a surface are part of it: 75 degrees.
 inline constexpr double kSmoothCosine = 0.26;
 /// Walls of different strokes whose normals have at least this cosine go on from each other: 20 degrees. Where they
@@ -103,6 +102,8 @@ inline constexpr double kFaceCosine = 0.5;
 
 /// Edges of a tet that are tried, shortest first.
 inline constexpr std::size_t kEdgesTried = 3;
+/// Tets around an edge that is removed, at most: rings up to so many cost 0.5 µs per edge.
+inline constexpr unsigned kMostRing = 8;
 /// Neighbours of a vertex that thinning out tries, nearest first.
 inline constexpr std::size_t kNeighboursTried = 8;
 /// No new edge is longer than the longest of the vertex by more than this factor: else the mesh coarsens without end.

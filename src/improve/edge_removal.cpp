@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "geom/constants.h"
 #include "improve/surfaces.h"
 
 namespace incise {
@@ -19,7 +20,7 @@ bool has_flat_ends(const TetMesh& mesh, const EdgeRing& ring) {
   const Side last_face(ring.tets.back(), mesh.corner_of(ring.tets.back(), ring.vertices[last]));
   const Vec3 n = vector_area2(mesh, first_face), m = vector_area2(mesh, last_face);
   return are_alike(mesh.link(first_face).tag(), mesh.link(last_face).tag()) && n.dot(m) > 0 &&
-         n.cross(m).squaredNorm() <= kFlat * kFlat * n.squaredNorm() * m.squaredNorm();
+         n.cross(m).squaredNorm() <= kOnePlane * kOnePlane * n.squaredNorm() * m.squaredNorm();
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ bool EdgeRemover::is_removable(const Care& care) const {
   if (n >= 3 && !ring_.is_closed && (is_pinched(ring_.vertices.front()) || is_pinched(ring_.vertices.back()))) {
     return false;  // the new boundary edge might be there already
   }
-  return n >= 3 && n <= kMostVertices && has_one_region(care.mesh, ring_.tets) &&
+  return n >= 3 && n <= kMostRing && has_one_region(care.mesh, ring_.tets) &&
          (ring_.is_closed || has_flat_ends(care.mesh, ring_));
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "improve/care.h"
+#include "improve/constants.h"
 #include "incise/mesh/remesh.h"
 
 namespace incise {
@@ -28,13 +29,11 @@ class EdgeRemover {
   [[nodiscard]] bool triangulate(Care& care, VertexId a, VertexId b, double bound);
   void collect_triangles(unsigned i, unsigned k);
 
-  static constexpr unsigned kMostVertices = 8;
-
   EdgeRing ring_;
   RemeshPlan plan_;
   std::vector<RingTriangle> triangles_;
-  std::array<std::array<double, kMostVertices>, kMostVertices> best_{};        // worst tet of the polygon i..k
-  std::array<std::array<std::uint8_t, kMostVertices>, kMostVertices> apex_{};  // of its triangle at the edge i, k
+  std::array<std::array<double, kMostRing>, kMostRing> best_{};        // worst tet of the polygon i..k
+  std::array<std::array<std::uint8_t, kMostRing>, kMostRing> apex_{};  // of its triangle at the edge i, k
 };
 
 /// The 2-3 swap where it makes the worst tet better. Cost: about 0.1 µs per face.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geom/constants.h"
 #include "improve/constants.h"
 #include "incise/geom/quality.h"
 
@@ -204,7 +205,7 @@ bool VertexInserter::keeps_surface(const Care& care) {
       surface_tolerance(care, opened_.tag, care.mesh.vertices(opened_.faces[0])[0], std::sqrt(longest2));
   Reach reach;
   const auto area = [&](Side side) { return Vec3(vector_area2(care.mesh, side) / longest2); };
-  const bool is_flat = area(opened_.faces[0]).cross(area(opened_.faces[1])).squaredNorm() <= kFlat * kFlat;
+  const bool is_flat = area(opened_.faces[0]).cross(area(opened_.faces[1])).squaredNorm() <= kOnePlane * kOnePlane;
   return is_flat || care.references.allows(opened_.tag, opened_.piece, piece_, tolerance, reach, skin_share(care));
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "geom/constants.h"
 #include "improve/constants.h"
 
 namespace incise {
@@ -36,7 +37,7 @@ RegionVolumes::Held RegionVolumes::held() const {
       return a.gradient.squaredNorm() < b.gradient.squaredNorm();
     });
     const double length = greatest.gradient.norm();
-    if (!(length > kFlat * scale_)) break;
+    if (!(length > kOnePlane * scale_)) break;
     const Vec3 direction = greatest.gradient / length;
     const double step = greatest.lost6 / length;
     for (Row& row : rows) {

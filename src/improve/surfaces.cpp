@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/constants.h"
 #include "improve/constants.h"
 
 namespace incise {
@@ -14,7 +15,7 @@ inline namespace v0 {
 namespace {
 
 bool is_same_plane(const Vec3& a, const Vec3& b) {
-  return a.cross(b).squaredNorm() <= kFlat * kFlat;
+  return a.cross(b).squaredNorm() <= kOnePlane * kOnePlane;
 }
 
 /// The other ends of the edges at which the lips of a cut meet, and how often they were seen from either lip.
@@ -59,7 +60,7 @@ void find_front(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& 
   // Along the front, but orthogonal to what the lips' areas leave of each other: that keeps the volume.
   Vec3 along = (mesh.rest(edges[1].end) - mesh.rest(edges[0].end)).normalized();
   const Vec3 area = one.vector_area + other.vector_area;
-  if (area.squaredNorm() > kFlat * kFlat * one.vector_area.squaredNorm()) {
+  if (area.squaredNorm() > kOnePlane * kOnePlane * one.vector_area.squaredNorm()) {
     along -= (along.dot(area) / area.squaredNorm()) * area;
   }
   const double length = along.norm();
@@ -73,7 +74,7 @@ void find_front(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>& 
 /// Whether a vertex that moves as found changes no volume already.
 bool keeps_volumes(const VertexSurfaces& found, const RegionVolumes::Held& held) {
   const auto keeps = [&](const Vec3& direction) {
-    return found.mobility == Mobility::kLine ? std::abs(direction.dot(found.along)) <= kFlat
+    return found.mobility == Mobility::kLine ? std::abs(direction.dot(found.along)) <= kOnePlane
                                              : is_same_plane(direction, found.along);
   };
   return std::all_of(held.directions.begin(), held.directions.begin() + held.count, keeps);
@@ -94,7 +95,7 @@ void hold_regions(const TetMesh& mesh, VertexId vertex, const std::vector<TetId>
   found.mobility = held.count == 2 ? Mobility::kLine : Mobility::kFixed;
   found.along = held.directions[0].cross(held.directions[1]).normalized();
   for (SurfaceAt& surface : found.surfaces) {
-    surface.is_flat = surface.is_flat && std::abs(found.along.dot(surface.first_normal)) <= kFlat;
+    surface.is_flat = surface.is_flat && std::abs(found.along.dot(surface.first_normal)) <= kOnePlane;
   }
 }
 

@@ -16,7 +16,7 @@ struct SurfaceAt {
   std::uint32_t tag = 0;             ///< of `Link`; `kBorderTag` for a border between regions
   Vec3 vector_area = Vec3::Zero();   ///< twice the sum of its faces' vector areas, outwards
   Vec3 first_normal = Vec3::Zero();  ///< unit
-  bool is_flat = true;               ///< all faces in one plane, within `kFlat`, which moves do not leave
+  bool is_flat = true;               ///< all faces in one plane, within `kOnePlane`, which moves do not leave
 };
 
 /// Tag of borders between regions.

@@ -17,6 +17,12 @@ inline constexpr double kOffTheSheet = 0.1;
 /// tets, flatter ones.
 inline constexpr double kReachOfMoves = 0.3;
 
+/// Where vertices snap and nothing is divided, all that cross an edge within this share of it move: half of it, so any
+/// edge that is crossed has an end that does.
+inline constexpr double kReachOfSnapping = 0.5;
+/// Consecutive parts of a sweep that meets itself overlap by this many spacings, so that the cut stays whole.
+inline constexpr double kPartOverlap = 3.0;
+
 }  // namespace lab
 }  // namespace v0
 }  // namespace incise

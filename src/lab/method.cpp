@@ -5,11 +5,13 @@
 
 #include <algorithm>
 
+#include "cut/blade_constants.h"
 #include "cut/constants.h"
 #include "cut/cut_context.h"
 #include "cut/spacing.h"
 #include "cut/sweep.h"
 #include "lab/bielser.h"
+#include "lab/constants.h"
 #include "lab/minimal.h"
 #include "lab/moving.h"
 #include "lab/removal.h"
@@ -19,9 +21,6 @@ namespace incise {
 inline namespace v0 {
 
 namespace {
-
-/// Consecutive parts of a sweep that meets itself overlap by this many spacings, so that the cut stays whole.
-constexpr double kPartOverlap = 3.0;
 
 Status cut_sheet(LabMethod method, const CutContext& context, const Sheet& sheet, std::uint32_t tag, unsigned threads) {
   switch (method) {
@@ -46,7 +45,7 @@ Status cut_parts(LabMethod method, const CutContext& context, const Stroke& stro
   context.statistics.steps = stroke.times.size() - 1;
   const double spacing = typical_spacing(context.mesh);
   const SweptSurface surface = sweep(stroke, kOwnSlit * spacing);
-  for (const auto& part : split_at_self_crossings(surface, kPartOverlap * spacing, kCoincident * spacing)) {
+  for (const auto& part : split_at_self_crossings(surface, lab::kPartOverlap * spacing, kCoincident * spacing)) {
     if (Status status = cut_sheet(method, context, Sheet(surface, part), tag, threads); !status) return status;
     ++context.statistics.sheets;
   }

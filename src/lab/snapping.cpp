@@ -8,6 +8,7 @@
 
 #include "incise/geom/predicates.h"
 #include "incise/mesh/verbs.h"
+#include "lab/constants.h"
 #include "lab/opening.h"
 #include "paper/contact.h"
 #include "paper/crossing.h"
@@ -97,8 +98,7 @@ Status snap_nodes(const CutContext& context, const Sheet& sheet, std::uint32_t t
   context.statistics.cut_tets += static_cast<std::uint64_t>(
       std::count_if(near.tets.begin(), near.tets.end(), [](const NearTet& tet) { return tet.flagged != 0; }));
   Transaction transaction(context.mesh);
-  constexpr double kAny = 0.5;
-  move_onto(transaction, sheet, near, kAny, context.statistics);
+  move_onto(transaction, sheet, near, kReachOfSnapping, context.statistics);
   const std::vector<IncisionFace> faces = find_faces(mesh, sheet, find_near_tets(mesh, sheet, threads));
   open_faces(transaction, faces, tag, context.statistics);
   commit(context, transaction, sides_of(faces));

@@ -10,16 +10,14 @@
 #include <string>
 #include <utility>
 
+#include "mesh/constants.h"
+
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
 constexpr std::uint32_t kMaxWidth = 64;
-/// Volumes that differ by less than this share are equal up to rounding.
-constexpr double kVolumeRounding = 1e-9;
-/// Of a vertex's lumped volume: where less than this is left of it the difference has lost its digits, or all of them.
-constexpr double kDigitsLost = 1e-6;
 
 /// A sorted table of the elements that a step names; find() in O(log n).
 template <class IdType, class T>

@@ -5,13 +5,11 @@
 
 #include "incise/geom/closest.h"
 #include "incise/mesh/embedded_surface.h"
+#include "mesh/constants.h"
 
 namespace incise {
 inline namespace v0 {
 namespace {
-
-/// Share of a tet's extent below which a place counts as inside: far above rounding, far below what is seen.
-constexpr double kInside = 1e-9;
 
 /// Axes along an edge of a triangle, across it within, and along the normal; zero axes where the triangle is flat.
 Mat3 frame_of(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -58,7 +56,7 @@ Binding bind_to(const TetMesh& mesh, TetId tet, const Vec3& rest) {
   const auto& order = kSideCorners[binding.side];
   binding.weights = {};
   for (unsigned i = 0; i < 3; ++i) binding.weights[order[i]] = best.weights[i];
-  if (best.distance2 > kInside * kInside * e1.squaredNorm()) {
+  if (best.distance2 > kCountsAsInside * kCountsAsInside * e1.squaredNorm()) {
     const Mat3 frame = frame_of(corners[order[0]], corners[order[1]], corners[order[2]]);
     binding.offset = frame.transpose() * (rest - best.point);
   }

@@ -7,21 +7,13 @@
 #include <cmath>
 
 #include "incise/mesh/edge_length.h"
+#include "mesh/constants.h"
 #include "mesh/near_tets.h"
 #include "mesh/tet_grid.h"
 #include "mesh/turned_normals.h"
 
 namespace incise {
 inline namespace v0 {
-namespace {
-
-/// Mean edges by which tets are looked for further away than points hang from theirs.
-constexpr double kEdges = 0.25;
-/// Share of the way to the middles of its triangles at which it is asked what a point hung on.
-constexpr double kInwards = 1e-2;
-
-}  // namespace
-
 DrawnSurface draw(const EmbeddedSurface& surface, const TetMesh& mesh) {
   return SurfaceDrawing(surface, mesh).packed();
 }
@@ -70,13 +62,13 @@ std::vector<Vec3> earlier_places(const DrawnSurface& drawn, const TetMesh& mesh)
     box.extend(point.rest);
     reach = std::max(reach, point.binding.offset.norm());
   }
-  reach += kEdges * mean_edge_length(mesh);
+  reach += kReachMargin * mean_edge_length(mesh);
   const TetGrid grid(mesh);
   NearTets near((box.hi - box.lo).norm());
   std::vector<Vec3> places(drawn.points.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vec3& rest = drawn.points[i].rest;
-    const Vec3 inwards = counts[i] > 0 ? Vec3(rest + kInwards * (middles[i] / counts[i] - rest)) : rest;
+    const Vec3 inwards = counts[i] > 0 ? Vec3(rest + kAskedInwards * (middles[i] / counts[i] - rest)) : rest;
     Box around;
     around.extend(inwards);
     near.gather(mesh, grid, around, reach);

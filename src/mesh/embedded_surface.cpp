@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "mesh/constants.h"
 #include "mesh/surface_keeper.h"
 #include "mesh/turned_normals.h"
 
@@ -13,8 +14,6 @@ namespace incise {
 inline namespace v0 {
 namespace {
 
-/// Share of the way to `towards` at which it is asked what a place hangs on.
-constexpr double kTowards = 1e-3;
 Status check(const FineSurface& surface) {
   const auto bad = [](std::string what, std::uint64_t id) {
     return Error{ErrorCode::kBadArgument, std::move(what), {id}};
@@ -128,7 +127,7 @@ Binding EmbeddedSurface::locate(const TetMesh& mesh, const Vec3& rest, const Vec
   Box box;
   box.extend(rest);
   near.gather(mesh, keeper_->grid(), box, keeper_->reach());
-  return bind_to(mesh, near.locate(rest + kTowards * (towards - rest)), rest);
+  return bind_to(mesh, near.locate(rest + kAskedTowards * (towards - rest)), rest);
 }
 
 std::optional<Vec3> EmbeddedSurface::find_nearest(const Vec3& rest, double reach) const {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "mesh/constants.h"
+
 namespace incise {
 inline namespace v0 {
 namespace {
-
-constexpr double kShare = 1e-6;  // of a parent, below which it is none: weights are computed, and seldom exactly 0
 
 bool same(const Vec3& a, const Vec3& b) {
   return std::memcmp(a.data(), b.data(), sizeof(Vec3)) == 0;
@@ -132,7 +132,7 @@ void JournalMirror::born(const BornVertex& born) {
     const Vertex& parent = vertices_[born.parents[i].value];
     expect(parent.is_live, "a parent is not live");
     velocity += born.weights[i] * parent.velocity;
-    if (std::abs(born.weights[i]) > kShare) marks &= parent.marks;
+    if (std::abs(born.weights[i]) > kLeastPart) marks &= parent.marks;
   }
   vertices_[born.id.value] = {born.rest, born.current, velocity, marks, true};
   touch(born.id);

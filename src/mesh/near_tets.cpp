@@ -9,25 +9,11 @@
 
 #include "incise/geom/closest.h"
 #include "incise/mesh/embedded_surface.h"
+#include "mesh/constants.h"
 
 namespace incise {
 inline namespace v0 {
 namespace {
-
-/// Share of the way to which a crossing is found.
-constexpr double kPrecision = 0x1p-20;
-/// Weights below this do not tell what a place on the border of a tet lies on: above what `kPrecision` leaves in tets a
-/// thousand times thinner than edges of the surface are long.
-constexpr double kLeastWeight = 1e-3;
-/// The share of wall vertices from which on a place lies at a wall. Maintenance moves each lip on its own, so that they
-/// overlap a little at rest: the place may then be a way off the rim. Below it lie grooves of the skin.
-constexpr double kWallShare = 0.75;
-
-/// Squared distances that differ by less than this share are the same, but for rounding.
-constexpr double kSame = 1e-8;
-/// How far aside places are taken, in extents of the body: above rounding, and far below what is seen; in no direction
-/// that meshes or blades are made along.
-constexpr double kAsideX = 4.7e-8, kAsideY = 2.9e-8, kAsideZ = 6.1e-8;
 
 /// Whether the tets hang together at a vertex: one that is no front, where tets around a wall would share it.
 bool share_a_vertex(const TetMesh& mesh, TetId a, TetId b) {
@@ -48,7 +34,7 @@ struct Support {
     for (unsigned c = 0; c < 4; ++c) {
       const VertexId v = mesh.vertices(tet)[c];
       if ((mesh.shape_of(v) & shape::kWall) != 0) wall_share += binding.weights[c];
-      if (binding.weights[c] < kLeastWeight) continue;
+      if (binding.weights[c] < kTellingWeight) continue;
       std::size_t at = count++;
       for (; at > 0 && v < vertices[at - 1]; --at) vertices[at] = vertices[at - 1];
       vertices[at] = v;
@@ -61,7 +47,7 @@ struct Support {
 bool are_parted(const TetMesh& mesh, TetId a, TetId b, const Vec3& place) {
   if (a == b || share_a_vertex(mesh, a, b)) return false;
   const Support of_a(mesh, a, place), of_b(mesh, b, place);
-  return of_a.vertices != of_b.vertices && std::max(of_a.wall_share, of_b.wall_share) >= kWallShare;
+  return of_a.vertices != of_b.vertices && std::max(of_a.wall_share, of_b.wall_share) >= kAtWallShare;
 }
 
 struct NearTets::Way {
@@ -128,11 +114,11 @@ TetId NearTets::locate(const Vec3& at) const {
   TetId tet;
   Nearness best{std::numeric_limits<double>::infinity(), 0};
   for (const Entry& entry : entries_) {
-    if (entry.box.distance2(place) > best.distance2 * (1 + kSame)) continue;
+    if (entry.box.distance2(place) > best.distance2 * (1 + kSameDistance)) continue;
     if (is_inside(entry, place)) return entry.tet;
     const Nearness found = nearness(entry, place);
-    const bool is_nearer = found.distance2 < best.distance2 * (1 - kSame);
-    const bool is_same = !is_nearer && found.distance2 <= best.distance2 * (1 + kSame);
+    const bool is_nearer = found.distance2 < best.distance2 * (1 - kSameDistance);
+    const bool is_same = !is_nearer && found.distance2 <= best.distance2 * (1 + kSameDistance);
     if (!is_nearer && !(is_same && found.lean > best.lean)) continue;
     best = found;
     tet = entry.tet;
@@ -150,7 +136,7 @@ void NearTets::find_crossings(const TetMesh& mesh, const Vec3& from, TetId from_
 void NearTets::halve(const Way& way, double low, TetId low_tet, double high, TetId high_tet) const {
   if (low_tet == high_tet || share_a_vertex(way.mesh, low_tet, high_tet)) return;
   const double middle = (low + high) / 2;
-  if (high - low < kPrecision) {
+  if (high - low < kCrossingPrecision) {
     if (are_parted(way.mesh, low_tet, high_tet, way.at(middle))) way.crossings.push_back({middle, low_tet, high_tet});
     return;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geom/constants.h"
 #include "incise/geom/quality.h"
 #include "incise/mesh/defects.h"
 #include "mesh/sum_internal.h"
@@ -13,8 +14,6 @@
 namespace incise {
 inline namespace v0 {
 namespace {
-
-constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 
 double longest_edge_squared(const std::array<Vec3, 4>& p) {
   double longest = 0;

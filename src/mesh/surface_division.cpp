@@ -4,12 +4,11 @@
 
 #include <algorithm>
 
+#include "mesh/constants.h"
+
 namespace incise {
 inline namespace v0 {
 namespace {
-
-/// How often a triangle is halved between walls; beyond it, walls that lie still closer count as one.
-constexpr unsigned kMostHalvings = 12;
 
 void add_part(std::vector<FineTriangle>& parts, std::uint32_t a, std::uint32_t b, std::uint32_t c, unsigned lips) {
   if (a == b || b == c || c == a) return;  // the wall passes through a corner
@@ -48,7 +47,7 @@ class Division {
   /// At a point of the first edge that is not parted.
   void halve(const DividedTriangle& t, std::size_t joint, unsigned halvings) {
     const std::uint32_t middle = t.chains[0][joint].low;
-    const EdgeChain across = halvings < kMostHalvings ? maker_.divide(middle, t.points[2]) : EdgeChain();
+    const EdgeChain across = halvings < kMostWallHalvings ? maker_.divide(middle, t.points[2]) : EdgeChain();
     const auto at = t.chains[0].begin() + static_cast<std::ptrdiff_t>(joint);
     divide({{t.points[0], middle, t.points[2]}, {EdgeChain(t.chains[0].begin(), at), across, t.chains[2]}},
            halvings + 1);

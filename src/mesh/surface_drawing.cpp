@@ -9,13 +9,11 @@
 #include "incise/mesh/journal_cursor.h"
 #include "incise/mesh/journal_visitor.h"
 #include "incise/mesh/star.h"
+#include "mesh/constants.h"
 
 namespace incise {
 inline namespace v0 {
 namespace {
-
-/// Twice the area of a triangle below which it fills no gap, by its longest edge squared.
-constexpr double kLeastWidth = 1e-6;
 
 constexpr std::uint8_t kContour = shape::kSkin | shape::kWall;
 

@@ -10,17 +10,11 @@
 
 #include "incise/mesh/edge_length.h"
 #include "incise/mesh/journal_visitor.h"
+#include "mesh/constants.h"
 
 namespace incise {
 inline namespace v0 {
 namespace {
-
-/// Mean edges by which tets are looked for further away than points lay at first: maintenance moves the skin by less.
-constexpr double kReachMargin = 0.25;
-/// Share of an edge within which a wall is said to pass through its end: no slivers of parts.
-constexpr double kSnapToEnd = 1e-3;
-/// Share of an edge within which two walls are one.
-constexpr double kLeastGap = 1e-3;
 
 bool is_below(const Vec3& a, const Vec3& b) {
   return std::make_tuple(a.x(), a.y(), a.z()) < std::make_tuple(b.x(), b.y(), b.z());

@@ -7,21 +7,15 @@
 
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/edge_length.h"
+#include "mesh/constants.h"
 
 namespace incise {
 inline namespace v0 {
-namespace {
-
-/// Cells per tet at most: bodies that fill little of their box get larger cells.
-constexpr double kMostCells = 4;
-
-}  // namespace
-
 TetGrid::TetGrid(const TetMesh& mesh) : cell_(mean_edge_length(mesh)) {
   const Box bounds = rest_bounds(mesh);
   low_ = bounds.lo;
   const Vec3 size = bounds.hi - bounds.lo;
-  const double most = kMostCells * static_cast<double>(mesh.tet_count()) + 1;
+  const double most = kMostCellsPerTet * static_cast<double>(mesh.tet_count()) + 1;
   const auto cells = [&] {
     double count = 1;
     for (int k = 0; k < 3; ++k) count *= std::floor(size[k] / cell_) + 1;

@@ -17,6 +17,7 @@
 #include "incise/geom/quality.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/star.h"
+#include "mesh/constants.h"
 
 namespace incise {
 inline namespace v0 {
@@ -68,8 +69,6 @@ Status check_cuts(const TetSoup& soup) {
   }
   return {};
 }
-
-constexpr double kFolded = 0.9;  // cosine between two walls that lie on one another
 
 /// One face that walls claim, and the boundary sides that are there.
 struct ClaimedFace {

@@ -2,18 +2,13 @@
 // Rodrigues' rotation by the cross product of two unit vectors, without an angle.
 #include "mesh/turned_normals.h"
 
+#include "mesh/constants.h"
+
 namespace incise {
 inline namespace v0 {
-namespace {
-
-/// Of two opposite normals no turn is the shortest.
-constexpr double kOpposite = 1e-6;
-
-}  // namespace
-
 Vec3 turned(const Vec3& direction, const Vec3& from, const Vec3& to) {
   const double cosine = from.dot(to);
-  if (1 + cosine < kOpposite) return to;
+  if (1 + cosine < kOppositeNormals) return to;
   const Vec3 axis = from.cross(to);
   const Vec3 across = axis.cross(direction);
   return (direction + across + axis.cross(across) / (1 + cosine)).normalized();

@@ -16,7 +16,7 @@ inline namespace v0 {
 namespace {
 
 double offset_at(const TetMesh& mesh, VertexId vertex, StarWalker& walker) {
-  return kFrontOffset * mean_edge_length_at(mesh, vertex, walker.star(mesh, vertex));
+  return kJoinOffset * mean_edge_length_at(mesh, vertex, walker.star(mesh, vertex));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace incise {
 inline namespace v0 {
 
-/// The unit normal of a sheet at a place that it passes within `kFrontOffset` of the mean edge at a vertex; none
+/// The unit normal of a sheet at a place that it passes within `kJoinOffset` of the mean edge at a vertex; none
 /// elsewhere. Cost: a search of the sheet, and the vertex's star.
 [[nodiscard]] std::optional<Vec3> passing_normal(const TetMesh& mesh, const Sheet& sheet, const Vec3& place,
                                                  VertexId vertex, StarWalker& walker);

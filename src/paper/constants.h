@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The constants of the paper's profile, with what each is measured in, and what goes wrong where it is changed. Where
-// no source is named the paper is silent, and a value was chosen by hand.
+// no source is named the paper is silent, and a value was chosen by hand. What a blade does alike in both profiles is
+// in cut/constants.h and cut/blade_constants.h.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +11,13 @@
 namespace incise {
 inline namespace v0 {
 
-/// Two crossings of one edge closer than this share of it are one graze, not two sheets. More, and thin slabs between
-/// two sheets are lost; less, and edges are bisected for slivers.
-inline constexpr double kGrazeShare = 0.02;
 /// The most children of a tet: what the ids must have room for.
-inline constexpr std::size_t kMostChildren = 16;
-/// An edge crossed twice is bisected at most so often; what is crossed twice then still is taken as crossed once.
-inline constexpr unsigned kMaxBisectionRounds = 8;
+inline constexpr std::size_t kMostDivided = 16;
+
+/// Sweeps of Jacobi's method that fit a plane: convergence is quadratic, five reach rounding.
+inline constexpr int kPlaneSweeps = 8;
+/// Faces around a vertex, at most: ends the walk on a surface that is broken at load.
+inline constexpr std::size_t kLongestFan = 4096;
 
 /// A sweep that turns sharply more often is not cut as one sheet: an edge of the mesh might cross each of its folds.
 inline constexpr std::size_t kMostTurns = 4;
@@ -26,13 +27,13 @@ inline constexpr std::size_t kMostTurns = 4;
 inline constexpr double kStripsReach = 2.0;
 
 /// A stroke goes on with an incision where a collision point at that one's front lies in the plane of its sheet within
-/// so many of its vertex's mean edges (`kFrontOffset`), and within so many of the longest ones of the sheet itself
-/// (`kFrontReach`), and the two sheets enclose less than 45° there (`kFrontCosine`: √½). Two strokes of one hand meet
+/// so many of its vertex's mean edges (`kJoinOffset`), and within so many of the longest ones of the sheet itself
+/// (`kJoinReach`), and the two sheets enclose less than 45° there (`kJoinCosine`: √½). Two strokes of one hand meet
 /// within rounding; with more than a tenth of an edge a cut beside another one is drawn into it. A point may lie an
 /// uncut tet behind the front, whose edges are longer than those that are left of it.
-inline constexpr double kFrontReach = 2.0;
-inline constexpr double kFrontOffset = 0.1;
-inline constexpr double kFrontCosine = 0.70710678118654752440;
+inline constexpr double kJoinReach = 2.0;
+inline constexpr double kJoinOffset = 0.1;
+inline constexpr double kJoinCosine = 0.70710678118654752440;
 
 /// The wall of an older cut goes along a sheet, as the same cut, where it encloses less than 20° with it: its cosine.
 /// With more, walls that cross in a star of ten pieces pass for one beside their axis; with less, the facets of a bent
@@ -49,18 +50,12 @@ inline constexpr double kMostBend = 0.5;
 /// at 14° to 18° in many short strips come out joined beside their axis.
 inline constexpr double kWallBend = 0.3;
 
-/// A stroke goes on from the one before where its blade stands within so many spacings of where that would.
-inline constexpr double kStandsWithin = 0.05;
 /// The ends of so many strokes are remembered: more than a hand leaves open at once.
 inline constexpr std::size_t kEndsKept = 16;
-/// In a body that moves the blade takes its way in parts of an element, or of the body's size over this where elements
-/// are smaller; and is near the body within so many of its diagonals.
-inline constexpr double kMostParts = 64;
-inline constexpr double kNearBody = 0.1;
 /// In a body that moves a blade that goes back is in its wound, and held, until it is so many spacings away from the
 /// front, or further than the wound is long: then it is on another way. Less, and one that is drawn back by some
 /// elements cuts crumbs off the lips.
-inline constexpr double kTurnBack = 6.0;
+inline constexpr double kLeavesWound = 6.0;
 
 namespace paper {
 

@@ -84,7 +84,7 @@ class FlatTets {
     const TetVertices& v = mesh_.vertices(tet);
     return std::any_of(v.begin(), v.end(), [&](VertexId w) {
       const CollisionPoint* point = find(w);
-      return point != nullptr && std::abs(point->normal.dot(normal)) < kFrontCosine;
+      return point != nullptr && std::abs(point->normal.dot(normal)) < kJoinCosine;
     });
   }
   [[nodiscard]] bool is_flat(TetId tet) const {

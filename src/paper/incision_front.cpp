@@ -55,7 +55,7 @@ std::optional<Vec3> plane_at(const TetMesh& mesh, const Sheet& sheet, VertexId v
                              StarWalker& walker) {
   const Vec3& place = mesh.rest(vertex);
   const std::vector<TetId>& star = walker.star(mesh, vertex);
-  const auto hit = sheet.tree().closest(place, kFrontReach * longest_edge_at(mesh, vertex, star));
+  const auto hit = sheet.tree().closest(place, kJoinReach * longest_edge_at(mesh, vertex, star));
   if (!hit.is_valid()) return std::nullopt;
   const Vec3 normal = sheet.normal(hit.triangle).normalized();
   const bool is_in_plane = std::abs(normal.dot(place - hit.point)) < offset * mean_edge_length_at(mesh, vertex, star);
@@ -65,10 +65,10 @@ std::optional<Vec3> plane_at(const TetMesh& mesh, const Sheet& sheet, VertexId v
 /// Whether an earlier sheet's point lies on a sheet, as if the two were one.
 bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, StarWalker& walker) {
   const auto is_along = [&](const std::optional<Vec3>& normal) {
-    return normal && std::abs(normal->dot(point.normal)) > kFrontCosine;
+    return normal && std::abs(normal->dot(point.normal)) > kJoinCosine;
   };
-  if (is_along(plane_at(mesh, sheet, point.vertex, kFrontOffset, walker))) return true;
-  const double reach = kFrontReach * longest_edge_at(mesh, point.vertex, walker.star(mesh, point.vertex));
+  if (is_along(plane_at(mesh, sheet, point.vertex, kJoinOffset, walker))) return true;
+  const double reach = kJoinReach * longest_edge_at(mesh, point.vertex, walker.star(mesh, point.vertex));
   return (point.rim - mesh.rest(point.vertex)).norm() <= reach &&
          is_along(passing_normal(mesh, sheet, point.rim, point.vertex, walker));
 }
@@ -90,7 +90,7 @@ WallsAlong find_walls_along(const TetMesh& mesh, VertexId vertex, const Vec3& no
       const Vec3 &a = mesh.rest(face[0]), &b = mesh.rest(face[1]), &c = mesh.rest(face[2]);
       const Vec3 outward = (b - a).cross(c - a).normalized();
       const double cosine = outward.dot(normal);
-      if (std::abs(cosine) <= kFrontCosine) continue;
+      if (std::abs(cosine) <= kJoinCosine) continue;
       (cosine < 0 ? walls.is_above : walls.is_below) = true;
       walls.corners.insert(walls.corners.end(), face.begin(), face.end());
       walls.normals.push_back(outward);
@@ -159,7 +159,7 @@ bool has_both_sides_beyond_corner(const TetMesh& mesh, const Sheet& sheet, const
   bool has_both = false;
   sheet.tree().for_each_overlap(reach, [&](std::uint32_t triangle) {
     const Vec3 normal = sheet.normal(triangle).normalized();
-    has_both = has_both || (std::abs(normal.dot(point.normal)) < kFrontCosine &&
+    has_both = has_both || (std::abs(normal.dot(point.normal)) < kJoinCosine &&
                             has_both_sides(mesh, point.vertex, sheet.point(triangle, 0).position, normal, walker));
   });
   return has_both;
@@ -179,7 +179,7 @@ bool is_joined(const TetMesh& mesh, const CollisionPoint& point, StarWalker& wal
   if (walls.is_above == walls.is_below) return true;
   const Vec3& place = mesh.rest(point.vertex);
   const std::vector<TetId>& star = walker.star(mesh, point.vertex);
-  const double least = kFrontOffset * mean_edge_length_at(mesh, point.vertex, star);
+  const double least = kJoinOffset * mean_edge_length_at(mesh, point.vertex, star);
   const auto is_behind = [&](VertexId corner) {
     const Vec3 way = mesh.rest(corner) - place;
     return !std::binary_search(walls.corners.begin(), walls.corners.end(), corner) &&

@@ -65,7 +65,7 @@ class IncisionFront {
   [[nodiscard]] std::vector<VertexId> vertices(const TetMesh& mesh) const;
 
  private:
-  /// Vertices on walls of older cuts that go along the sheet, within `kFrontOffset` of it: it is the same cut. Those in
+  /// Vertices on walls of older cuts that go along the sheet, within `kJoinOffset` of it: it is the same cut. Those in
   /// its plane that have tissue on both sides are points of the front. Where the blade has left the body, a lip is no
   /// front; but merging may tie it to tissue that the blade meets next.
   void adopt_walls(const TetMesh& mesh, const Sheet& sheet, std::uint32_t tag, Neighbourhood& near, StarWalker& walker);

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "paper/constants.h"
+
 namespace incise {
 inline namespace v0 {
 namespace paper {
@@ -61,12 +63,11 @@ Rows scatter(std::span<const Vec3> points, const Vec3& centre) {
 }  // namespace
 
 FittedPlane fit_plane(std::span<const Vec3> points) {
-  constexpr int kSweeps = 8;  // convergence is quadratic: five reach rounding
   Vec3 sum = Vec3::Zero();
   for (const Vec3& p : points) sum += p;
   const Vec3 centre = sum / static_cast<double>(points.size());
   Rows m = scatter(points, centre), axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kPlaneSweeps; ++sweep) {
     rotate(m, axes, 0, 1);
     rotate(m, axes, 0, 2);
     rotate(m, axes, 1, 2);

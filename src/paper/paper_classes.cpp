@@ -83,7 +83,6 @@ VertexClass ClassFinder::classify(const TetMesh& mesh, VertexId vertex) {
 
 /// Goes once around the vertex on the boundary. False where the way does not come back.
 bool ClassFinder::walk_fan(const TetMesh& mesh, VertexId vertex, Side first) {
-  constexpr std::size_t kLongest = 4096;  // ends the walk on a surface that is broken at load
   fan_.clear();
   Side face = first;
   do {
@@ -91,7 +90,7 @@ bool ClassFinder::walk_fan(const TetMesh& mesh, VertexId vertex, Side first) {
     fan_.push_back(face);
     rim_.push_back(from);
     face = next_boundary(mesh, face, vertex, to);
-  } while (face != first && fan_.size() < kLongest);
+  } while (face != first && fan_.size() < kLongestFan);
   return face == first;
 }
 

@@ -9,6 +9,7 @@
 #include <new>
 #include <utility>
 
+#include "cut/blade_constants.h"
 #include "cut/constants.h"
 #include "cut/far_blade.h"
 #include "cut/spacing.h"
@@ -264,7 +265,7 @@ void PaperCutter::enter_material(const TetMesh& mesh) {
 Status PaperCutter::step_in_material(const CutContext& context, const std::vector<Vec3>& before) {
   const std::vector<Vec3> to = stroke_.last_row;
   const Box body = current_bounds(context.mesh), near = enlarged(body, kNearBody);
-  const double travel = std::max(stroke_.spacing, (body.hi - body.lo).norm() / kMostParts);
+  const double travel = std::max(stroke_.spacing, (body.hi - body.lo).norm() / kMostStepParts);
   std::vector<Vec3> row = before;
   for (const StepPart& part : divide_step(before, to, travel, near)) {
     const std::vector<Vec3> from = std::exchange(row, to);
@@ -314,7 +315,7 @@ Status PaperCutter::cut_to(const CutContext& context, const std::vector<Vec3>& r
 
 /// Holds the points of the blade that go back in the wound: no further than that is long.
 void PaperCutter::hold_where_it_turns_back() {
-  const double most = std::min(kTurnBack * stroke_.spacing, stroke_.gone);
+  const double most = std::min(kLeavesWound * stroke_.spacing, stroke_.gone);
   const std::vector<Vec3> row = stroke_.material.wanted();
   for (std::size_t i = 0; i < row.size(); ++i) {
     const bool is_back = (row[i] - stroke_.material.anchors()[i]).dot(stroke_.course) < 0;

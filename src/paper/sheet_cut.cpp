@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "cut/constants.h"
 #include "cut/pinched_edges.h"
 #include "incise/mesh/verbs.h"
 #include "paper/coincidence.h"
@@ -25,7 +26,7 @@ Status SheetCut::cut(const CutContext& context, const SheetSoFar& sheet, std::ui
   const std::size_t tets_before = context.mesh.tet_count();
   Transaction transaction(context.mesh);
   statistics.snapped_vertices += find_contact(transaction, sheet, tag, front, context.times);
-  if (std::size_t{context.mesh.tet_slots()} + kMostChildren * near_.tets.size() >= TetMesh::kMaxTets) {
+  if (std::size_t{context.mesh.tet_slots()} + kMostDivided * near_.tets.size() >= TetMesh::kMaxTets) {
     return Error{ErrorCode::kOutOfMemory, "the cut would need more than 2^28 tets; use a coarser mesh", {}};
   }
   Subdivision subdivision = divide(transaction, front, statistics, context.times);

@@ -32,7 +32,7 @@ class SheetSides {
                                        [](const CollisionPoint& point, VertexId w) { return point.vertex < w; });
       if (at == points_.end() || at->vertex != v) continue;
       for (const Vec3& normal : normals) {
-        if (std::abs(normal.dot(at->normal)) < kFrontCosine) return true;
+        if (std::abs(normal.dot(at->normal)) < kJoinCosine) return true;
       }
       normals.push_back(at->normal);
     }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "cut/blade_constants.h"
 #include "cut/sheet_crossing.h"
 #include "cut/sweep.h"
 #include "support/strokes.h"
@@ -107,7 +108,7 @@ TEST(EdgeDivision, leaves_an_edge_alone_that_hardly_turns_or_turns_about_its_end
 TEST(EdgeDivision, has_a_greatest_number_of_parts) {
   EdgeDivision division(2);
   const auto parts = division.divide(turned(0, 0), turned(1.5, 3), 1e-12);
-  EXPECT_EQ(parts[0].size(), static_cast<std::size_t>(EdgeDivision::kMostParts));
+  EXPECT_EQ(parts[0].size(), static_cast<std::size_t>(kMostTwistParts));
 }
 
 TEST(EdgeDivision, makes_a_screw_smooth_that_folds_however_short_its_steps_are) {

@@ -57,15 +57,17 @@ double mean_ratio_cubed(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
 /// For reports: uses a cube root. **Source:** A. Liu, B. Joe, "Relationship between tetrahedron shape measures", 1994.
 double mean_ratio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// A tet with a volume of at most this share of its longest edge cubed counts as flat.
-inline constexpr double kFlatShare = 1e-12;
+/// A tet counts as flat where |V| <= this times the cube of its longest edge.
+///
+/// Unit 1. Larger values call needles flat; smaller ones let rounding noise (about 1e-16) pass as volume.
+inline constexpr double kFlatTetRatio = 1e-12;
 
-/// Whether the tet (a, b, c, d) is inverted or has no volume to speak of: V ≤ `kFlatShare`·L³, L its longest edge. The
-/// same measure names the defect "zero volume" at load. Cost: about 10 ns.
+/// Whether the tet (a, b, c, d) is inverted or has no volume to speak of: V ≤ `kFlatTetRatio`·L³, L its longest edge.
+/// The same measure names the defect "zero volume" at load. Cost: about 10 ns.
 inline bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double longest2 = std::max({(b - a).squaredNorm(), (c - a).squaredNorm(), (d - a).squaredNorm(),
                                     (c - b).squaredNorm(), (d - b).squaredNorm(), (d - c).squaredNorm()});
-  return !(signed_volume6(a, b, c, d) > 6.0 * kFlatShare * longest2 * std::sqrt(longest2));
+  return !(signed_volume6(a, b, c, d) > 6.0 * kFlatTetRatio * longest2 * std::sqrt(longest2));
 }
 
 }  // namespace v0

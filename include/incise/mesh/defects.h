@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "incise/geom/quality.h"  // kFlatTetRatio
 #include "incise/mesh/tet_soup.h"
 
 namespace incise {
@@ -29,11 +30,6 @@ inline constexpr std::size_t kDefectKinds = 8;
 
 /// How many examples of each defect are kept for messages.
 inline constexpr std::size_t kDefectExamples = 4;
-
-/// A tet counts as flat where |V| <= this times the cube of its longest edge.
-///
-/// Unit 1. Larger values call needles flat; smaller ones let rounding noise (about 1e-16) pass as volume.
-inline constexpr double kFlatTetRatio = 1e-12;
 
 /// What is wrong with a soup of tets: counts, and the first few elements of each kind.
 struct Defects {

@@ -6,6 +6,7 @@
 
 #include "incise/geom/box.h"
 #include "sim/body/body_state.h"
+#include "sim/body/constants.h"
 #include "sim/body/position_based.h"
 
 namespace incise {
@@ -225,9 +226,6 @@ void DeformableBody::State::list_uses() {
 
 // --- one substep
 
-/// Of the reach of a visit, so 0.005 of the local edge: a tenth of the thickness that the thinnest tets are taken for.
-static constexpr double kSafeLeap = 0.02;
-
 void DeformableBody::State::list_awake_rows() {
   for (std::size_t part = 0; part < awake_rows.size(); ++part) {
     rows.find(order.awake(static_cast<Part>(part)), awake_rows[part]);
@@ -264,7 +262,7 @@ void DeformableBody::State::begin_substep(double h) {
     detail::Motion& motion = motions[v];
     const Vec3 way = h * kept / mass[slot] * momentum_of(v);
     motion.weight = mass[slot] / (h * h);
-    const double safe = kSafeLeap * static_cast<double>(motion.reach);
+    const double safe = detail::kSafeLeap * static_cast<double>(motion.reach);
     motion.leaps = way.squaredNorm() > safe * safe;
     float* x = single(v);
     for (unsigned i = 0; i < 3; ++i) {
@@ -274,10 +272,6 @@ void DeformableBody::State::begin_substep(double h) {
     }
   });
 }
-
-/// More sweeps of what `list_strained` lists, for substeps of this length, s.
-static constexpr double kUsualSubstep = 1.0 / 240;
-static constexpr unsigned kStrainedSweeps = 20;
 
 /// The two parts at once, the seam after them.
 void DeformableBody::State::descend(double h) {
@@ -299,8 +293,8 @@ void DeformableBody::State::descend(double h) {
     bones.visit(*this);
     find_pressures_beside();
   }
-  const double longer = std::clamp(h / kUsualSubstep, 1.0, 4.0);
-  const auto more = strained.empty() ? 0U : static_cast<unsigned>(kStrainedSweeps * longer);
+  const double longer = std::clamp(h / detail::kUsualSubstep, 1.0, 4.0);
+  const auto more = strained.empty() ? 0U : static_cast<unsigned>(detail::kStrainedSweeps * longer);
   for (unsigned i = 0; i < more; ++i) {
     if (nodal.is_on) detail::find_pressures(d, around_strained);
     detail::sweep(d, rows_of(strained), i % 2 == 1);

@@ -3,12 +3,10 @@
 #include <cmath>
 
 #include "sim/body/body_state.h"
+#include "sim/body/constants.h"
 
 namespace incise {
 inline namespace v0 {
-
-/// Of neighbours that `list_strained` takes in.
-static constexpr unsigned kStrainedRings = 2;
 
 /// Visits bring the pressures of what they move up to date: not those of what rests beside it, nor of bones.
 void DeformableBody::State::list_beside() {
@@ -65,7 +63,7 @@ void DeformableBody::State::list_strained() {
     }
   }
   std::size_t next = 0;
-  for (unsigned ring = 0; ring < kStrainedRings; ++ring) {
+  for (unsigned ring = 0; ring < detail::kStrainedRings; ++ring) {
     for (const std::size_t end = strained.size(); next < end; ++next) {
       detail::SweepOrder::for_each_neighbour(stars, VertexId(strained[next]), take);
     }

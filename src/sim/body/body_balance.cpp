@@ -5,29 +5,17 @@
 #include <array>
 
 #include "sim/body/body_state.h"
+#include "sim/body/constants.h"
 
 namespace incise {
 inline namespace v0 {
 
 namespace {
 
-/// Sweeps between two looks at the energy: each is over in a moment, and most often one is enough.
-constexpr std::array kSweeps = {1U, 1U, 2U, 4U};
-/// A step that adds no more than this share of what its tets had adds nothing.
-constexpr double kGain = 0.01;
-/// Strains below are none.
-constexpr double kNoStrain = 1e-3;
-/// From these numbers of vertices on, by the tets that were touched and besides, a further ring is taken in only where
-/// the energy is still more than this multiple of what it was: where lips that stood apart were joined. In the end all
-/// are swept this number of times more.
-constexpr std::size_t kMostByTouched = 4, kMostBesides = 400;
-constexpr double kFarMore = 1.5;
-constexpr unsigned kMoreSweeps = 24;
-
 /// The tets whose energy a step changes: those that it touched, and those around all that goes towards its balance.
 class Balance {
  public:
-  explicit Balance(DeformableBody::State& state) : s_(state), most_((1 + kGain) * state.touched.energy) {
+  explicit Balance(DeformableBody::State& state) : s_(state), most_((1 + detail::kBalanceGain) * state.touched.energy) {
     for (const std::uint32_t t : s_.touched.tets) {
       if (!s_.tets[TetId(t)][0].is_valid()) continue;
       list(TetId(t));
@@ -51,7 +39,8 @@ class Balance {
   /// energy they have. Returns whether there were any, and not too many already.
   bool grow() {
     const std::size_t last = taken_.size();
-    if (last > kMostByTouched * s_.touched.tets.size() + kMostBesides && !has_gained(kFarMore)) return false;
+    if (last > detail::kMostByTouched * s_.touched.tets.size() + detail::kMostBesides && !has_gained(detail::kFarMore))
+      return false;
     for (std::size_t i = 0; last == 0 && i < tets_.size(); ++i) {
       for (const VertexId v : s_.tets[TetId(tets_[i])]) take(v);
     }
@@ -67,12 +56,12 @@ class Balance {
   }
   /// Sweeps over the vertices that were taken in. Returns whether the energy is down to what it was.
   bool relax() {
-    return std::any_of(kSweeps.begin(), kSweeps.end(), [&](unsigned sweeps) {
+    return std::any_of(detail::kBalanceSweeps.begin(), detail::kBalanceSweeps.end(), [&](unsigned sweeps) {
       s_.relax(vertices_, sweeps, true);
       return !has_gained();
     });
   }
-  void relax_more() { s_.relax(vertices_, kMoreSweeps, true); }
+  void relax_more() { s_.relax(vertices_, detail::kMoreSweeps, true); }
   /// Wakes what has moved. Returns how many vertices that are, but for those that the step put in place.
   std::size_t wake() {
     double furthest2 = 0;
@@ -96,7 +85,7 @@ class Balance {
   /// Of a tet that is strained so little that it counts for nothing.
   [[nodiscard]] double least_energy(TetId t) const {
     const double volume = detail::six_volumes(s_.corners_at_rest(t)) / 6;
-    return 0.5 * kNoStrain * kNoStrain * s_.materials.of(s_.regions[t]).young * s_.unit() * volume;
+    return 0.5 * detail::kNoStrain * detail::kNoStrain * s_.materials.of(s_.regions[t]).young * s_.unit() * volume;
   }
   [[nodiscard]] double energy(std::size_t i) const {
     return detail::energy_of(elements_[i], s_.corners(TetId(tets_[i])));

@@ -6,17 +6,11 @@
 #include <cmath>
 
 #include "sim/body/body_state.h"
+#include "sim/body/constants.h"
 #include "sim/body/turning.h"
 
 namespace incise {
 inline namespace v0 {
-
-namespace {
-
-/// Of the sum of single-precision energies, which do not start at 0: changes below are rounding.
-constexpr double kNoise = 2e-7;
-
-}  // namespace
 
 /// How each free group moves as a rigid body, which is not to change; nothing for the others.
 void DeformableBody::State::find_drifts(std::vector<detail::Drift>& found) const {
@@ -146,7 +140,7 @@ detail::EnergyNow DeformableBody::State::energy_now() {
   for (const double part : of_parts) elastic += part;
   if (nodal.is_on) elastic += pressed_energy();
   now.total += elastic;
-  now.noise = kNoise * std::abs(elastic);
+  now.noise = detail::kEnergyNoise * std::abs(elastic);
   for (const detail::PullTerm& term : terms) {
     if (term.stiffness > 0)
       now.total += detail::pull_state(term, detail::off_target(term, floats.data(), rows.rows())).energy;

@@ -36,14 +36,11 @@ struct Stiffness {
   double lambda, mu;
   double shared;  ///< of Lamé's λ, what vertices resist with
 };
-/// Tets resist a change of volume themselves as tissue of this Poisson's ratio would. More of it locks: with 0.3 a
-/// cantilever of four cells across at ν 0.49 is 25 % too stiff. Without any, the volumes of single tets are free.
-constexpr double kOwnPoisson = 0.1;
 
 double own_share(const Material& material, bool is_averaged) {
-  if (!is_averaged || material.poisson <= kOwnPoisson) return material.lambda();
+  if (!is_averaged || material.poisson <= detail::kOwnPoisson) return material.lambda();
   Material stiff = material;
-  stiff.poisson = kOwnPoisson;
+  stiff.poisson = detail::kOwnPoisson;
   return stiff.lambda();
 }
 
@@ -169,19 +166,15 @@ void DeformableBody::State::settle_vertex(VertexId v) {
   }
 }
 
-/// Of a body, along its longest axis: flat ones would have no end of them.
-static constexpr double kMostSlabs = 1000;
-
 /// Vertices that follow each other are seldom neighbours, so that one visit need not wait for the one before it.
 static void interleave(std::vector<std::uint32_t>& order) {
-  constexpr std::size_t kWindow = 64, kStride = 8;
   std::vector<std::uint32_t> window;
-  for (std::size_t begin = 0; begin < order.size(); begin += kWindow) {
-    const std::size_t end = std::min(order.size(), begin + kWindow);
+  for (std::size_t begin = 0; begin < order.size(); begin += detail::kOrderWindow) {
+    const std::size_t end = std::min(order.size(), begin + detail::kOrderWindow);
     window.assign(order.begin() + static_cast<std::ptrdiff_t>(begin), order.begin() + static_cast<std::ptrdiff_t>(end));
     std::size_t next = begin;
-    for (std::size_t first = 0; first < kStride; ++first) {
-      for (std::size_t i = first; i < window.size(); i += kStride) order[next++] = window[i];
+    for (std::size_t first = 0; first < detail::kOrderStride; ++first) {
+      for (std::size_t i = first; i < window.size(); i += detail::kOrderStride) order[next++] = window[i];
     }
   }
 }
@@ -198,7 +191,8 @@ static void sort_in_slabs(std::vector<std::uint32_t>& vertices, const IdArray<Ve
   const Eigen::Index second = (axis + 1) % 3, third = (axis + 2) % 3;
   const double across = size[second] / size[axis], up = size[third] / size[axis];  // the box by its length: at most 1
   double slabs = 1;
-  while (slabs * slabs * slabs * across * up < static_cast<double>(vertices.size()) && slabs < kMostSlabs) ++slabs;
+  while (slabs * slabs * slabs * across * up < static_cast<double>(vertices.size()) && slabs < detail::kMostSlabs)
+    ++slabs;
   const double thickness = size[axis] / slabs;
   const auto along = [&](std::uint32_t v, Eigen::Index k) {
     return thickness > 0 ? std::floor((rest[VertexId(v)][k] - box.lo[k]) / thickness + 0.5) : 0.0;
@@ -243,9 +237,6 @@ void DeformableBody::State::lay_out_stars() {
   order.begin(sorted, is_first, stars);
 }
 
-/// Of a tet's mean volume at load: a lump a hundredth of a cell wide. Moved by a cell it would swell a million times.
-static constexpr double kCrumb = 3e-6;
-
 /// Whether some material is of a kind that block descent alone knows.
 template <class Is>
 bool DeformableBody::State::has_material(const Is& is) const {
@@ -256,7 +247,7 @@ bool DeformableBody::State::has_material(const Is& is) const {
 
 /// Volumes are averaged where that makes a difference.
 bool DeformableBody::State::is_to_average() const {
-  return options.average_volumes && has_material([](const Material& m) { return m.poisson > kOwnPoisson; });
+  return options.average_volumes && has_material([](const Material& m) { return m.poisson > detail::kOwnPoisson; });
 }
 
 void DeformableBody::State::build(const TetMesh& mesh) {
@@ -285,7 +276,8 @@ void DeformableBody::State::build(const TetMesh& mesh) {
     for (const VertexId v : tets[t]) mass[v.value] += share;
     volumes += volume6;
   });
-  if (options.crumb == 0 && volumes > 0) options.crumb = kCrumb * volumes / 6 / static_cast<double>(mesh.tet_count());
+  if (options.crumb == 0 && volumes > 0)
+    options.crumb = detail::kLeastLump * volumes / 6 / static_cast<double>(mesh.tet_count());
   lay_out_stars();
   mass_id = *attributes.add(mesh, {"mass", Domain::kVertex, 1, Transfer::kConserve, {}, {}});
   momentum_id = *attributes.add(mesh, {"momentum", Domain::kVertex, 3, Transfer::kConserve, {}, {}});
@@ -338,9 +330,6 @@ void DeformableBody::State::note_fresh(VertexId v, Fresh how) {
 
 namespace {
 
-/// Of a parent that has no part in a birth: rounding alone gives it one.
-constexpr double kNoWeight = 1e-9;
-
 /// Takes steps in: notes what they put in place, and hands holds and pieces on.
 ///
 /// A birth between vertices that are all held rigidly is held as they are; a copy is held as its source. A slot that
@@ -369,7 +358,7 @@ class StepFollower final : private JournalVisitor {
     s_.clear_hold(born.id);
     bool is_held = true;
     for (unsigned i = 0; i < 4; ++i) {
-      if (!born.parents[i].is_valid() || std::abs(born.weights[i]) < kNoWeight) continue;
+      if (!born.parents[i].is_valid() || std::abs(born.weights[i]) < detail::kNoWeight) continue;
       is_held = is_held && s_.held[born.parents[i]] == Held::kRigidly;
       s_.piece_of[born.id] = s_.piece_of[born.parents[i]];
     }

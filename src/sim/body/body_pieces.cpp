@@ -153,8 +153,7 @@ void DeformableBody::State::move_crumbs(double dt) {
 
 /// Flooding costs O(body): a large body waits a few steps before its new pieces are told apart.
 void DeformableBody::State::label_stale_pieces() {
-  constexpr std::size_t kVerticesPerStep = 20000;
-  if (stale_pieces > 0 && stale_pieces++ > places.size() / kVerticesPerStep) label_pieces();
+  if (stale_pieces > 0 && stale_pieces++ > places.size() / detail::kLabelledPerStep) label_pieces();
   find_free_pieces();
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/body/constants.h"
+
 namespace incise {
 inline namespace v0 {
 namespace detail {
@@ -124,8 +126,7 @@ Rewind::Sample Rewind::sample(const Vec3& rest) const {
   Sample sample;
   const std::size_t at = grid_.find(rest, sample.weights);
   sample.tet = &old_tets_[at];
-  constexpr double kFarthest = -0.5;  // beside a thin tet weights would lead far away: from there on as at rest
-  if (*std::min_element(sample.weights.begin(), sample.weights.end()) < kFarthest) {
+  if (*std::min_element(sample.weights.begin(), sample.weights.end()) < kFarthestWeight) {
     double sum = 0;
     for (double& weight : sample.weights) sum += weight = std::max(weight, 0.0);
     sample.place = rest;

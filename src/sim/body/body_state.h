@@ -30,8 +30,7 @@ struct Hold {
   Vec3 target = Vec3::Zero();
   Vec3 rest = Vec3::Zero();  ///< the vertex' place in the rest shape that the target is for
   HoldLimit limit{};         ///< of a spring
-  [[nodiscard]] bool is_rigid() const { return !(stiffness < kRigid); }
-  static constexpr double kRigid = 1e30;
+  [[nodiscard]] bool is_rigid() const { return !(stiffness < kGreatestExtent); }  // as stiff as numbers may be
 };
 
 enum class Held : std::uint8_t { kNot, kBySpring, kRigidly };

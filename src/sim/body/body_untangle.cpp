@@ -80,7 +80,7 @@ bool DeformableBody::State::turn_all_back(bool slivers) {
   for (unsigned sweep = 0; sweep < detail::kTurningSweeps && !turned.empty(); ++sweep) {
     sort_out(turned);
     turns += turned.size();
-    if (turns > detail::kMostTurns) break;
+    if (turns > detail::kMostUntangled) break;
     double greatest = 0;
     for (const TetId t : turned) greatest = std::max(greatest, turn_back(t));
     if (!(greatest > 0)) break;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "sim/body/body_state.h"
+#include "sim/body/constants.h"
 #include "sim/body/turning.h"
 
 namespace incise {
@@ -20,13 +21,10 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr unsigned kTurnRounds = 12;  // of Higham's iteration with scaling: bones twenty times as long as wide need 8
-constexpr double kFarthestVisit = 4;  // reaches, so one local edge: as far as a visit moves a vertex of a bone at most
-
 /// The turning in a sum of products: its polar factor. None where it is flat or turned inside out.
 Mat3 turning_of(const Mat3& products) {
   Mat3 turn = products / products.norm();
-  for (unsigned i = 0; i < kTurnRounds; ++i) {
+  for (unsigned i = 0; i < kBoneTurnRounds; ++i) {
     if (!(turn.determinant() > 1e-18)) return Mat3::Identity();
     const Mat3 other = turn.inverse().transpose();
     const double scale = std::sqrt(other.norm() / turn.norm());

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "sim/body/body_state.h"
+#include "sim/body/constants.h"
 
 namespace incise {
 inline namespace v0 {
@@ -16,22 +17,12 @@ namespace detail {
 
 namespace {
 
-constexpr double kMostCells = 10;            // along the longest axis
-constexpr double kLeastSpacing = 2.5;        // mean edges: sweeps see to what is shorter
-constexpr std::size_t kLeastVertices = 64;   // of a piece: in smaller ones sweeps reach everywhere
-constexpr std::size_t kVerticesPerNode = 4;  // of the lattice, at least; at most kMostNodes in any case
-constexpr std::size_t kMostNodes = 400;
-constexpr double kHoldStiffness = 10;    // of the vertex' own: what is held hardly moves
-constexpr double kPoisson = 0.3;         // the lattice's own: linear cells lock near 1/2
-constexpr unsigned kTurnEvery = 4;       // steps
-constexpr double kFarthestAnswer = 0.5;  // of a cell: the most that one answer moves a vertex
-constexpr double kLongest = 2;           // how much further than it asks an answer may be taken
-
 using Mat24 = Eigen::Matrix<double, 24, 24>;
 
 /// The stiffness of a cell by Young's modulus and volume, in two Gauss points along each axis.
 Mat24 cell_stiffness(const Vec3& spacing) {
-  constexpr double kLambda = kPoisson / ((1 + kPoisson) * (1 - 2 * kPoisson)), kMu = 0.5 / (1 + kPoisson);
+  constexpr double kLambda = kLatticePoisson / ((1 + kLatticePoisson) * (1 - 2 * kLatticePoisson)),
+                   kMu = 0.5 / (1 + kLatticePoisson);
   constexpr std::array<double, 2> kPoints = {0.21132486540518712, 0.78867513459481288};
   Mat24 sum = Mat24::Zero();
   for (unsigned point = 0; point < 8; ++point) {
@@ -146,10 +137,11 @@ void CoarseLattice::lay_out(const DeformableBody::State& state) {
     edges += 4 * static_cast<double>(state.motions[VertexId(v)].reach);  // reach is a quarter of the local edge length
     ++vertices;
   }
-  if (vertices < kLeastVertices) return;
+  if (vertices < kLeastLatticeVertices) return;
   const Vec3 size = high - low;
-  const std::size_t most = std::clamp(vertices / kVerticesPerNode, std::size_t{8}, kMostNodes);
-  double spacing = std::max(size.maxCoeff() / kMostCells, kLeastSpacing * edges / static_cast<double>(vertices));
+  const std::size_t most = std::clamp(vertices / kVerticesPerNode, std::size_t{8}, kMostLatticeNodes);
+  double spacing =
+      std::max(size.maxCoeff() / kMostLatticeCells, kLeastLatticeSpacing * edges / static_cast<double>(vertices));
   for (;; spacing *= 1.1) {
     std::size_t nodes = 1;
     for (unsigned k = 0; k < 3; ++k) {
@@ -200,7 +192,7 @@ void CoarseLattice::number_nodes(const DeformableBody::State& state, Cells& cell
   first_of_piece_.assign(pieces_, kNone);
   std::uint32_t slots = 0;
   for (std::size_t i = 0; i < pieces_; ++i) {
-    if (vertices[i] < kLeastVertices) continue;
+    if (vertices[i] < kLeastLatticeVertices) continue;
     first_of_piece_[i] = slots;
     slots += grid_;
   }
@@ -398,7 +390,8 @@ void CoarseLattice::correct(DeformableBody::State& state) {
   const double at_end = slope_along(state);
   // The slope is as good as linear: to where it is 0, or on as far as may be.
   const double curvature = at_end - at_start;
-  double share = state.stars.stiffens ? 1.0 : kLongest;  // further on, tissue that stiffens may stand up against it
+  double share =
+      state.stars.stiffens ? 1.0 : kLongestAnswer;  // further on, tissue that stiffens may stand up against it
   if (curvature > 0) share = std::min(share, -at_start / curvature);
   if (!(at_start < 0) || !std::isfinite(at_end)) share = 0;
   go(state, share * first);

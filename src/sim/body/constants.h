@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants of contact, of free pieces and of averaged volumes.
+// The constants of bodies that deform, with what each is measured in and what goes wrong where it is changed. Where no
+// source is named a value was chosen by hand, and changing it changes hashes. The local edge is the mean edge of a
+// star.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace incise {
 inline namespace v0 {
@@ -72,7 +78,106 @@ inline constexpr double kTurningReach = 0.5;
 /// one in ten.
 inline constexpr unsigned kTurningSweeps = 30;
 /// In one step, so that a body that is torn into slivers takes some milliseconds at most.
-inline constexpr std::size_t kMostTurns = 4000;
+inline constexpr std::size_t kMostUntangled = 4000;
+
+// --- a body that follows the mesh (`body_follow`, `body_pieces`, `body_rewind`, `stars`)
+
+/// Tets resist a change of volume themselves as tissue of this Poisson's ratio would. More of it locks: with 0.3 a
+/// cantilever of four cells across at ν 0.49 is 25 % too stiff. Without any, the volumes of single tets are free.
+inline constexpr double kOwnPoisson = 0.1;
+/// Slabs of a body in which its vertices are sorted, at most, along its longest axis: flat ones would have no end of
+/// them.
+inline constexpr double kMostSlabs = 1000;
+/// Vertices that follow each other are seldom neighbours, so that one visit need not wait for the one before it: of so
+/// many in turn, each comes so many places after the one before it. A matter of speed, but hashes follow the order.
+inline constexpr std::size_t kOrderWindow = 64, kOrderStride = 8;
+/// Tets below this share of a tet's mean volume at load only resist stretch: a lump a hundredth of a cell wide. Moved
+/// by a cell it would swell a million times.
+inline constexpr double kLeastLump = 3e-6;
+/// The weight of a parent that has no part in a birth: rounding alone gives it one.
+inline constexpr double kNoWeight = 1e-9;
+/// So many vertices are labelled by their piece in a step: a large body waits a few steps before its new pieces are
+/// told apart.
+inline constexpr std::size_t kLabelledPerStep = 20000;
+/// Barycentric weights below this are not followed: beside a thin tet they would lead far away. From there on a vertex
+/// lies as at rest.
+inline constexpr double kFarthestWeight = -0.5;
+/// Steps of a walk from tet to tet.
+inline constexpr unsigned kMostWalkSteps = 500;
+
+// --- visits and substeps (`body_advance`, `body_energy`, `bones`, `element`, `star_kernel`, `sweep_order`)
+
+/// A vertex leaps that goes further in a substep than this share of the reach of a visit, so 0.005 of the local edge: a
+/// tenth of the thickness that the thinnest tets are taken for.
+inline constexpr double kSafeLeap = 0.02;
+/// More sweeps of what `list_strained` lists, for substeps of this length, s; and the rings of neighbours that it takes
+/// in.
+inline constexpr double kUsualSubstep = 1.0 / 240;
+inline constexpr unsigned kStrainedSweeps = 20;
+inline constexpr unsigned kStrainedRings = 2;
+/// Changes below this share of the sum of single-precision energies, which do not start at 0, are rounding.
+inline constexpr double kEnergyNoise = 2e-7;
+/// Beyond this much of 1 + Q/8 a tet stiffens no more: it is 8⁷, two million times as stiff as at rest.
+inline constexpr double kStiffest = 8;
+/// Fibres that are shorter than taut by this share or less count in the curvature: no visit finds itself beyond where
+/// they begin to pull.
+inline constexpr float kNearlyTaut = 0.02F;
+/// Rounds of Higham's iteration with scaling: bones twenty times as long as wide need 8.
+inline constexpr unsigned kBoneTurnRounds = 12;
+/// As far as a visit moves a vertex of a bone at most, in reaches: one local edge.
+inline constexpr double kFarthestVisit = 4;
+/// Steps without motion before a vertex sleeps: by itself, by a neighbour.
+inline constexpr std::uint8_t kHotSteps = 10, kWarmSteps = 5;
+
+// --- lips that were joined or parted go towards their balance (`body_balance`)
+
+/// Sweeps between two looks at the energy: each is over in a moment, and most often one is enough.
+inline constexpr std::array kBalanceSweeps = {1U, 1U, 2U, 4U};
+/// A step that adds no more than this share of what its tets had adds nothing.
+inline constexpr double kBalanceGain = 0.01;
+/// Strains below are none.
+inline constexpr double kNoStrain = 1e-3;
+/// From these numbers of vertices on, by the tets that were touched and besides, a further ring is taken in only where
+/// the energy is still more than this multiple of what it was: where lips that stood apart were joined. In the end all
+/// are swept this number of times more.
+inline constexpr std::size_t kMostByTouched = 4, kMostBesides = 400;
+inline constexpr double kFarMore = 1.5;
+inline constexpr unsigned kMoreSweeps = 24;
+
+// --- the coarse lattice
+
+/// Cells along the longest axis, at most.
+inline constexpr double kMostLatticeCells = 10;
+/// Mean edges that a cell is wide at least: sweeps see to what is shorter.
+inline constexpr double kLeastLatticeSpacing = 2.5;
+/// Vertices of a piece that gets one: in smaller ones sweeps reach everywhere.
+inline constexpr std::size_t kLeastLatticeVertices = 64;
+/// Vertices of the body for each node of the lattice, at least; and nodes in any case at most.
+inline constexpr std::size_t kVerticesPerNode = 4, kMostLatticeNodes = 400;
+/// How stiff what is held is, by the vertex' own stiffness: it hardly moves.
+inline constexpr double kHoldStiffness = 10;
+/// The lattice's own Poisson's ratio: linear cells lock near 1/2.
+inline constexpr double kLatticePoisson = 0.3;
+/// Steps after which the lattice is turned with the body.
+inline constexpr unsigned kTurnEvery = 4;
+/// The most that one answer moves a vertex, in cells.
+inline constexpr double kFarthestAnswer = 0.5;
+/// How many times further than it asks an answer may be taken.
+inline constexpr double kLongestAnswer = 2;
+
+// --- tools, tissues and the grid of contact
+
+/// The balls that stand for a rod in an outline: a row of balls reads as a rod.
+inline constexpr int kRodBalls = 24;
+/// Cells of the grid for each box, at most: more would cost more to clear than they save.
+inline constexpr double kCellsPerBox = 8;
+/// The cosine by which normals of faces may have turned since the grid was made, and by which a face may be nearer.
+inline constexpr float kTurnedSince = 0.15F;
+/// Poisson's ratio of soft tissues in the table: water does not let soft tissue be compressed, which linear tets do not
+/// bear.
+inline constexpr double kSoftPoisson = 0.45;
+/// Friction by tearing: of what needles meet in tissue 61 % is tearing and 21 % friction (Barnett 2016).
+inline constexpr double kRubbing = 21.0 / 61;
 
 }  // namespace detail
 }  // namespace v0

@@ -8,6 +8,7 @@
 
 #include "incise/mesh/tet_mesh.h"
 #include "sim/body/bounds.h"
+#include "sim/body/constants.h"
 #include "sim/body/tool_touch.h"
 
 namespace incise {
@@ -106,9 +107,9 @@ void add_outline(const BallTool& ball, ToolOutline& outline) {
   outline.balls.push_back({ball.centre, ball.radius});
 }
 void add_outline(const RodTool& rod, ToolOutline& outline) {
-  constexpr int kBalls = 24;  // a row of balls reads as a rod
-  for (int i = 0; i <= kBalls; ++i) {
-    outline.balls.push_back({rod.from + (rod.to - rod.from) * (static_cast<double>(i) / kBalls), rod.radius});
+  for (int i = 0; i <= detail::kRodBalls; ++i) {
+    outline.balls.push_back(
+        {rod.from + (rod.to - rod.from) * (static_cast<double>(i) / detail::kRodBalls), rod.radius});
   }
 }
 void add_outline(const PlaneTool& /*plane*/, ToolOutline& /*outline*/) {}  // drawing it would hide the body

@@ -6,15 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/body/constants.h"
+
 namespace incise {
 inline namespace v0 {
 namespace detail {
-
-namespace {
-
-constexpr double kCellsPerBox = 8;  // at most: more would cost more to clear than they save
-
-}  // namespace
 
 std::array<std::uint32_t, 3> ContactGrid::cell_of(const Vec3& point) const {
   std::array<std::uint32_t, 3> cell;

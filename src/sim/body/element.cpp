@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/body/constants.h"
+
 namespace incise {
 inline namespace v0 {
 namespace detail {

@@ -39,9 +39,6 @@ struct Element {
   double fibre = 0;                   ///< V k of the fibres; 0: there are none
 };
 
-/// Beyond this much of 1 + Q/8 a tet stiffens no more: it is 8⁷, two million times as stiff as at rest.
-inline constexpr double kStiffest = 8;
-
 /// What stiffening does to a tet of energy ψ: its energy, by how much its slopes are greater, and how that grows with
 /// ψ.
 struct Stiffened {

@@ -183,11 +183,10 @@ bool SelfContact::may_be_near(const Nearby& face, const std::array<float, 3>& pl
   const auto dot = [](const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
-  constexpr float kTurned = 0.15F;  // by what has moved since
-  if (dot(face.normal, normal) > kTurned - static_cast<float>(kFacing)) return false;
+  if (dot(face.normal, normal) > kTurnedSince - static_cast<float>(kFacing)) return false;
   const std::array<float, 3> off = {place[0] - face.middle[0], place[1] - face.middle[1], place[2] - face.middle[2]};
   const float farthest = face.radius + reach;
-  return std::abs(dot(off, face.normal)) < reach + kTurned * face.radius && dot(off, off) < farthest * farthest;
+  return std::abs(dot(off, face.normal)) < reach + kTurnedSince * face.radius && dot(off, off) < farthest * farthest;
 }
 
 /// Whether a face is near the vertex and faces it.

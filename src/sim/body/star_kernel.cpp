@@ -13,6 +13,7 @@
 #define HWY_TARGET_INCLUDE "sim/body/star_kernel.cpp"  // NOLINT(readability-identifier-naming): Highway's name
 #include <hwy/foreach_target.h>                        // NOLINT(misc-header-include-cycle): it includes this file
 #endif
+#include "sim/body/constants.h"
 #include "sim/body/lanes-inl.h"
 
 #if INCISE_WITH_HIGHWAY
@@ -96,8 +97,6 @@ struct FibreLanes {
   }
   /// Of that, across the fibre.
   [[nodiscard]] inline Lanes across() const { return over * by; }
-
-  static constexpr float kNearlyTaut = 0.02F;
 };
 
 constexpr std::uint32_t kRows[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};

@@ -9,6 +9,7 @@
 
 #include "incise/core/id_array.h"
 #include "incise/mesh/tet_mesh.h"
+#include "sim/body/constants.h"
 #include "sim/body/stars.h"
 
 namespace incise {
@@ -39,7 +40,7 @@ class SweepOrder {
 
   [[nodiscard]] bool moves(VertexId vertex) const { return parts_[vertex] != Part::kNone; }
   [[nodiscard]] bool is_awake(VertexId vertex) const { return heat_[vertex] > 0; }
-  void wake(VertexId vertex) { warm(vertex, kHot); }
+  void wake(VertexId vertex) { warm(vertex, kHotSteps); }
   void wake_star(VertexId vertex, const Stars& stars);
   void put_to_sleep(VertexId vertex);
 
@@ -61,8 +62,6 @@ class SweepOrder {
   static void for_each_neighbour(const Stars& stars, VertexId vertex, Visit&& visit);
 
  private:
-  static constexpr std::uint8_t kHot = 10, kWarm = 5;  // steps without motion before sleep: by itself, by a neighbour
-
   void warm(VertexId vertex, std::uint8_t heat);
   [[nodiscard]] Part part_beside(VertexId vertex, const Stars& stars) const;
 
@@ -94,8 +93,8 @@ void SweepOrder::cool(const Stars& stars, const Moved& moved, const Rest& rest) 
     for (const std::uint32_t slot : list) {
       const VertexId v(slot);
       if (moved(v)) {
-        heat_[v] = kHot;
-        if (has_sleepers) for_each_neighbour(stars, v, [&](VertexId n) { warm(n, kWarm); });
+        heat_[v] = kHotSteps;
+        if (has_sleepers) for_each_neighbour(stars, v, [&](VertexId n) { warm(n, kWarmSteps); });
       } else if (heat_[v] > 0 && --heat_[v] == 0) {
         rest(v);
         is_stale_ = true;

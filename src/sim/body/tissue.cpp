@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/body/constants.h"
+
 namespace incise {
 inline namespace v0 {
 namespace {
@@ -16,33 +18,30 @@ namespace {
 constexpr unsigned kE = kTissueYoung, kJ = kTissueToughness;
 /// Water does not let soft tissue be compressed, which linear tets do not bear; no one measured what blades rub on.
 constexpr unsigned kAlways = kTissuePoisson | kTissueFriction;
-constexpr double kSoft = 0.45;
-/// Of what needles meet in tissue 61 % is tearing and 21 % friction (Barnett 2016).
-constexpr double kRubbing = 21.0 / 61;
 
 constexpr Tissue tissue(std::string_view name, double density, double young, double poisson, double toughness,
                         unsigned readings) {
-  return {name, {density, young, poisson, toughness, kRubbing * toughness}, readings | kAlways};
+  return {name, {density, young, poisson, toughness, detail::kRubbing * toughness}, readings | kAlways};
 }
 
 /// Sources, and why readings are what they are: docs/tissues.md, which a test compares with this table.
 constexpr std::array<Tissue, 17> kTissues = {{
-    tissue("skin", 1090, 344e3, kSoft, 1136, 0),
-    tissue("fat", 950, 3040, kSoft, 270, kJ),
-    tissue("muscle", 1050, 11.1e3, kSoft, 550, kJ),
-    tissue("liver", 1050, 5490, kSoft, 164, 0),
-    tissue("kidney", 1050, 5000, kSoft, 150, kJ),
-    tissue("spleen", 1040, 2900, kSoft, 87, kJ),
-    tissue("pancreas", 1050, 4800, kSoft, 144, kJ),
-    tissue("brain", 1050, 1895, kSoft, 57, kJ),
-    tissue("thyroid", 1040, 10.97e3, kSoft, 330, kJ),
-    tissue("salivary gland", 1030, 10.92e3, kSoft, 330, kJ),
-    tissue("breast gland", 1020, 3240, kSoft, 270, kJ),
-    tissue("tumour", 1050, 42e3, kSoft, 330, kTissueDensity | kJ),
-    tissue("heart", 1050, 11.1e3, kSoft, 550, kE | kJ),
-    tissue("vessel", 1060, 500e3, kSoft, 290, kE),
-    tissue("tendon", 1100, 51.5e3, kSoft, 1136, kTissueDensity | kJ),
-    tissue("cartilage", 1100, 600e3, kSoft, 670, kE),
+    tissue("skin", 1090, 344e3, detail::kSoftPoisson, 1136, 0),
+    tissue("fat", 950, 3040, detail::kSoftPoisson, 270, kJ),
+    tissue("muscle", 1050, 11.1e3, detail::kSoftPoisson, 550, kJ),
+    tissue("liver", 1050, 5490, detail::kSoftPoisson, 164, 0),
+    tissue("kidney", 1050, 5000, detail::kSoftPoisson, 150, kJ),
+    tissue("spleen", 1040, 2900, detail::kSoftPoisson, 87, kJ),
+    tissue("pancreas", 1050, 4800, detail::kSoftPoisson, 144, kJ),
+    tissue("brain", 1050, 1895, detail::kSoftPoisson, 57, kJ),
+    tissue("thyroid", 1040, 10.97e3, detail::kSoftPoisson, 330, kJ),
+    tissue("salivary gland", 1030, 10.92e3, detail::kSoftPoisson, 330, kJ),
+    tissue("breast gland", 1020, 3240, detail::kSoftPoisson, 270, kJ),
+    tissue("tumour", 1050, 42e3, detail::kSoftPoisson, 330, kTissueDensity | kJ),
+    tissue("heart", 1050, 11.1e3, detail::kSoftPoisson, 550, kE | kJ),
+    tissue("vessel", 1060, 500e3, detail::kSoftPoisson, 290, kE),
+    tissue("tendon", 1100, 51.5e3, detail::kSoftPoisson, 1136, kTissueDensity | kJ),
+    tissue("cartilage", 1100, 600e3, detail::kSoftPoisson, 670, kE),
     tissue("bone", 1920, 17e9, 0.3, 600, 0),
 }};
 

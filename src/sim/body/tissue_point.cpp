@@ -6,6 +6,7 @@
 
 #include "incise/geom/box.h"
 #include "incise/geom/closest.h"
+#include "sim/body/constants.h"
 #include "sim/body/element.h"
 
 namespace incise {
@@ -58,9 +59,8 @@ bool TissuePoint::holds(const TetMesh& mesh) const {
 }
 
 std::optional<TissuePoint> walk_to(const TetMesh& mesh, BodyShape shape, const Vec3& place, TetId near) {
-  constexpr unsigned kMostSteps = 500;
   TetId tet = near;
-  for (unsigned step = 0; step < kMostSteps && mesh.is_live(tet); ++step) {
+  for (unsigned step = 0; step < detail::kMostWalkSteps && mesh.is_live(tet); ++step) {
     const auto share = shares(corners(mesh, shape, tet), place);
     if (is_inside(share)) return point_in(mesh, tet, share);
     Link best = Link::boundary(0);

@@ -4,12 +4,11 @@
 #pragma once
 
 #include "incise/geom/vec.h"
+#include "sim/haptic/constants.h"
 
 namespace incise {
 inline namespace v0 {
 namespace detail {
-
-inline constexpr double kLeastAmount = 1e-15, kGreatestAmount = 1e15;  // SI units
 
 [[nodiscard]] inline bool is_amount(double number) {
   return number >= 0 && number <= kGreatestAmount;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/haptic/amounts.h"
+#include "sim/haptic/constants.h"
 
 namespace incise {
 inline namespace v0 {
@@ -22,17 +23,13 @@ Vec3 shortened(const Vec3& v, double longest) {
   return length > longest ? Vec3(v * (longest / length)) : v;
 }
 
-/// The lightest grip, kg, for which a coupling over a link with a delay is to settle, and the share of it by the delay
-/// squared that its stiffness may reach: measured, docs/haptics.md.
-constexpr double kLightestGrip = 0.05, kDelayedStiffness = 0.4;
-
 /// Over a link with a delay the coupling is no stiffer than what light grips bear, and the drag takes what it gives
 /// away.
 HapticToolOptions suited(HapticToolOptions options) {
   options.passivity.link_delay = std::min(options.passivity.link_delay, PassivityOptions::kLongestDelay);
   const double round_trip = 2 * options.passivity.link_delay;
   if (!(round_trip > 0)) return options;
-  const double most = kDelayedStiffness * kLightestGrip / (round_trip * round_trip);
+  const double most = detail::kDelayedStiffness * detail::kLightestGrip / (round_trip * round_trip);
   const double softer = std::min(1.0, most / options.coupling_stiffness);
   options.coupling_stiffness *= softer;
   options.coupling_damping *= softer;

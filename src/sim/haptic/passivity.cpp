@@ -7,20 +7,10 @@
 #include <cmath>
 
 #include "sim/haptic/amounts.h"
+#include "sim/haptic/constants.h"
 
 namespace incise {
 inline namespace v0 {
-
-namespace {
-
-/// Of the sampled energy, the share that one tick may spend: a force that runs out of energy fades and does not drop.
-constexpr double kSpent = 0.2;
-/// Of the saved energy, the share that one tick may risk. From the rest a drained store grows again, tick by tick.
-constexpr double kRisked = 0.9;
-/// The shortest ticks over a link with a delay, s.
-constexpr double kShortestTick = 1e-4;
-
-}  // namespace
 
 void PassivityObserver::add(const Vec3& force, const Vec3& displacement) {
   energy_ = after(force, displacement);
@@ -46,7 +36,7 @@ PassivityController::PassivityController(const PassivityOptions& options)
       held_(options.initial_energy),
       saved_(std::min(options.initial_energy, options.max_saved_energy)) {
   options_.link_delay = std::min(options.link_delay, PassivityOptions::kLongestDelay);  // options may be refused ones
-  if (options_.link_delay > 0) ring_.resize(static_cast<std::size_t>(round_trip() / kShortestTick) + 4);
+  if (options_.link_delay > 0) ring_.resize(static_cast<std::size_t>(round_trip() / detail::kShortestDelayedTick) + 4);
 }
 
 /// By how much the displacement within a tick that ends so long ahead may differ from the last one.
@@ -104,7 +94,7 @@ void PassivityController::observe_held(double dt, const Vec3& displacement) {
 }
 
 Vec3 PassivityController::damp(const Vec3& step, const Vec3& wanted) {
-  const double missing = wanted.dot(step) - kSpent * sampled_.energy();
+  const double missing = wanted.dot(step) - detail::kSpent * sampled_.energy();
   if (missing <= 0) return wanted;
   ++counts_.damped_ticks;
   counts_.removed_energy += missing;
@@ -115,7 +105,7 @@ Vec3 PassivityController::damp(const Vec3& step, const Vec3& wanted) {
 
 Vec3 PassivityController::scale(double dt, const Vec3& displacement, const Vec3& wanted) {
   const double worst = wanted.dot(displacement) + wanted.norm() * reach(dt, dt + round_trip());
-  const double budget = kRisked * (saved_ - set_aside(dt, displacement));
+  const double budget = detail::kRisked * (saved_ - set_aside(dt, displacement));
   if (worst <= std::max(0.0, budget)) return wanted;
   ++counts_.scaled_ticks;
   return (std::max(0.0, budget) / worst) * wanted;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/reference/block_matrix.h"
+#include "sim/reference/constants.h"
 #include "sim/reference/elastic_body.h"
 
 namespace incise {
@@ -27,13 +28,6 @@ struct ReferenceSolver::Model {
 };
 
 namespace {
-
-/// Progress in energy that a line search asks for, as a share of what the slope promises.
-constexpr double kSufficient = 1e-4;
-/// The energy's rounding errors, as a share of the sizes of its terms.
-constexpr double kNoise = 1e-14;
-constexpr int kMostHalvings = 40;
-constexpr std::size_t kMostSingular = 3;
 
 Error bad(std::string message, std::vector<std::uint64_t> ids = {}) {
   return {ErrorCode::kBadArgument, std::move(message), std::move(ids)};
@@ -195,7 +189,7 @@ class Newton {
     double shift = 0;
     for (std::uint32_t row = 0; row < hessian.rows(); ++row) shift = std::max(shift, hessian.at(row, row).norm());
     shift *= 1e-12;
-    for (std::size_t attempt = 0; attempt < kMostSingular; ++attempt) {
+    for (std::size_t attempt = 0; attempt < detail::kMostSingular; ++attempt) {
       std::optional<VecX> direction = solve(hessian, -gradient);
       if (direction && direction->dot(gradient) < 0) return direction;
       for (std::uint32_t row = 0; row < hessian.rows(); ++row) hessian.at(row, row) += shift * Mat3::Identity();
@@ -213,10 +207,10 @@ class Newton {
     const Objective::Value start = objective_.value(u);
     const double slope = gradient.dot(direction);
     double step = 1;
-    for (int halving = 0; halving < kMostHalvings; ++halving, step /= 2) {
+    for (int halving = 0; halving < detail::kMostStepHalvings; ++halving, step /= 2) {
       const Objective::Value end = objective_.value(objective_.moved(u, direction, step));
-      const double noise = kNoise * (start.scale + end.scale);
-      if (end.sum <= start.sum + kSufficient * step * slope) return step;
+      const double noise = detail::kReferenceNoise * (start.scale + end.scale);
+      if (end.sum <= start.sum + detail::kSufficient * step * slope) return step;
       // What is left to win is lost in rounding errors: forces tell more than energies.
       if (end.sum <= start.sum + noise && -step * slope <= noise) return lessens_forces(u, gradient, direction, step);
     }
