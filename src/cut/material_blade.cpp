@@ -170,9 +170,9 @@ void MaterialBlade::begin(const TetMesh& mesh, const SurfaceIndex& surface, std:
 }
 
 /// Finds the tet that holds a point, or the surface near it and the rest point that its map gives. Where tets name each
-/// other in turn (a wall that lies on another one), that one which has the point nearest to its anchor, if that
-/// `is_expected`, or which is nearest as the body stands: the parity of rounds would choose for each point anew, and
-/// the front would lie in zigzags.
+/// other in turn, as those of pieces that have drawn apart, a blade that is put in place (nothing `is_expected` of it)
+/// goes by the one that is nearest as the body stands: the parity of rounds would choose for each point anew, and the
+/// front would lie in zigzags.
 void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point& point, const Vec3& anchor,
                          bool is_expected) {
   point.tet = {};
@@ -200,8 +200,7 @@ void MaterialBlade::find(const TetMesh& mesh, const SurfaceIndex& surface, Point
       const Vec3 mapped = to_rest(mesh, point.hint, point.world, is_possible);
       if (is_possible) {
         rest = mapped;
-        nearest.see(point.hint, rest,
-                    is_expected ? (rest - anchor).norm() : distance_from(mesh, point.hint, point.world));
+        if (!is_expected) nearest.see(point.hint, rest, distance_from(mesh, point.hint, point.world));
       }
       point.is_mapped = is_possible;
     }

@@ -171,7 +171,7 @@ TEST(BodyFall, ACrumbMovesAsAPointAndSleeps) {
   MovingBody moving(kuhn_cube(4), {tissue(3e3), {}}, {}, sharp);
   moving.hold_where(0);
   moving.advance(2);
-  moving.cut_plane(Vec3(1, 1.1, 1.2), 3.277);
+  moving.cut_plane(Vec3(1, 1.1, 1.2), 3.265);
   moving.advance(2);
   ASSERT_EQ(moving.state().pieces.size(), 2U);
   ASSERT_EQ(moving.state().crumbs.size(), 1U);
