@@ -1,46 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What script/lib/constants.py finds in trees made for it. usage: constants_test.py PATH_OF_CONSTANTS"""
-import contextlib
-import importlib.util
-import io
-import os
+"""What script/lib/constants.py finds in trees made for it. usage: constants_test.py ROOT"""
 import sys
-import tempfile
+
+import trees
+from trees import expect, outcome_of
+
+trees.import_checks(sys.argv[1])
+import constants  # noqa: E402
 
 TABLE = "## 7 Constants\n\n| value | unit | what | where |\n|---|---|---|---|\n%s\n\n## 8 More\n"
 
 
-def load(path):
-    spec = importlib.util.spec_from_file_location("constants", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def check(constants, files):
-    """The exit code of the check for a tree of these files, and what it says."""
-    with tempfile.TemporaryDirectory() as root:
-        for path, text in files.items():
-            place = os.path.join(root, path)
-            os.makedirs(os.path.dirname(place), exist_ok=True)
-            with open(place, "w", encoding="utf-8") as source:
-                source.write(text)
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said):
-            code = constants.main(root)
-    return code, said.getvalue()
-
-
-def expect(is_true, what):
-    if not is_true:
-        sys.exit("constants_test.py: " + what)
-
-
 def main():
-    constants = load(sys.argv[1])
-
     def passes(files):
-        code, said = check(constants, files)
+        code, said = outcome_of(constants, files)
         return code == 0 and not said
 
     for text in ("constexpr double kNear = 0.1;\n", "inline constexpr float kNear = 0.1F;\n",
@@ -48,7 +21,7 @@ def main():
                  "void f() {\n  constexpr double kNear = 0x1p-20;  // far above rounding\n}\n",
                  "constexpr double kHalf = kNear / 2, kNear = 0.1;\n", "const double kNear =\n    -2.0;\n"):
         for path in ("src/cut/a.cpp", "src/sim/body/a.h", "src/geom/a.cpp"):
-            code, said = check(constants, {path: text})
+            code, said = outcome_of(constants, {path: text})
             expect(code == 1 and said.startswith(path + ":"), "a tuned constant is named: " + repr(text))
             expect("kNear is a tuned constant" in said and "constants.h" in said, "the remedy is told: " + said)
             expect("kHalf" not in said, "what follows from others is none: " + said)
@@ -60,11 +33,11 @@ def main():
 
     splitter = "src/geom/expansion_internal.h"
     expect(passes({splitter: "constexpr double kSplitter = 134217729.0;\n"}), "exceptions are let pass")
-    code, said = check(constants, {splitter: "\n"})
+    code, said = outcome_of(constants, {splitter: "\n"})
     expect(code == 1 and "kSplitter needs no exception" in said, "exceptions that nothing needs are named: " + said)
 
     near, far = "inline constexpr double kNear = 0.1;\n", "inline constexpr unsigned kNear = 4;\n"
-    code, said = check(constants, {"src/cut/constants.h": near, "src/improve/constants.h": far})
+    code, said = outcome_of(constants, {"src/cut/constants.h": near, "src/improve/constants.h": far})
     expect(code == 1 and "src/improve/constants.h: kNear has that name in src/cut/constants.h" in said, said)
 
     source = {"src/cut/constants.h": "inline constexpr double kNear = 0.1, kSame = 1e-6;\n"}
@@ -74,7 +47,7 @@ def main():
     for row, fault in (("| 0.1; 10⁻⁵ | edge | near | `kNear`, `kSame` |", "kSame is 1e-06, not 1e-05"),
                        ("| 0.2 | edge | near | `kNear` |", "docs/internals.md:5: kNear is 0.1, not 0.2"),
                        ("| 0.1 | edge | near | `kGone` |", "no source has kGone")):
-        code, said = check(constants, {**source, "docs/internals.md": TABLE % row})
+        code, said = outcome_of(constants, {**source, "docs/internals.md": TABLE % row})
         expect(code == 1 and fault in said, "a row that does not is named: " + said)
 
 

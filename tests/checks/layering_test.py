@@ -4,16 +4,16 @@
 
 usage: layering_test.py ROOT
 """
-import contextlib
-import io
 import os
 import shutil
 import sys
 import tempfile
 import unittest
 
+import trees
+
 ROOT = sys.argv.pop()
-sys.path.insert(0, os.path.join(ROOT, "script", "lib"))
+trees.import_checks(ROOT)
 import layering  # noqa: E402
 
 # A small tree that is sound: a few modules, rooms and a front end.
@@ -42,21 +42,15 @@ class Layering(unittest.TestCase):
     def setUp(self):
         self.root = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.root)
-        for path, text in SOUND.items():
-            self.write(path, text)
+        trees.write(self.root, SOUND)
 
     def write(self, path, text):
-        whole = os.path.join(self.root, path)
-        os.makedirs(os.path.dirname(whole), exist_ok=True)
-        with open(whole, "w", encoding="utf-8") as file:
-            file.write(text)
+        trees.write(self.root, {path: text})
 
     def said(self):
-        text = io.StringIO()
-        with contextlib.redirect_stdout(text):
-            status = layering.main(self.root)
-        self.assertEqual(status, 0 if ", 0 wrong" in text.getvalue() else 1)
-        return text.getvalue()
+        status, text = trees.outcome(layering, self.root)
+        self.assertEqual(status, 0 if ", 0 wrong" in text else 1)
+        return text
 
     def expect_refused(self, path, include, reason):
         """An #include that is put before a sound file is found, and is the only thing that is."""
