@@ -101,6 +101,11 @@ class ClosedComplex {
   /// Cost: O(masters).
   void restore(const Image& image, const TetMesh& mesh);
 
+  /// Whether every master that the blade is still in has a front point inside, as in a body that moves: there the
+  /// point carries what the body does within the master (docs/decisions/0167).
+  void set_inner_points(bool has_inner_points) { has_inner_points_ = has_inner_points; }
+  [[nodiscard]] bool has_inner_points() const { return has_inner_points_; }
+
   /// The master that a live tet belongs to, or `Master::kNone`.
   [[nodiscard]] std::uint32_t find(TetId tet) const {
     const std::uint32_t index = tet.value < master_of_.capacity() ? master_of_[tet.value] : 0;
@@ -312,6 +317,7 @@ class ClosedComplex {
   std::vector<VertexId> retired_;
   std::vector<std::uint32_t> star_, dirty_;
   std::uint32_t mark_ = 0;
+  bool has_inner_points_ = false;
 };
 
 class ClosedComplex::Image {

@@ -42,7 +42,22 @@ const SplitTemplate& Divider::find(const Master& master) {
   for (unsigned s = 0; s < 4; ++s) {
     pierced |= (master.points[s] != Master::kNone ? 1U : 0U) << s;
   }
-  return templates_.find_cone(order, pierced);
+  return templates_.find_cone(order, pierced, apex_of(master));
+}
+
+std::uint8_t Divider::apex_of(const Master& master) const {
+  if (complex_.has_inner_points() || master.corner_key != 0) return SplitTemplate::kMiddle;
+  std::uint8_t apex = SplitTemplate::kMiddle;
+  unsigned points = 0;
+  for (unsigned s = 4; s-- > 0;) {
+    if (master.points[s] == Master::kNone) continue;
+    ++points;
+    const unsigned edges = unsigned{detail::kEdgesOfSide[s]};
+    const unsigned on = unsigned{master.on} & ~(1U << s) & 15U;
+    if (std::popcount(master.flagged & edges) != 1 || std::popcount(on) > 1) continue;
+    apex = static_cast<std::uint8_t>(SplitTemplate::kFirstPoint + s);
+  }
+  return points == 2 ? apex : SplitTemplate::kMiddle;
 }
 
 Vec3 Divider::middle_of(const Master& master) const {

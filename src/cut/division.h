@@ -70,6 +70,13 @@ class Divider {
            (split_edges(master) != 0 ||
             master.points != std::array<std::uint32_t, 4>{Master::kNone, Master::kNone, Master::kNone, Master::kNone});
   }
+  /// What a coned master is coned from: at rest, where the front goes straight from side to side, the front point in a
+  /// side that the sheet enters once; else a point inside.
+  [[nodiscard]] std::uint8_t apex_of(const Master& master) const;
+  /// Whether a master has a front point inside.
+  [[nodiscard]] bool has_middle(const Master& master) const {
+    return is_cone(master) && apex_of(master) == SplitTemplate::kMiddle;
+  }
   /// Where the front point inside a coned master belongs: where the border of the sheet turns in it, drawn towards the
   /// front points in its sides as far as it must to keep off the sides; else amid these. So it is on a plane sheet.
   [[nodiscard]] Vec3 middle_of(const Master& master) const;

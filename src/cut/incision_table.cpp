@@ -27,11 +27,11 @@ unsigned colour_of_child(const SplitTemplate::Child& child, const Master& master
 }
 
 /// Whether a face of a cone stands on a line of the incision.
-bool lies_on_line(const IncisionLines& lines, const SplitTemplate::Child& child, unsigned side) {
+bool lies_on_line(const IncisionLines& lines, const SplitTemplate::Child& child, unsigned side, std::uint8_t apex) {
   std::array<std::uint8_t, 2> foot{};
   unsigned count = 0;
   for (const unsigned c : kSideCorners[side]) {
-    if (child[c] != SplitTemplate::kMiddle) foot[count++] = child[c];
+    if (child[c] != apex) foot[count++] = child[c];
   }
   return lines.contains(foot[0], foot[1]);
 }
@@ -61,7 +61,7 @@ std::uint64_t passed_in_cone(const Master& master, const ClosedComplex& complex)
   const IncisionLines lines(master, complex);
   std::uint64_t passed = 0, bit = 1;
   for (const auto& [a, b] : master.split->inner) {
-    if (lies_on_line(lines, master.split->children[a / 4U], a & 3U)) passed |= bit;
+    if (lies_on_line(lines, master.split->children[a / 4U], a & 3U, master.split->apex)) passed |= bit;
     bit <<= 1U;
   }
   return passed;

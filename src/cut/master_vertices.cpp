@@ -15,7 +15,7 @@ void MasterVertices::make() {
     for (const std::uint32_t point : master.points) {
       if (point != Master::kNone) update_front_point(complex.point(point));
     }
-    if (Divider::is_cone(master)) {
+    if (divider_.has_middle(master)) {
       update_middle(index);
     } else if (master.middle.is_valid()) {
       complex.retire(master.middle);

@@ -130,10 +130,12 @@ void fan_side(unsigned side, std::span<const std::uint8_t> order, std::vector<Fa
   }
 }
 
-SplitTemplate make_cone(std::span<const std::uint8_t> order, unsigned pierced) {
+SplitTemplate make_cone(std::span<const std::uint8_t> order, unsigned pierced, std::uint8_t apex) {
   SplitTemplate result;
+  result.apex = apex;
   std::vector<Facet> facets;
   for (unsigned side = 0; side < 4; ++side) {
+    if (apex == SplitTemplate::kFirstPoint + side) continue;
     if (((pierced >> side) & 1U) != 0) {
       fan_side(side, order, facets);
     } else {
@@ -141,7 +143,7 @@ SplitTemplate make_cone(std::span<const std::uint8_t> order, unsigned pierced) {
     }
   }
   for (const Facet& f : facets) {  // a side turns as seen from outside: from inside, the other way round
-    result.children.push_back({f[0], f[2], f[1], SplitTemplate::kMiddle});
+    result.children.push_back({f[0], f[2], f[1], apex});
   }
   find_sides(result);
   index_vertices(result);
@@ -210,8 +212,10 @@ const SplitTemplate& SplitTemplates::find(std::span<const std::uint8_t> order) {
   return find_or_make(key_of(order), [&] { return make(order); });
 }
 
-const SplitTemplate& SplitTemplates::find_cone(std::span<const std::uint8_t> order, unsigned pierced) {
-  return find_or_make((key_of(order) * 16 + pierced) | 0x80000000U, [&] { return make_cone(order, pierced); });
+const SplitTemplate& SplitTemplates::find_cone(std::span<const std::uint8_t> order, unsigned pierced,
+                                               std::uint8_t apex) {
+  const std::uint32_t key = (key_of(order) * 16 + pierced) * 8 + (apex - SplitTemplate::kFirstPoint);
+  return find_or_make(key | 0x80000000U, [&] { return make_cone(order, pierced, apex); });
 }
 
 }  // namespace v0

@@ -34,6 +34,7 @@ struct SplitTemplate {
   std::array<std::uint8_t, kCodes + std::size_t{1}> first_around;  ///< by code: into `all_around`
   std::array<std::uint8_t, 4 * kMostChildren> all_around;          ///< child · 4 + corner
   std::uint16_t number = 0;                                        ///< among the templates of a `SplitTemplates`
+  std::uint8_t apex = kCodes;                                      ///< of a cone: the code that all children have
 
   /// The children that have a vertex, ascending: child · 4 + corner.
   [[nodiscard]] std::span<const std::uint8_t> around(std::uint8_t code) const {
@@ -53,7 +54,12 @@ class SplitTemplates {
   /// The template for a tet that the blade is still in: its sides divided as by bisecting `order`, or, where bit s of
   /// `pierced` is set, as a fan around a front point in side s; and a cone over all of them from a front point inside.
   /// Sound for any front points inside the tet and its sides. Cost: O(1) after the first use.
-  const SplitTemplate& find_cone(std::span<const std::uint8_t> order, unsigned pierced);
+  const SplitTemplate& find_cone(std::span<const std::uint8_t> order, unsigned pierced) {
+    return find_cone(order, pierced, SplitTemplate::kMiddle);
+  }
+  /// The same, from another point: `SplitTemplate::kFirstPoint + side`, the front point in a side that is pierced. The
+  /// facets of this side are faces of the cone itself: there are fewer children, and no point inside.
+  const SplitTemplate& find_cone(std::span<const std::uint8_t> order, unsigned pierced, std::uint8_t apex);
 
  private:
   /// So many templates stand in one piece of memory: few strokes need more.

@@ -33,7 +33,7 @@ void StrokeCut::begin(std::uint32_t tag, double spacing) {
   forget();
   tags_ = {tag, tag};
   spacing_ = spacing;
-  keeps_pieces_ = false;
+  keep_pieces(false);
 }
 
 void StrokeCut::forget() {
@@ -75,7 +75,7 @@ void StrokeCut::go_on(const Pause& pause, const TetMesh& mesh, std::uint32_t tag
   waiting_ = pause.waiting_;
   pinched_ = pause.pinched_;
   must_finish_ = pause.must_finish_;
-  keeps_pieces_ = pause.keeps_pieces_;
+  keep_pieces(pause.keeps_pieces_);
   tags_.first = pause.first_tag_;
 }
 

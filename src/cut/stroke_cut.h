@@ -36,10 +36,13 @@ class StrokeCut {
 
   /// In a body that moves no step may join two pieces, whatever the blade does: at rest a sheet is finished before it
   /// comes back to what it has cut through.
-  void keep_pieces(bool keeps_pieces) { keeps_pieces_ = keeps_pieces; }
+  void keep_pieces(bool keeps_pieces) {
+    keeps_pieces_ = keeps_pieces;
+    complex_.set_inner_points(keeps_pieces);
+  }
   /// The body has begun to move: `surface` has all walls from now on. Cost: O(walls of the band).
   void enter_material(const TetMesh& mesh) {
-    keeps_pieces_ = true;
+    keep_pieces(true);
     surface_.take_in(mesh, [](Side) { return false; });
   }
   /// Starts afresh: the next strip is the first of a sheet. Walls get `tag`. `spacing`: the length of a typical edge.

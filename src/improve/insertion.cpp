@@ -220,21 +220,10 @@ bool VertexInserter::come_nearer(Care& care) {
   return false;
 }
 
-/// Whether no more than two faces of the cavity's hull meet at an edge.
-bool VertexInserter::has_manifold_hull(const TetMesh& mesh) {
-  hull_edges_.clear();
-  for (const Base& base : bases_) {
-    const auto v = mesh.vertices(base.side);
-    for (unsigned k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(v[k].value, v[(k + 1) % 3].value);
-      hull_edges_.push_back((std::uint64_t{low} << 32U) | high);
-    }
-  }
-  std::sort(hull_edges_.begin(), hull_edges_.end());
-  for (std::size_t i = 2; i < hull_edges_.size(); ++i) {
-    if (hull_edges_[i] == hull_edges_[i - 2]) return false;
-  }
-  return true;
+bool VertexInserter::has_simple_hull(const TetMesh& mesh) {
+  hull_.clear();
+  for (const Base& base : bases_) hull_.add(mesh.vertices(base.side));
+  return hull_.is_simple(opened_.is_surface);
 }
 
 /// Whether the tets around the new vertex stand upright as the mesh does, if those of the cavity do.
@@ -256,7 +245,7 @@ bool VertexInserter::carry_out(Care& care) {
   }
   const MaterialPoint point = locate(care.mesh, place_, cavity_);
   const Vec3 current = current_at(care.mesh, point);
-  if (!has_manifold_hull(care.mesh) || !stays_sound(care.mesh, current)) {
+  if (!has_simple_hull(care.mesh) || !stays_sound(care.mesh, current)) {
     return false;
   }
   const VertexId vertex = care.transaction.add_vertex(point.basis, point.weights, place_, current);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "improve/care.h"
+#include "improve/cavity_hull.h"
 #include "improve/smooth.h"
 #include "incise/mesh/remesh.h"
 
@@ -51,7 +52,7 @@ class VertexInserter {
   void keep_best(double worst);
   [[nodiscard]] bool keeps_surface(const Care& care);
   bool come_nearer(Care& care);
-  [[nodiscard]] bool has_manifold_hull(const TetMesh& mesh);
+  [[nodiscard]] bool has_simple_hull(const TetMesh& mesh);
   [[nodiscard]] bool stays_sound(const TetMesh& mesh, const Vec3& current) const;
   bool carry_out(Care& care);
 
@@ -64,7 +65,7 @@ class VertexInserter {
   Vec3 place_ = Vec3::Zero(), best_place_ = Vec3::Zero();
   double before_ = 0;  // worst of the cavity as it is
   double best_gain_ = 0, best_before_ = 0;
-  std::vector<std::uint64_t> hull_edges_;
+  CavityHull hull_;
   std::vector<VertexId> enclosed_;
   RemeshPlan plan_;
 };

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cut/flagged_body.h"
+#include "incise/mesh/validate.h"
 #include "support/bodies.h"
 #include "support/engines.h"
 
@@ -170,13 +171,13 @@ TetSoup one_tet() {
   return soup;
 }
 
-// T5
-TEST(Rebuild, divides_a_tet_by_any_pattern_into_any_other) {
+void expect_any_pattern_into_any_other(bool has_inner_points) {
   Random random(5);
   for (unsigned flags = 0; flags < 64; ++flags) {
     for (unsigned on = 0; on < 15; ++on) {
       SCOPED_TRACE(testing::Message() << flags << " " << on);
       FlaggedBody body(one_tet());
+      body.complex().set_inner_points(has_inner_points);
       const double volume = volume_of(body.mesh());
       for (unsigned e = 0; e < 6; ++e) {
         if (((flags >> e) & 1U) != 0) body.toggle(body.complex()[0].edges[e], random.real(0.05, 0.95));
@@ -190,6 +191,11 @@ TEST(Rebuild, divides_a_tet_by_any_pattern_into_any_other) {
   }
 }
 
+// T5
+TEST(Rebuild, divides_a_tet_by_any_pattern_into_any_other) {
+  for (const bool has_inner_points : {false, true}) expect_any_pattern_into_any_other(has_inner_points);
+}
+
 // T6
 TEST(Rebuild, gives_one_corner_against_three_four_children_and_two_against_two_six) {
   const auto count_children = [](std::initializer_list<unsigned> edges) {
@@ -200,6 +206,24 @@ TEST(Rebuild, gives_one_corner_against_three_four_children_and_two_against_two_s
   };
   EXPECT_EQ(count_children({0, 1, 2}), std::pair(std::size_t{4}, std::uint64_t{1}));
   EXPECT_EQ(count_children({1, 2, 3, 4}), std::pair(std::size_t{6}, std::uint64_t{2}));
+}
+
+// A front that goes straight through needs no point inside; in a body that moves it has one.
+TEST(Rebuild, gives_a_tet_with_one_crossed_edge_six_children_at_rest_and_ten_in_a_body_that_moves) {
+  const auto count = [](bool moves, unsigned edge) {
+    Random random(edge);
+    FlaggedBody body(one_tet());
+    body.complex().set_inner_points(moves);
+    body.toggle(body.complex()[0].edges[edge], 0.5);
+    body.place_points(random, 0.0);
+    body.rebuild();
+    EXPECT_TRUE(validate(body.mesh(), ValidateLevel::kGeometry).ok);
+    return std::pair(body.mesh().tet_count(), body.mesh().vertex_count());
+  };
+  for (unsigned edge = 0; edge < 6; ++edge) {  // corners, copies of the split point, front points, the one inside
+    EXPECT_EQ(count(false, edge), std::pair(std::size_t{6}, std::size_t{4 + 2 + 2}));
+    EXPECT_EQ(count(true, edge), std::pair(std::size_t{10}, std::size_t{4 + 2 + 2 + 1}));
+  }
 }
 
 // --- colours ---------------------------------------------------------------------------------------------------------

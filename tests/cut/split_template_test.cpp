@@ -168,6 +168,25 @@ TEST(SplitTemplate, a_cone_over_one_crossed_edge_has_ten_children) {
   }
 }
 
+TEST(SplitTemplate, cones_from_a_front_point_are_sound_and_have_as_many_children_fewer_as_its_side_has_facets) {
+  Random random(3);
+  SplitTemplates templates;
+  for_each_order([&](const Order& order) {
+    for (unsigned pierced = 0; pierced < 16; ++pierced) {
+      const SplitTemplate& whole = templates.find_cone(order, pierced);
+      for (unsigned s = 0; s < 4; ++s) {
+        if (((pierced >> s) & 1U) == 0) continue;
+        const auto apex = static_cast<std::uint8_t>(SplitTemplate::kFirstPoint + s);
+        const SplitTemplate& split = templates.find_cone(order, pierced, apex);
+        expect_sound(split, random);
+        EXPECT_EQ(split.children.size() + whole.outer[s].size(), whole.children.size());
+        EXPECT_EQ(split.around(apex).size(), split.children.size());
+        EXPECT_TRUE(split.around(SplitTemplate::kMiddle).empty());
+      }
+    }
+  });
+}
+
 TEST(SplitTemplate, neighbours_triangulate_their_common_face_alike) {
   // Two tets on the face (0, 1, 2); the second numbers its corners differently. One random order of all nine edges.
   Random random(3);

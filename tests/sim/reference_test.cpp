@@ -416,7 +416,7 @@ TEST(CutBeam, SliversGetThinnerAsTheCutNearsTheLattice) {
   EXPECT_NEAR(test::worst_aspect(test::make_beam({})), 8.36, 0.01);
   for (const double eps : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5}) {
     const double worst = test::cut_beam({}, eps).worst_aspect;
-    EXPECT_GT(worst, 3.9 / eps);
+    EXPECT_GT(worst, 3.6 / eps);
     EXPECT_LT(worst, 12 / eps);
   }
 }
