@@ -42,6 +42,12 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   go_on(row, spacing);
 }
 
+void BladeMotion::begin_at(std::vector<SosPoint> front, std::uint64_t next_key, double spacing) {
+  next_key_ = next_key;
+  front_ = std::move(front);
+  go_on(places_of(front_), spacing);
+}
+
 void BladeMotion::go_on(std::span<const Vec3> row, double spacing) {
   spacing_ = spacing;
   is_closed_ = row.size() > 2 && row.front() == row.back();

@@ -16,6 +16,7 @@
 #include "cut/far_blade.h"
 #include "cut/front_carry.h"
 #include "cut/material_blade.h"
+#include "cut/open_border.h"
 #include "cut/piece_finder.h"
 #include "cut/reversal.h"
 #include "cut/spacing.h"
@@ -227,6 +228,14 @@ Result<CutStatistics> Cutter::cut(TetMesh& mesh, Journal& journal, const Stroke&
     context.statistics.steps = stroke.times.size() - 1;
     return cut_stroke(context, stroke, tag);
   });
+}
+
+bool Cutter::leaves_front(const TetMesh& mesh, const Journal& journal, const Stroke& stroke) {
+  const double spacing = spacing_of(mesh, false);
+  SweptSurface surface = sweep(with_divided_edge(stroke, kTwist * spacing), kOwnSlit * spacing);
+  if (surface.triangles.empty()) return false;
+  stroke_cut_.prepare(mesh, journal);
+  return lies_in_body(mesh, stroke_cut_.surface(), Strip(std::move(surface), {}).border);
 }
 
 /// Takes back what ended a stroke. Returns whether all pieces stay apart.

@@ -40,6 +40,10 @@ class Cutter {
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times);
 
+  /// Whether the cut of a whole stroke ends or begins inside the body: others may go on from there, or it goes on from
+  /// others. Such a stroke is to be cut step by step, from `begin` to `end`, since a sheet that is cut at once knows
+  /// no other. `stroke` must pass `check`. Cost: that of sweeping it, and one pass over the mesh at first.
+  [[nodiscard]] bool leaves_front(const TetMesh& mesh, const Journal& journal, const Stroke& stroke);
   /// Puts the blade in place for a stroke that is cut step by step. `row`: its edge as the body
   /// stands, at least two finite points; `has_moved`: whether the body stands otherwise than at rest. Cost: one pass
   /// over the mesh at first, to find its surface.
@@ -162,6 +166,9 @@ class Cutter::Pause {
  public:
   std::shared_ptr<const StrokeCut::Pause> cut;
   OpenStroke stroke;
+
+  /// Whether the body stood at rest all the while.
+  [[nodiscard]] bool is_at_rest() const { return !stroke.is_in_material; }
 };
 
 }  // namespace v0
