@@ -34,8 +34,8 @@ class BladeMotion {
   /// Starts a stroke where the one before ended: its points that stand where that one's front does keep their keys, so
   /// that the sheets of both have no seam.
   void go_on(std::span<const Vec3> row, double spacing);
-  /// Starts where a sheet that was laid elsewhere has ended: at its points, so that one that goes on from it has no seam
-  /// with it. None of its keys may reach `next_key`.
+  /// Starts where a sheet that was laid elsewhere has ended: at its points, so that one that goes on from it has no
+  /// seam with it. None of its keys may reach `next_key`.
   void begin_at(std::vector<SosPoint> front, std::uint64_t next_key, double spacing);
   /// Whether a surface meets the body.
   using Touches = std::function<bool(const SweptSurface&)>;

@@ -16,9 +16,8 @@ bool passes_surface(const TetMesh& mesh, const SurfaceIndex& surface, const Stri
   bool does_pass = false;
   const auto look_at = [&](Side side) {
     const auto v = mesh.vertices(side);
-    does_pass = does_pass ||
-                segment_crosses_triangle(segment[0], segment[1], {mesh.rest(v[0]), v[0].value},
-                                         {mesh.rest(v[1]), v[1].value}, {mesh.rest(v[2]), v[2].value});
+    does_pass = does_pass || segment_crosses_triangle(segment[0], segment[1], {mesh.rest(v[0]), v[0].value},
+                                                      {mesh.rest(v[1]), v[1].value}, {mesh.rest(v[2]), v[2].value});
   };
   const Vec3 &a = segment[0].position, &b = segment[1].position;
   for_each_side_near(mesh, surface, {a, b, b}, look_at);

@@ -71,8 +71,8 @@ EndedStroke ended_at(const SweptSurface& surface, EdgeDivision edge, double spac
   }
   ended.motion.begin_at(std::move(front), kFirstBladeKey + surface.points.size(), spacing);
   ended.edge = std::move(edge);
-  ended.strips = {std::make_shared<Strip>(last_part(surface, kStripsReach * spacing),
-                                          std::vector<std::array<std::uint64_t, 2>>())};
+  ended.strips = {
+      std::make_shared<Strip>(last_part(surface, kStripsReach * spacing), std::vector<std::array<std::uint64_t, 2>>())};
   return ended;
 }
 
