@@ -110,6 +110,7 @@ class Engine::Conductor {
   void maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times);
   Result<CutStatistics> cut_whole(const Stroke& stroke);
   Result<CutStatistics> cut_by_steps(const Stroke& stroke);
+  Result<CutStatistics> end_whole(Result<CutStatistics> cut);
   bool go_on_at_rest(std::span<const Vec3> row);
   void maintain_rest(const Stroke& stroke);
   Result<CutStatistics> cut_step(const BladePose& pose, StepReport& report);
@@ -198,35 +199,40 @@ Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   return std::move(report);
 }
 
-/// A stroke that begins or ends inside the body shares its front with others: its blade comes in steps.
+/// A stroke that begins or ends inside the body shares its front with others: it goes on from the last one, and the
+/// next one from it.
 Result<CutStatistics> Engine::Conductor::cut_whole(const Stroke& stroke) {
   StrokeReport& report = open_.report;
   if (is_paper()) return paper_cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
-  if (go_on_at_rest(stroke.edges.front())) return cut_by_steps(stroke);
+  if (go_on_at_rest(stroke.edges.front())) return end_whole(cut_by_steps(stroke));
   if (!cutter_.leaves_front(mesh_, journal_, stroke)) {
     return cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
   }
-  cutter_.begin(mesh_, journal_, stroke.edges.front(), /*has_moved=*/false, report.stroke);
-  return cut_by_steps(stroke);
+  return end_whole(cutter_.cut_to_end(mesh_, journal_, stroke, report.stroke, report.times));
 }
 
-/// The cutter stands at the first row. What the blade has left behind is maintained before the end of the stroke, so
-/// that another one that goes on from there takes back no more than that end.
+/// The cutter stands at the first row.
 Result<CutStatistics> Engine::Conductor::cut_by_steps(const Stroke& stroke) {
-  StrokeReport& report = open_.report;
   CutStatistics sum;
   for (std::size_t row = 1; row < stroke.edges.size(); ++row) {
     Result<CutStatistics> cut =
-        cutter_.step(mesh_, journal_, stroke.edges[row], Vec3::Zero(), /*has_moved=*/false, report.times);
+        cutter_.step(mesh_, journal_, stroke.edges[row], Vec3::Zero(), /*has_moved=*/false, open_.report.times);
     if (!cut) return cut;
     sum += *cut;
   }
-  maintain_wake(busy(), report.maintain, report.times);
-  open_.to = {cutter_.pause(mesh_), journal_.position()};
-  Result<CutStatistics> end = cutter_.end(mesh_, journal_, report.times);
-  if (!end) return end;
-  sum += *end;
   return sum;
+}
+
+/// What the blade has left behind is maintained before the end of the stroke, so that another one that goes on from
+/// there takes back no more than that end.
+Result<CutStatistics> Engine::Conductor::end_whole(Result<CutStatistics> cut) {
+  if (!cut) return cut;
+  maintain_wake(busy(), open_.report.maintain, open_.report.times);
+  open_.to = {cutter_.pause(mesh_), journal_.position()};
+  Result<CutStatistics> end = cutter_.end(mesh_, journal_, open_.report.times);
+  if (!end) return end;
+  *cut += *end;
+  return cut;
 }
 
 /// Takes over the cut of the last operation, if a blade that cuts at rest stands where that has ended.
