@@ -42,6 +42,21 @@ void BladeMotion::begin(std::span<const Vec3> row, double spacing) {
   go_on(row, spacing);
 }
 
+void BladeMotion::begin_at(std::vector<SosPoint> front, std::uint64_t next_key, double spacing) {
+  next_key_ = next_key;
+  front_ = std::move(front);
+  go_on(places_of(front_), spacing);
+}
+
+void BladeMotion::note_laid(std::span<const Vec3> before) {
+  for (std::size_t c = 0; c < front_.size(); ++c) ways_[c] = front_[c].position - before[c];
+  is_swept_.assign(front_.size() - 1, true);
+  is_first_strip_ = false;
+  before_ = front_;
+  course_.begin(before, spacing_);
+  course_.follow(front_);
+}
+
 void BladeMotion::go_on(std::span<const Vec3> row, double spacing) {
   spacing_ = spacing;
   is_closed_ = row.size() > 2 && row.front() == row.back();

@@ -34,6 +34,11 @@ class BladeMotion {
   /// Starts a stroke where the one before ended: its points that stand where that one's front does keep their keys, so
   /// that the sheets of both have no seam.
   void go_on(std::span<const Vec3> row, double spacing);
+  /// Starts where a sheet that was laid elsewhere has ended: at its points, so that one that goes on from it has no
+  /// seam with it. None of its keys may reach `next_key`.
+  void begin_at(std::vector<SosPoint> front, std::uint64_t next_key, double spacing);
+  /// After `begin_at`: that sheet is this stroke's own. Its last strip came from a row of as many points.
+  void note_laid(std::span<const Vec3> before);
   /// Whether a surface meets the body.
   using Touches = std::function<bool(const SweptSurface&)>;
   /// The strip to the next row, with as many points. Ends that pass an older wall by very little draw back to just

@@ -16,6 +16,7 @@
 #include "cut/far_blade.h"
 #include "cut/front_carry.h"
 #include "cut/material_blade.h"
+#include "cut/open_border.h"
 #include "cut/piece_finder.h"
 #include "cut/reversal.h"
 #include "cut/spacing.h"
@@ -46,6 +47,12 @@ Vec3 middle_of(std::span<const Vec3> places) {
   };
   return *std::min_element(places.begin(), places.end(),
                            [&](const Vec3& a, const Vec3& b) { return sum_from(a) < sum_from(b); });
+}
+
+/// Whether a whole stroke cannot be one sheet: it meets itself, or closes at a corner.
+bool needs_steps(const Stroke& stroke, const SweptSurface& surface, double least) {
+  const bool closes_at_corner = comes_round(stroke, least) && count_sharp_turns(stroke, least) > 0;
+  return closes_at_corner || meets_itself(surface, least);
 }
 
 }  // namespace
@@ -227,6 +234,14 @@ Result<CutStatistics> Cutter::cut(TetMesh& mesh, Journal& journal, const Stroke&
     context.statistics.steps = stroke.times.size() - 1;
     return cut_stroke(context, stroke, tag);
   });
+}
+
+bool Cutter::leaves_front(const TetMesh& mesh, const Journal& journal, const Stroke& stroke) {
+  const double spacing = spacing_of(mesh, false);
+  SweptSurface surface = sweep(with_divided_edge(stroke, kTwist * spacing), kOwnSlit * spacing);
+  if (surface.triangles.empty()) return false;
+  stroke_cut_.prepare(mesh, journal);
+  return lies_in_body(mesh, stroke_cut_.surface(), Strip(std::move(surface), {}).border);
 }
 
 /// Takes back what ended a stroke. Returns whether all pieces stay apart.
@@ -633,9 +648,7 @@ Status Cutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::
   const double spacing = stroke_.spacing = spacing_of(context.mesh, false);
   SweptSurface surface = sweep(with_divided_edge(stroke, kTwist * spacing), kOwnSlit * spacing);
   if (surface.triangles.empty()) return {};
-  const double least = kCoincident * spacing;
-  const bool closes_at_corner = comes_round(stroke, least) && count_sharp_turns(stroke, least) > 0;
-  if (closes_at_corner || meets_itself(surface, least)) return cut_in_steps(context, stroke, tag);
+  if (needs_steps(stroke, surface, kCoincident * spacing)) return cut_in_steps(context, stroke, tag);
   if (Status status = cut_strip(context, std::move(surface), tag); !status) return status;
   ++context.statistics.sheets;
   return {};
@@ -643,13 +656,47 @@ Status Cutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::
 
 Status Cutter::cut_in_steps(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
   begin(context.mesh, context.journal, stroke.edges.front(), /*has_moved=*/false, tag);
+  Status status = lay_rows(context, stroke);
+  if (status) status = end_at_rest(context);
+  if (status) status = end_sheets(context);
+  return status;
+}
+
+Status Cutter::lay_rows(const CutContext& context, const Stroke& stroke) {
   Status status;
   for (std::size_t row = 1; row < stroke.edges.size() && status; ++row) {
     status = move_at_rest(context, stroke.edges[row]);
   }
-  if (status) status = end_at_rest(context);
-  if (status) status = end_sheets(context);
   return status;
+}
+
+Result<CutStatistics> Cutter::cut_to_end(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
+                                         StageTimes& times) {
+  return guarded(mesh, journal, times, [&](const CutContext& context) {
+    context.statistics.steps = stroke.times.size() - 1;
+    begin(mesh, journal, stroke.edges.front(), /*has_moved=*/false, tag);
+    const double spacing = stroke_.spacing;
+    SweptSurface surface = sweep(with_divided_edge(stroke, kTwist * spacing), kOwnSlit * spacing);
+    if (stroke_cut_.older_walls(mesh).exist() || needs_steps(stroke, surface, kCoincident * spacing)) {
+      return lay_rows(context, stroke);
+    }
+    stroke_.given_row = stroke.edges.back();
+    return lay_at_once(context, stroke, std::move(surface));
+  });
+}
+
+/// What a stroke sweeps as its only strip: the blade goes on from the end of that.
+Status Cutter::lay_at_once(const CutContext& context, const Stroke& stroke, SweptSurface surface) {
+  stroke_.edge = division_of(stroke, kTwist * stroke_.spacing);
+  stroke_.last_row = stroke_.edge.divided(stroke.edges.back());
+  std::vector<SosPoint> front;
+  for (const std::uint32_t point : surface.front) front.push_back(surface.points[point]);
+  stroke_.motion.begin_at(front, kFirstBladeKey + surface.points.size(), stroke_.spacing);
+  stroke_.motion.note_laid(stroke_.edge.divided(stroke.edges[stroke.edges.size() - 2]));
+  BladeMotion::Move move;
+  move.strip = std::make_unique<Strip>(std::move(surface), std::vector<std::array<std::uint64_t, 2>>());
+  move.strip->row = std::move(front);
+  return follow(context, std::move(move));
 }
 
 /// What a stroke swept, as one sheet in one step.

@@ -40,6 +40,14 @@ class Cutter {
   Result<CutStatistics> cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
                             StageTimes& times);
 
+  /// Whether the cut of a whole stroke ends or begins inside the body: others may go on from there, or it goes on from
+  /// others. Such a stroke is to be cut by `cut_to_end`. `stroke` must pass `check`. Cost: that of sweeping it, and one
+  /// pass over the mesh at first.
+  [[nodiscard]] bool leaves_front(const TetMesh& mesh, const Journal& journal, const Stroke& stroke);
+  /// Cuts along a whole stroke up to its end, which `end` makes, after `pause`: as one sheet in a body without cuts,
+  /// else as if its blade came in steps, which find older cuts. Errors: as `cut`.
+  Result<CutStatistics> cut_to_end(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,
+                                   StageTimes& times);
   /// Puts the blade in place for a stroke that is cut step by step. `row`: its edge as the body
   /// stands, at least two finite points; `has_moved`: whether the body stands otherwise than at rest. Cost: one pass
   /// over the mesh at first, to find its surface.
@@ -148,6 +156,8 @@ class Cutter {
   [[nodiscard]] FrontRules rules() const;
   Status cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
   Status cut_in_steps(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
+  Status lay_rows(const CutContext& context, const Stroke& stroke);
+  Status lay_at_once(const CutContext& context, const Stroke& stroke, SweptSurface surface);
   Status cut_strip(const CutContext& context, SweptSurface part, std::uint32_t tag);
 
   CutOptions options_;
@@ -162,6 +172,9 @@ class Cutter::Pause {
  public:
   std::shared_ptr<const StrokeCut::Pause> cut;
   OpenStroke stroke;
+
+  /// Whether the body stood at rest all the while.
+  [[nodiscard]] bool is_at_rest() const { return !stroke.is_in_material; }
 };
 
 }  // namespace v0

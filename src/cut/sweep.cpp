@@ -99,6 +99,7 @@ class Sweeper {
       front = row;
       is_held = false;
     }
+    for (std::size_t c = 0; c < stroke_.edges[front].size(); ++c) surface_.front.push_back(grid_.at(front, c));
   }
 
  private:
@@ -352,6 +353,25 @@ bool strips_meet(const SweptSurface& strip, const SweptSurface& earlier, const S
 double travel_of(const SweptSurface& surface) {
   const std::vector<double> travel = travel_of_steps(surface);
   return std::accumulate(travel.begin(), travel.end(), 0.0);
+}
+
+SweptSurface last_part(const SweptSurface& surface, double length) {
+  const auto end = static_cast<std::uint32_t>(surface.triangles.size());
+  const std::uint32_t first = overlap_start(surface, travel_of_steps(surface), end, 0, length);
+  constexpr auto kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> index(surface.points.size(), kNone);
+  SweptSurface part;
+  for (std::uint32_t t = first; t < end; ++t) {
+    part.triangles.push_back(surface.triangles[t]);
+    for (std::uint32_t& point : part.triangles.back().points) {
+      if (index[point] == kNone) {
+        index[point] = static_cast<std::uint32_t>(part.points.size());
+        part.points.push_back(surface.points[point]);
+      }
+      point = index[point];
+    }
+  }
+  return part;
 }
 
 void append(SweptSurface& surface, const SweptSurface& more) {

@@ -25,6 +25,7 @@ struct SweptTriangle {
 struct SweptSurface {
   std::vector<SosPoint> points;
   std::vector<SweptTriangle> triangles;
+  std::vector<std::uint32_t> front = {};  ///< indices of the points at which a whole stroke has left the blade's front
 };
 
 /// The key of the first blade point; every vertex slot is below.
@@ -66,6 +67,8 @@ class Sheet;
 bool strips_meet(const SweptSurface& strip, const SweptSurface& earlier, const Sheet& sheet, double slit);
 /// How far the blade travels over a surface at the point that travels furthest, step by step.
 double travel_of(const SweptSurface& surface);
+/// The last steps of what a whole stroke has swept: at least a length of travel, if there is so much. Cost: O(points).
+SweptSurface last_part(const SweptSurface& surface, double length);
 /// Adds the triangles of another surface; points with equal keys are one.
 void append(SweptSurface& surface, const SweptSurface& more);
 

@@ -100,11 +100,16 @@ std::vector<Vec3> divided(std::span<const Vec3> row, const std::vector<std::vect
   return points;
 }
 
-Stroke with_divided_edge(const Stroke& stroke, double tolerance) {
+EdgeDivision division_of(const Stroke& stroke, double tolerance) {
   EdgeDivision division(stroke.edges.front().size());
   for (std::size_t i = 1; i < stroke.edges.size(); ++i) {
     division.divide(division.divided(stroke.edges[i - 1]), division.divided(stroke.edges[i]), tolerance);
   }
+  return division;
+}
+
+Stroke with_divided_edge(const Stroke& stroke, double tolerance) {
+  const EdgeDivision division = division_of(stroke, tolerance);
   Stroke divided = stroke;
   for (std::vector<Vec3>& edge : divided.edges) edge = division.divided(edge);
   for (std::size_t i = 1; i < divided.edges.size(); ++i) {  // what an edge turns about does not move

@@ -40,6 +40,8 @@ class EdgeDivision {
   std::vector<std::vector<double>> shares_;  // of each segment of the edge, the last one 1
 };
 
+/// How the edge of a whole stroke is divided, in the end and so all along. `stroke` must pass `check`.
+[[nodiscard]] EdgeDivision division_of(const Stroke& stroke, double tolerance);
 /// A stroke with points added to its edge, so that what it sweeps is smooth all along. `stroke` must pass `check`.
 [[nodiscard]] Stroke with_divided_edge(const Stroke& stroke, double tolerance);
 

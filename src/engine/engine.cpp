@@ -108,6 +108,11 @@ class Engine::Conductor {
   void take_up(const SweptTriangles& sweep, std::uint32_t tag, std::size_t first_step, const IsLocked& is_locked = {});
   [[nodiscard]] IsLocked busy() const;
   void maintain_wake(const IsLocked& is_locked, MaintainStatistics& sum, StageTimes& times);
+  Result<CutStatistics> cut_whole(const Stroke& stroke);
+  Result<CutStatistics> cut_by_steps(const Stroke& stroke);
+  Result<CutStatistics> end_whole(Result<CutStatistics> cut);
+  bool go_on_at_rest(std::span<const Vec3> row);
+  void maintain_rest(const Stroke& stroke);
   Result<CutStatistics> cut_step(const BladePose& pose, StepReport& report);
   void go_on_from_last_stroke();
   Status close_stroke();
@@ -172,8 +177,7 @@ Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   open_.first_step = first_step;
   maintainer_.begin_reference(report.stroke);
   maintain_between_sheets(report.maintain, report.times);
-  Result<CutStatistics> cut = is_paper() ? paper_cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times)
-                                         : cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
+  Result<CutStatistics> cut = cut_whole(stroke);
   if (!cut) {
     take_back(first_step);
     return cut.error();
@@ -181,8 +185,7 @@ Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   const std::size_t first_maintaining = journal_.position();
   Status status = check_steps(first_step);
   if (status) {
-    take_up(swept_triangles(stroke), report.stroke, open_.first_step);
-    report.maintain += maintain(options_.maintain.work_units, report.times, {});
+    maintain_rest(stroke);
     status = check_steps(first_maintaining);
   }
   if (!status) {
@@ -192,8 +195,63 @@ Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
   report.cut = *cut;
   tell(options_.log, *cut);
   report.step_ms.push_back(milliseconds_since(start));
-  push_operation(true);
+  push_operation(true, std::move(open_.to));
   return std::move(report);
+}
+
+/// A stroke that begins or ends inside the body shares its front with others: it goes on from the last one, and the
+/// next one from it.
+Result<CutStatistics> Engine::Conductor::cut_whole(const Stroke& stroke) {
+  StrokeReport& report = open_.report;
+  if (is_paper()) return paper_cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
+  if (go_on_at_rest(stroke.edges.front())) return end_whole(cut_by_steps(stroke));
+  if (!cutter_.leaves_front(mesh_, journal_, stroke)) {
+    return cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
+  }
+  return end_whole(cutter_.cut_to_end(mesh_, journal_, stroke, report.stroke, report.times));
+}
+
+/// The cutter stands at the first row.
+Result<CutStatistics> Engine::Conductor::cut_by_steps(const Stroke& stroke) {
+  CutStatistics sum;
+  for (std::size_t row = 1; row < stroke.edges.size(); ++row) {
+    Result<CutStatistics> cut =
+        cutter_.step(mesh_, journal_, stroke.edges[row], Vec3::Zero(), /*has_moved=*/false, open_.report.times);
+    if (!cut) return cut;
+    sum += *cut;
+  }
+  return sum;
+}
+
+/// What the blade has left behind is maintained before the end of the stroke, so that another one that goes on from
+/// there takes back no more than that end.
+Result<CutStatistics> Engine::Conductor::end_whole(Result<CutStatistics> cut) {
+  if (!cut) return cut;
+  maintain_wake(busy(), open_.report.maintain, open_.report.times);
+  open_.to = {cutter_.pause(mesh_), journal_.position()};
+  Result<CutStatistics> end = cutter_.end(mesh_, journal_, open_.report.times);
+  if (!end) return end;
+  *cut += *end;
+  return cut;
+}
+
+/// Takes over the cut of the last operation, if a blade that cuts at rest stands where that has ended.
+bool Engine::Conductor::go_on_at_rest(std::span<const Vec3> row) {
+  if (operations_.empty()) return false;
+  const Continuation& last = operations_.back().continuation;
+  if (!last.pause || !last.pause->is_at_rest()) return false;
+  return cutter_.may_go_on(mesh_, journal_, *last.pause, last.first_step, row, /*has_moved=*/false) &&
+         cutter_.go_on(mesh_, journal_, *last.pause, last.first_step, row, /*has_moved=*/false, open_.report.stroke);
+}
+
+/// Maintains what a whole stroke has cut; where its blade came in steps, with what that has left of the call's budget.
+void Engine::Conductor::maintain_rest(const Stroke& stroke) {
+  StrokeReport& report = open_.report;
+  const bool came_in_steps = open_.to.pause != nullptr;
+  const std::uint64_t budget = options_.maintain.work_units;
+  const std::uint64_t spent = came_in_steps ? std::min(report.maintain.work_units, budget) : 0;
+  take_up(came_in_steps ? cutter_.swept() : swept_triangles(stroke), report.stroke, open_.first_step);
+  report.maintain += maintain(budget - spent, report.times, {});
 }
 
 /// What a call committed is checked by whom the options name.

@@ -12,7 +12,9 @@
 #include "cut/blade_constants.h"
 #include "cut/constants.h"
 #include "cut/far_blade.h"
+#include "cut/open_border.h"
 #include "cut/spacing.h"
+#include "incise/geom/closest.h"
 #include "incise/mesh/bounds.h"
 #include "paper/constants.h"
 #include "paper/contact.h"
@@ -39,6 +41,39 @@ std::vector<Vec3> with_margin(std::span<const Vec3> row, double margin) {
 Stroke with_margin(Stroke stroke, double margin) {
   for (auto& row : stroke.edges) row = with_margin(row, margin);
   return stroke;
+}
+
+/// Whether a blade that stands where a stroke has ended goes back over what that has swept, in its slit.
+bool goes_back(const EndedStroke& ended, std::span<const Vec3> to, double spacing) {
+  const auto is_in_slit = [&](const Vec3& point) {
+    for (const auto& strip : ended.strips) {
+      const auto hit = strip->sheet.tree().closest(point, kSlitShare * spacing);
+      if (!hit.is_valid()) continue;
+      bool is_at_front = false;
+      for (std::size_t c = 0; c + 1 < ended.row.size(); ++c) {
+        const Vec3 &a = ended.row[c], &b = ended.row[c + 1];
+        is_at_front |= closest_on_triangle(hit.point, a, b, b).distance2 <= std::pow(kStandsStill * spacing, 2);
+      }
+      if (!is_at_front) return true;
+    }
+    return false;
+  };
+  return std::all_of(to.begin(), to.end(), is_in_slit);
+}
+
+/// How a whole stroke has ended.
+EndedStroke ended_at(const SweptSurface& surface, EdgeDivision edge, double spacing) {
+  EndedStroke ended;
+  std::vector<SosPoint> front;
+  for (const std::uint32_t point : surface.front) {
+    front.push_back(surface.points[point]);
+    ended.row.push_back(front.back().position);
+  }
+  ended.motion.begin_at(std::move(front), kFirstBladeKey + surface.points.size(), spacing);
+  ended.edge = std::move(edge);
+  ended.strips = {
+      std::make_shared<Strip>(last_part(surface, kStripsReach * spacing), std::vector<std::array<std::uint64_t, 2>>())};
+  return ended;
 }
 
 }  // namespace
@@ -82,30 +117,35 @@ Result<CutStatistics> PaperCutter::cut(TetMesh& mesh, Journal& journal, const St
   if (Status status = check(stroke); !status) return status.error();
   return guarded(mesh, journal, times, [&](const CutContext& context) {
     context.statistics.steps = stroke.times.size() - 1;
-    stroke_.may_go_on = false;
     Status status = cut_stroke(context, stroke, tag);
     front_.leave_lips(context.mesh, walker_);
-    ended_.add({});
     return status;
   });
 }
 
-/// As one frame, or, where the sweep lies in many folds or meets itself, in as many as the stroke has.
+/// As one frame, or, where the sweep lies in many folds or meets itself, or goes on from where another stroke ended, in
+/// as many as the stroke has.
 Status PaperCutter::cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag) {
-  const double spacing = typical_spacing(context.mesh);
-  const Stroke divided = with_divided_edge(with_margin(stroke, kCoincident * spacing), kTwist * spacing);
+  const double spacing = typical_spacing(context.mesh), twist = kTwist * spacing;
+  const Stroke wide = with_margin(stroke, kCoincident * spacing), divided = with_divided_edge(wide, twist);
   const SweptSurface surface = sweep(divided, kOwnSlit * spacing);
   if (surface.triangles.empty()) return {};
   const double least = kCoincident * spacing;
-  if (count_sharp_turns(divided, least) > kMostTurns || meets_itself(surface, least)) {
+  const EndedStroke* ended = ended_.find(wide.edges.front(), kStandsWithin * spacing);
+  const bool goes_on = ended != nullptr && !goes_back(*ended, wide.edges[1], spacing);
+  if (goes_on || count_sharp_turns(divided, least) > kMostTurns || meets_itself(surface, least)) {
     return cut_in_frames(context, stroke, tag);
   }
+  stroke_ = OpenStroke();
+  stroke_.tag = tag;
+  stroke_.spacing = spacing;
   front_.begin_sheet();
   const Strip whole(surface, {});
   Status status = sheet_cut_.cut(context, SheetSoFar(whole.sheet), tag, front_);
-  front_.end_sheet(context.mesh, whole.border);
   context.statistics.latent_faces += sheet_cut_.latent_faces();
   ++context.statistics.sheets;
+  if (status) status = end_whole(context, ended_at(surface, division_of(wide, twist), spacing));
+  front_.end_sheet(context.mesh, whole.border);
   return status;
 }
 
@@ -117,9 +157,22 @@ Status PaperCutter::cut_in_frames(const CutContext& context, const Stroke& strok
   }
   if (status) status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
   count_last_sheet(context.statistics);
+  if (status) status = end_whole(context, {stroke_.motion, stroke_.edge, stroke_.last_row, stroke_.last_strips()});
   front_.end_sheet(context.mesh, stroke_.sheet.border());
-  stroke_ = OpenStroke();
   return status;
+}
+
+/// A whole stroke whose blade has stopped inside the body is one that others go on from.
+Status PaperCutter::end_whole(const CutContext& context, EndedStroke ended) {
+  std::vector<Strip::Segment> row;
+  for (std::size_t c = 0; c + 1 < ended.row.size(); ++c) {
+    row.push_back({SosPoint{ended.row[c], kFirstBladeKey + c}, SosPoint{ended.row[c + 1], kFirstBladeKey + c + 1}});
+  }
+  find_surface(context);
+  stroke_.may_go_on = lies_in_body(context.mesh, surface_, row);
+  if (stroke_.may_go_on) return end_at_rest(context, std::move(ended));
+  ended_.add({});
+  return {};
 }
 
 // --- frame by frame
@@ -211,7 +264,9 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
       ended_.add({});
     } else {
       status = follow(context, stroke_.motion.end(stroke_.sheet, touches(context.mesh), {}));
-      if (status) status = end_at_rest(context);
+      if (status) {
+        status = end_at_rest(context, {stroke_.motion, stroke_.edge, stroke_.last_row, stroke_.last_strips()});
+      }
     }
     count_last_sheet(context.statistics);
     front_.end_sheet(context.mesh, stroke_.sheet.border());
@@ -222,11 +277,11 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
 }
 
 /// Goes over the last strips of a stroke that has ended where this one does, if others have cut in between.
-Status PaperCutter::end_at_rest(const CutContext& context) {
-  const EndedStroke* met = ended_.find(stroke_.last_row, kStandsWithin * stroke_.spacing);
+Status PaperCutter::end_at_rest(const CutContext& context, EndedStroke ended) {
+  const EndedStroke* met = ended_.find(ended.row, kStandsWithin * stroke_.spacing);
   Status status;
   if (met != nullptr && !ended_.is_last(*met)) status = go_over(context, met->strips);
-  ended_.add({stroke_.motion, stroke_.edge, stroke_.last_row, stroke_.last_strips()});
+  ended_.add(std::move(ended));
   return status;
 }
 

@@ -91,12 +91,13 @@ class PaperCutter {
   Result<CutStatistics> guarded(TetMesh& mesh, Journal& journal, StageTimes& times, Work&& work);
   Status cut_stroke(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
   Status cut_in_frames(const CutContext& context, const Stroke& stroke, std::uint32_t tag);
+  Status end_whole(const CutContext& context, EndedStroke ended);
   Status move_at_rest(const CutContext& context, std::span<const Vec3> row);
   void divide_edge(std::span<const Vec3> row);
   void count_last_sheet(CutStatistics& statistics) const;
   void go_on_from(const EndedStroke& ended);
   [[nodiscard]] bool stands_in_material(const TetMesh& mesh, std::span<const Vec3> row);
-  Status end_at_rest(const CutContext& context);
+  Status end_at_rest(const CutContext& context, EndedStroke ended);
   Status go_over(const CutContext& context, std::span<const std::shared_ptr<const Strip>> strips);
   void enter_material(const TetMesh& mesh);
   Status step_in_material(const CutContext& context, const std::vector<Vec3>& before);

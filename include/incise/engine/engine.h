@@ -98,10 +98,11 @@ class Engine {
   /// highest tag of the mesh that was taken; 1 for a fresh engine on a body without walls.
   [[nodiscard]] std::uint32_t next_stroke() const;
 
-  /// Cuts along the whole stroke, in the rest shape. A blade that misses changes nothing and is no error.
-  /// Errors: kBadArgument for a malformed stroke, one that leaves the body's surroundings (`check_reach`), or while
-  /// another is under way; kOutOfMemory where ids run out; kInternal; the mesh is then unchanged. Cost: O(tets) to find
-  /// the first contact, then O(cut tets).
+  /// Cuts along the whole stroke, in the rest shape, as one sheet; where it meets itself, or shares a front with other
+  /// strokes, as if its blade had come in steps: strokes that begin where others end are one cut with them. A blade
+  /// that misses changes nothing and is no error. Errors: kBadArgument for a malformed stroke, one that leaves the
+  /// body's surroundings (`check_reach`), or while another is under way; kOutOfMemory where ids run out; kInternal; the
+  /// mesh is then unchanged. Cost: O(tets) to find the first contact, then O(cut tets).
   Result<StrokeReport> cut(const Stroke& stroke);
 
   /// Puts the blade in place for a stroke that will be cut step by step; nothing is cut yet. Returns the stroke's
