@@ -152,35 +152,44 @@ void MarksPass::draw_corners(app::Theme theme, const ViewMatrices& view) const {
   glDepthMask(GL_TRUE);
 }
 
-// First all of the strip, which hides no other part of it; then its core, whose depth hides what comes later.
+/// First all, with their soft borders, which hide nothing of each other; then the opaque cores, whose depth hides what
+/// comes later.
+void MarksPass::draw_twice(const GlObject& program, std::size_t instances) const {
+  for (const bool is_core : {false, true}) {
+    glUniform1i(location(program, "is_core"), is_core ? 1 : 0);
+    glDepthMask(is_core ? GL_TRUE : GL_FALSE);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances));
+  }
+}
+
 void MarksPass::draw_rims(app::Theme theme, const ViewMatrices& view) const {
   if (rows_.rims().empty()) return;
   use(rim_program_, theme, view);
   glBindVertexArray(rim_array_.id());
-  const auto count = static_cast<GLsizei>(rows_.rims().size());
-  for (const bool is_core : {false, true}) {
-    glUniform1i(location(rim_program_, "is_core"), is_core ? 1 : 0);
-    glDepthMask(is_core ? GL_TRUE : GL_FALSE);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
-  }
+  draw_twice(rim_program_, rows_.rims().size());
 }
 
 void MarksPass::draw_lines(app::Theme theme, const ViewMatrices& view) const {
   if (rows_.lines().empty()) return;
   use(line_program_, theme, view);
   glBindVertexArray(line_array_.id());
-  const auto count = static_cast<GLsizei>(rows_.lines().size());
   if (std::any_of(rows_.lines().begin(), rows_.lines().end(),
                   [](const Line& line) { return line.depth != 0; })) {
     glUniform1i(location(line_program_, "is_behind"), 1);
+    glUniform1i(location(line_program_, "is_core"), 0);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rows_.lines().size()));
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LEQUAL);
   }
   glUniform1i(location(line_program_, "is_behind"), 0);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+  draw_twice(line_program_, rows_.lines().size());
+  // Casings hide what comes later, too: translucent skin.
+  glUniform1i(location(line_program_, "is_core"), 0);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rows_.lines().size()));
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void MarksPass::draw_balls(app::Theme theme, const ViewMatrices& view) const {

@@ -26,6 +26,7 @@ class MarksPass {
  private:
   void set_up();
   void use(const GlObject& program, app::Theme theme, const ViewMatrices& view) const;
+  void draw_twice(const GlObject& program, std::size_t instances) const;
   void draw_rims(app::Theme theme, const ViewMatrices& view) const;
   void draw_lines(app::Theme theme, const ViewMatrices& view) const;
   void draw_balls(app::Theme theme, const ViewMatrices& view) const;

@@ -47,6 +47,7 @@ void main() {
   vec4 at = end > 0.5 ? b : a;
   vec2 p = mix(pa, pb, end) + ((2.0 * end - 1.0) * along + side * across) * reach;
   place = vec2(end * size + (2.0 * end - 1.0) * reach, side * reach);
+  if (size > 1.0) at.z = at.w * mix(a.z / a.w, b.z / b.w, place.x / size);  // beyond its ends it goes on as steeply
   sizes = vec2(size, 0.5 * width);
   look = traits.xz;
   float nearer = is_behind ? 0.0 : kNearer;
@@ -58,7 +59,7 @@ inline constexpr const char* kLineFragment = R"(
 noperspective in vec2 place;
 flat in vec2 sizes;
 flat in uvec2 look;
-uniform bool is_behind;
+uniform bool is_behind, is_core;
 out vec4 color;
 
 // Pixels along the line to the nearest stretch of ink; the patterns' measures are in widths.
@@ -82,7 +83,7 @@ void main() {
   float ink = clamp(0.5 - (is_hollow ? max(away, -away - 0.62 * sizes.y) : away), 0.0, 1.0);
   float casing = 0.75 * clamp(0.5 + kCasing - away, 0.0, 1.0);
   float opacity = max(ink, casing);
-  if (opacity < 0.03) discard;
+  if (opacity < 0.03 || (is_core && ink < 1.0)) discard;
   color = vec4(mix(casings[style], inks[style], ink), is_behind ? 0.32 * ink : opacity);
 }
 )";
@@ -132,9 +133,10 @@ void main() {
   size = distance(pa, pb);
   float end = float(gl_VertexID & 1), side = float(gl_VertexID >> 1) * 2.0 - 1.0, reach = kRimHalfWidth + 1.0;
   place = vec2(end * size + (2.0 * end - 1.0) * reach, side * reach);
-  vec4 at = end > 0.5 ? b : a;
   vec2 p = pa + place.x * along + place.y * across;
-  gl_Position = vec4(p / (0.5 * pixels), (at.z + kMuchNearer * to_clip[3][2]) / at.w, 1);
+  float za = (a.z + kMuchNearer * to_clip[3][2]) / a.w, zb = (b.z + kMuchNearer * to_clip[3][2]) / b.w;
+  float z = mix(za, zb, size > 1.0 ? place.x / size : end);  // beyond its ends it goes on as steeply
+  gl_Position = vec4(p / (0.5 * pixels), z, 1);
 }
 )";
 

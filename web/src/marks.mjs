@@ -32,8 +32,8 @@ export class Marks {
   /** In the order of the window: solids with the body, ghosts, triangles, rims, lines, balls. */
   constructor(scene, shaders, uniforms) {
     const sheer = { transparent: true, depthWrite: false };
-    const behind = { ...uniforms, is_behind: { value: true } }, before = { ...uniforms, is_behind: { value: false } };
     const whole = { ...uniforms, is_core: { value: false } }, core = { ...uniforms, is_core: { value: true } };
+    const isBehind = { value: true }, isBefore = { value: false };
     const lines = lineShader(shaders.lines), rims = rimShader(shaders.rims), solids = solidShader(shaders.solids);
     const add = (name, geometry, made, renderOrder) => {
       const mesh = new Mesh(geometry, made);
@@ -49,13 +49,14 @@ export class Marks {
     add('triangles', this.#triangles, material(triangleShader(shaders.triangles), uniforms, sheer), 5);
     add('rims', this.#rims, material(rims, whole, sheer), 6);
     add('rimCores', this.#rims, material(rims, core, { transparent: true }), 7);
-    add('hidden', this.#lines, material(lines, behind, { ...sheer, depthFunc: GreaterDepth }), 8);
-    add('lines', this.#lines, material(lines, before, { transparent: true }), 9);
-    add('balls', this.#balls, material(ballShader(shaders.balls), uniforms, { transparent: true }), 10);
+    add('hidden', this.#lines, material(lines, { ...whole, is_behind: isBehind }, { ...sheer, depthFunc: GreaterDepth }), 8);
+    add('lines', this.#lines, material(lines, { ...whole, is_behind: isBefore }, sheer), 9);
+    add('lineCores', this.#lines, material(lines, { ...core, is_behind: isBefore }, { transparent: true }), 10);
+    add('balls', this.#balls, material(ballShader(shaders.balls), uniforms, { transparent: true }), 11);
   }
 
   take({ lines, rims, balls, triangles, solids, solidCornersBeforeGhosts }) {
-    this.#rows(['lines', 'hidden'], this.#lines, lines, LINE);
+    this.#rows(['lines', 'lineCores', 'hidden'], this.#lines, lines, LINE);
     this.#rows(['rims', 'rimCores'], this.#rims, rims, RIM);
     this.#rows(['balls'], this.#balls, balls, BALL);
     this.#corners(['triangles'], this.#triangles, triangles, CORNER);
