@@ -173,8 +173,7 @@ void MarksPass::draw_lines(app::Theme theme, const ViewMatrices& view) const {
   if (rows_.lines().empty()) return;
   use(line_program_, theme, view);
   glBindVertexArray(line_array_.id());
-  if (std::any_of(rows_.lines().begin(), rows_.lines().end(),
-                  [](const Line& line) { return line.depth != 0; })) {
+  if (std::any_of(rows_.lines().begin(), rows_.lines().end(), [](const Line& line) { return line.depth != 0; })) {
     glUniform1i(location(line_program_, "is_behind"), 1);
     glUniform1i(location(line_program_, "is_core"), 0);
     glDepthFunc(GL_GREATER);

@@ -88,8 +88,9 @@ void main() {
 }
 )";
 
-/// A rim is one strip of one ink. Its stretches lie over each other at their joints, and each draws there: the core of the
-/// strip is opaque, so that it does not matter how often, and its soft border is drawn by the stretch that is nearer alone.
+/// A rim is one strip of one ink. Its stretches lie over each other at their joints, and each draws there: the core of
+/// the strip is opaque, so that it does not matter how often, and its soft border is drawn by the stretch that is
+/// nearer alone.
 inline constexpr const char* kRimVertex = R"(
 layout(location = 0) in vec3 before;
 layout(location = 1) in vec3 from;

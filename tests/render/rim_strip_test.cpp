@@ -80,9 +80,9 @@ std::vector<double> ways_to_rims(const app::Picture& picture) {
 }
 
 struct Faults {
-  int slits = 0;        // pixels within a rim that are not its ink
-  int blots = 0;        // pixels beside it that differ from the picture without it
-  int beads = 0;        // pixels at its border that are darker than by the ink's share of them
+  int slits = 0;  // pixels within a rim that are not its ink
+  int blots = 0;  // pixels beside it that differ from the picture without it
+  int beads = 0;  // pixels at its border that are darker than by the ink's share of them
   int inked = 0;
 };
 
@@ -138,7 +138,8 @@ app::Picture wound(double opened, std::size_t stretches, double jag) {
   for (std::size_t i = 0; i < 2 * stretches; ++i) {
     const double turn = std::numbers::pi * static_cast<double>(i) / static_cast<double>(stretches);
     const double y = opened * std::sin(turn) + (i % 2 == 0 ? jag : -jag);
-    const double height = 0.02 + 0.005 * static_cast<double>(7 * i % 5);  // so that stretches are not as far from the eye
+    const double height =
+        0.02 + 0.005 * static_cast<double>(7 * i % 5);  // so that stretches are not as far from the eye
     points.emplace_back(Eigen::Vector3d(0.5 + 0.4 * std::cos(turn), 0.5 + y, height).cast<float>());
     const auto from = static_cast<std::uint32_t>(i);
     edges.push_back({from, static_cast<std::uint32_t>((i + 1) % (2 * stretches))});

@@ -22,7 +22,7 @@ constexpr double kHookLean = 2, kRetractorLean = 0.7;
 constexpr double kPinHead = 1.6, kLeastPinHead = 0.014;  // its radius: mm, and of half a picture's height
 constexpr double kPinHeight = 3;                         // of that radius: of the head's middle above the skin
 constexpr float kPinNeedle = 2;                          // pixels
-constexpr double kLeastCosine = 1e-3;  // of a ray to the middle of the view: none are in a picture
+constexpr double kLeastCosine = 1e-3;                    // of a ray to the middle of the view: none are in a picture
 
 double depth_of(const Camera& camera, const Vec3& point) {
   return (camera.eye() - point).dot(camera.backward());
