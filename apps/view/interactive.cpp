@@ -33,6 +33,7 @@ using namespace incise;
 
 constexpr double kLongestWait = 1.0 / 60;  // s: the simulation may have a new frame
 constexpr int kSettlingFrames = 3;         // after something happened, until panels have found their sizes
+constexpr int kUnseenFrames = 3;           // of panels, before the first picture
 constexpr unsigned kWindowSamples = 4;
 
 double seconds_now() {
@@ -69,6 +70,7 @@ class Application {
   [[nodiscard]] bool ends();
   void frame();
   void take_events();
+  void settle_panels();
   void take_step(std::span<const app::InputEvent> step);
   void handle(const app::InputEvent& event);
   void handle(const app::PointerEvent& event);
@@ -85,6 +87,7 @@ class Application {
   Panels drawn_panels_;
   app::Viewer viewer_;
   int frames_to_draw_ = kSettlingFrames;
+  int unseen_frames_ = kUnseenFrames;
   std::bitset<3> dragging_;   // buttons that went down in the picture, wherever the pointer is meanwhile
   bool has_printed_ = false;  // the score
   std::string complaint_;     // the last one about drawing
@@ -110,6 +113,7 @@ bool Application::ends() {
 void Application::frame() {
   panels_.viewport = window_.viewport();
   const app::ViewerState& state = std::as_const(viewer_).state();
+  settle_panels();
   take_events();
   const bool has_changed = viewer_.update(panels_.viewport, seconds_now());
   frames_to_draw_ = has_changed ? kSettlingFrames : frames_to_draw_ - 1;
@@ -124,6 +128,16 @@ void Application::frame() {
   if (title_ != viewer_.view().title) {
     title_ = viewer_.view().title;
     window_.show_title(title_.empty() ? "Incise" : title_ + " - Incise");
+  }
+}
+
+/// A panel that has never been laid out has no size, and is left out of its first picture: that is not to be one that
+/// is seen.
+void Application::settle_panels() {
+  for (; unseen_frames_ > 0; --unseen_frames_) {
+    take_step({});
+    interface_.skip();
+    viewer_.update(panels_.viewport, seconds_now());
   }
 }
 

@@ -125,10 +125,12 @@ export interface CameraMatrices {
 /** Views of the module's memory: copy them before the next call. An ink is a place in `Look.inks`. */
 export interface Marks {
   /**
-   * Ten numbers each: from, to, width in pixels, ink, depth (0 where it is, 1 seen through what is before it, 2 well before a
-   * surface, 3 only behind one), 1 where it is dashed.
+   * Ten numbers each: from, to, width in pixels, ink, depth (0 where it is, 1 seen through what is before it, 2 only behind a
+   * surface), 1 where it is dashed.
    */
   lines: Float32Array;
+  /** Stretches of the rims of wounds, twelve numbers each: the point before it, its two ends, the point after it; where a rim does not go on, an end again. */
+  rims: Float32Array;
   /** Six numbers each: centre, radius, ink, 1 where the radius is in pixels. */
   balls: Float32Array;
   /** Five numbers for each corner of a triangle: place, opacity, ink. The furthest triangles come first. */
@@ -246,7 +248,7 @@ export interface Ink {
 
 /** How the window draws. Colours are sRGB in [0, 1]. */
 export interface Look {
-  shaders: Record<'surface' | 'solids' | 'lines' | 'balls' | 'triangles', Shader>;
+  shaders: Record<'surface' | 'solids' | 'lines' | 'rims' | 'balls' | 'triangles', Shader>;
   /** 256 × 2 RGBA: colours of labels, then of quality. */
   palette: Uint8Array;
   /** `noiseSide` cubed: the pattern of tissue. */

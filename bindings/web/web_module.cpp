@@ -72,6 +72,7 @@ val shaders() {
   all.set("surface", shader(render::kSurfaceVertex, shade + render::kSurfaceFragment));
   all.set("solids", shader(render::kSolidVertex, shade + render::kSolidFragment));
   all.set("lines", shader(marks + render::kLineVertex, marks + render::kLineFragment));
+  all.set("rims", shader(marks + render::kRimVertex, marks + render::kRimFragment));
   all.set("balls", shader(marks + render::kBallVertex, marks + render::kBallFragment));
   all.set("triangles", shader(marks + render::kFillVertex, marks + render::kFillFragment));
   return all;

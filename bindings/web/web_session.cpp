@@ -281,6 +281,7 @@ val WebSession::marks() {
   fill_rows();
   val value = val::object();
   value.set("lines", view_of<float>(std::span(std::as_const(lines_))));
+  value.set("rims", view_of<float>(std::span(std::as_const(rims_))));
   value.set("balls", view_of<float>(std::span(std::as_const(balls_))));
   value.set("triangles", view_of<float>(std::span(std::as_const(triangles_))));
   value.set("solids", view_of<float>(std::span(std::as_const(solids_))));
@@ -298,6 +299,10 @@ void WebSession::fill_rows() {
     for (const std::uint32_t number : {line.style, line.depth, line.is_dashed}) {
       lines_.push_back(static_cast<float>(number));
     }
+  }
+  rims_.clear();
+  for (const render::MarkRows::Rim& rim : mark_rows_.rims()) {
+    for (const Eigen::Vector3f& at : {rim.before, rim.from, rim.to, rim.after}) push(rims_, at);
   }
   balls_.clear();
   for (const render::MarkRows::Ball& ball : mark_rows_.balls()) {

@@ -104,10 +104,10 @@ class WebSession {
   incise::render::SurfacePlaces places_;
   incise::render::MarkRows mark_rows_;
   incise::render::SolidRows solid_rows_;
-  std::vector<Eigen::Vector3f> positions_, normals_;       // per corner of a triangle in use
-  std::vector<Eigen::Vector4f> corner_places_;             // likewise
-  std::vector<incise::app::TriangleLook> looks_;           // likewise
-  std::vector<float> lines_, balls_, triangles_, solids_;  // rows
+  std::vector<Eigen::Vector3f> positions_, normals_;              // per corner of a triangle in use
+  std::vector<Eigen::Vector4f> corner_places_;                    // likewise
+  std::vector<incise::app::TriangleLook> looks_;                  // likewise
+  std::vector<float> lines_, rims_, balls_, triangles_, solids_;  // rows
   double depth_share_ = 0.125;
 };
 

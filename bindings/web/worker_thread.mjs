@@ -128,7 +128,7 @@ function show(withSurface) {
   };
   const marks = session.marks();
   data.marks = { solidCornersBeforeGhosts: marks.solidCornersBeforeGhosts };
-  for (const kind of ['lines', 'balls', 'triangles', 'solids']) data.marks[kind] = take(marks[kind]);
+  for (const kind of ['lines', 'rims', 'balls', 'triangles', 'solids']) data.marks[kind] = take(marks[kind]);
   data.camera = session.camera();
   if (withSurface || hasNewTriangles) {
     const surface = session.surface();

@@ -41,7 +41,7 @@ constexpr std::array<InkRow, kStyles> kRows = {{
     {0xFF7A1F, 0xD55E00, LinePattern::kDashDot, BallGlyph::kCross, FillPattern::kCrossed},        // far
     {0x6B3A2A, 0x6B3A2A, LinePattern::kSolid, BallGlyph::kDonut, FillPattern::kPlain},            // spot
     {0xFFF3D6, 0xFFF3D6, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // front
-    {0x6E1512, 0x6E1512, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // contour
+    {0x7A2620, 0x7A2620, LinePattern::kSolid, BallGlyph::kDisc, FillPattern::kPlain},             // contour
 }};
 
 float lightness(const Rgb& c) {

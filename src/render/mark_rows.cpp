@@ -14,9 +14,9 @@ inline namespace v0 {
 namespace render {
 namespace {
 
-constexpr float kFrontWidth = 1.6F, kContourWidth = 0.6F;  // pixels
-constexpr float kMostMarkPixels = 1024;                    // of widths and radii
-constexpr std::uint32_t kOnTop = 1, kBeforeSurface = 2, kBehind = 3;
+constexpr float kFrontWidth = 1.6F;      // pixels
+constexpr float kMostMarkPixels = 1024;  // of widths and radii
+constexpr std::uint32_t kOnTop = 1, kBehind = 2;
 
 std::uint32_t style_of(app::Ink ink) {
   return std::min(static_cast<std::uint32_t>(ink), static_cast<std::uint32_t>(kInks - 1));
@@ -31,25 +31,32 @@ float in_pixels(float size) {
 void MarkRows::gather(const app::Picture& picture) {
   lines_.clear();
   balls_.clear();
-  if (picture.surface.topology) gather_edges(picture.surface, picture.options);
+  rims_.clear();
+  const app::ViewOptions& options = picture.options;
+  // Beside tissue that looks like tissue a line of the mesh's would be out of place.
+  const bool is_mesh = options.color != app::ColorBy::kTissue || options.shows_wireframe;
+  if (picture.surface.topology && options.shows_front && is_mesh) gather_front(picture.surface);
+  if (picture.surface.topology && options.shows_surface) gather_rims(picture.surface);
   gather_lines(picture.marks);
   gather_balls(picture.marks);
   gather_corners(picture);
 }
 
-void MarkRows::gather_edges(const app::SurfaceFrame& surface, const app::ViewOptions& options) {
-  const auto add = [&](const std::vector<std::array<std::uint32_t, 2>>& edges, float width, std::size_t style,
-                       std::uint32_t depth) {
-    for (const auto& [from, to] : edges) {
-      if (from >= surface.positions.size() || to >= surface.positions.size()) continue;
-      lines_.push_back(
-          {surface.positions[from], surface.positions[to], width, static_cast<std::uint32_t>(style), depth, 0});
-    }
-  };
-  // Beside tissue that looks like tissue a line of the mesh's would be out of place.
-  const bool is_mesh = options.color != app::ColorBy::kTissue || options.shows_wireframe;
-  if (options.shows_front && is_mesh) add(surface.topology->front_edges, kFrontWidth, kFrontStyle, 0);
-  if (options.shows_surface) add(surface.topology->contour_edges, kContourWidth, kContourStyle, kBeforeSurface);
+void MarkRows::gather_front(const app::SurfaceFrame& surface) {
+  const auto style = static_cast<std::uint32_t>(kFrontStyle);
+  for (const auto& [from, to] : surface.topology->front_edges) {
+    if (from >= surface.positions.size() || to >= surface.positions.size()) continue;
+    lines_.push_back({surface.positions[from], surface.positions[to], kFrontWidth, style, 0, 0});
+  }
+}
+
+void MarkRows::gather_rims(const app::SurfaceFrame& surface) {
+  strip_.find(surface.topology);
+  const std::vector<Eigen::Vector3f>& at = surface.positions;
+  if (at.size() != surface.topology->vertices.size()) return;
+  for (const auto& [before, from, to, after] : strip_.stretches()) {
+    rims_.push_back({at[before], at[from], at[to], at[after]});
+  }
 }
 
 void MarkRows::gather_lines(const app::Marks& marks) {

@@ -18,6 +18,7 @@ namespace render {
 namespace {
 
 using Line = MarkRows::Line;
+using Rim = MarkRows::Rim;
 using Ball = MarkRows::Ball;
 using Corner = MarkRows::Corner;
 
@@ -52,7 +53,7 @@ class Layout {
 
 void set_styles(const GlObject& program, app::Theme theme) {
   const auto styles = ink_styles(theme);
-  static_assert(kStyles == 18, "the arrays of the shaders have as many");
+  static_assert(kStyles == 18 && kContourStyle == 17, "the shaders have these numbers");
   std::array<std::array<float, 3>, kStyles> inks, casings;
   std::array<std::array<int, 3>, kStyles> shapes;
   for (std::size_t i = 0; i < kStyles; ++i) {
@@ -71,12 +72,15 @@ void set_styles(const GlObject& program, app::Theme theme) {
 Result<MarksPass> MarksPass::create() {
   auto lines = make_program("lines", kMarksPrelude, kLineVertex, kLineFragment);
   if (!lines.ok()) return lines.error();
+  auto rims = make_program("rims", kMarksPrelude, kRimVertex, kRimFragment);
+  if (!rims.ok()) return rims.error();
   auto balls = make_program("balls", kMarksPrelude, kBallVertex, kBallFragment);
   if (!balls.ok()) return balls.error();
   auto fills = make_program("translucent triangles", kMarksPrelude, kFillVertex, kFillFragment);
   if (!fills.ok()) return fills.error();
   MarksPass pass;
   pass.line_program_ = std::move(lines).value();
+  pass.rim_program_ = std::move(rims).value();
   pass.ball_program_ = std::move(balls).value();
   pass.fill_program_ = std::move(fills).value();
   pass.set_up();
@@ -85,9 +89,11 @@ Result<MarksPass> MarksPass::create() {
 
 void MarksPass::set_up() {
   line_buffer_ = MirroredBuffer(GL_ARRAY_BUFFER);
+  rim_buffer_ = MirroredBuffer(GL_ARRAY_BUFFER);
   ball_buffer_ = MirroredBuffer(GL_ARRAY_BUFFER);
   corner_buffer_ = MirroredBuffer(GL_ARRAY_BUFFER);
   line_array_ = make_vertex_array();
+  rim_array_ = make_vertex_array();
   ball_array_ = make_vertex_array();
   corner_array_ = make_vertex_array();
   Layout(line_array_, line_buffer_, sizeof(Line), 1)
@@ -95,6 +101,11 @@ void MarksPass::set_up() {
       .floats(3, offsetof(Line, to))
       .floats(1, offsetof(Line, width))
       .numbers(3, offsetof(Line, style));
+  Layout(rim_array_, rim_buffer_, sizeof(Rim), 1)
+      .floats(3, offsetof(Rim, before))
+      .floats(3, offsetof(Rim, from))
+      .floats(3, offsetof(Rim, to))
+      .floats(3, offsetof(Rim, after));
   Layout(ball_array_, ball_buffer_, sizeof(Ball), 1)
       .floats(3, offsetof(Ball, centre))
       .floats(1, offsetof(Ball, radius))
@@ -110,11 +121,13 @@ void MarksPass::upload(const app::Picture& picture, DrawStatistics& statistics) 
   ThreadTimer watch;
   rows_.gather(picture);
   const std::vector<Line>& lines = rows_.lines();
+  const std::vector<Rim>& rims = rows_.rims();
   const std::vector<Ball>& balls = rows_.balls();
   const std::vector<Corner>& corners = rows_.corners();
-  statistics.marks = lines.size() + balls.size() + corners.size() / 3;
+  statistics.marks = lines.size() + rims.size() + balls.size() + corners.size() / 3;
   statistics.compare_ms += watch.lap();
   statistics.bytes_uploaded += line_buffer_.update(lines.data(), lines.size(), sizeof(Line));
+  statistics.bytes_uploaded += rim_buffer_.update(rims.data(), rims.size(), sizeof(Rim));
   statistics.bytes_uploaded += ball_buffer_.update(balls.data(), balls.size(), sizeof(Ball));
   statistics.bytes_uploaded += corner_buffer_.update(corners.data(), corners.size(), sizeof(Corner));
   statistics.upload_ms += watch.lap();
@@ -139,22 +152,43 @@ void MarksPass::draw_corners(app::Theme theme, const ViewMatrices& view) const {
   glDepthMask(GL_TRUE);
 }
 
+/// First all, with their soft borders, which hide nothing of each other; then the opaque cores, whose depth hides what
+/// comes later.
+void MarksPass::draw_twice(const GlObject& program, std::size_t instances) const {
+  for (const bool is_core : {false, true}) {
+    glUniform1i(location(program, "is_core"), is_core ? 1 : 0);
+    glDepthMask(is_core ? GL_TRUE : GL_FALSE);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances));
+  }
+}
+
+void MarksPass::draw_rims(app::Theme theme, const ViewMatrices& view) const {
+  if (rows_.rims().empty()) return;
+  use(rim_program_, theme, view);
+  glBindVertexArray(rim_array_.id());
+  draw_twice(rim_program_, rows_.rims().size());
+}
+
 void MarksPass::draw_lines(app::Theme theme, const ViewMatrices& view) const {
   if (rows_.lines().empty()) return;
   use(line_program_, theme, view);
   glBindVertexArray(line_array_.id());
-  const auto count = static_cast<GLsizei>(rows_.lines().size());
-  if (std::any_of(rows_.lines().begin(), rows_.lines().end(),
-                  [](const Line& line) { return line.depth == 1 || line.depth == 3; })) {
+  if (std::any_of(rows_.lines().begin(), rows_.lines().end(), [](const Line& line) { return line.depth != 0; })) {
     glUniform1i(location(line_program_, "is_behind"), 1);
+    glUniform1i(location(line_program_, "is_core"), 0);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rows_.lines().size()));
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LEQUAL);
   }
   glUniform1i(location(line_program_, "is_behind"), 0);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+  draw_twice(line_program_, rows_.lines().size());
+  // Casings hide what comes later, too: translucent skin.
+  glUniform1i(location(line_program_, "is_core"), 0);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rows_.lines().size()));
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void MarksPass::draw_balls(app::Theme theme, const ViewMatrices& view) const {
@@ -167,6 +201,7 @@ void MarksPass::draw_balls(app::Theme theme, const ViewMatrices& view) const {
 void MarksPass::draw(app::Theme theme, const ViewMatrices& view) const {
   glEnable(GL_BLEND);
   draw_corners(theme, view);
+  draw_rims(theme, view);
   draw_lines(theme, view);
   draw_balls(theme, view);
   glDisable(GL_BLEND);

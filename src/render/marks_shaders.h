@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text of the shaders that draw lines, balls and translucent triangles.
+// Text of the shaders that draw lines, rims of wounds, balls and translucent triangles.
 #pragma once
 
 namespace incise {
@@ -14,24 +14,26 @@ uniform float pixel_scale;  // length per pixel at depth 1
 uniform vec3 inks[18], casings[18];
 uniform ivec3 shapes[18];   // of lines, balls, fills
 const float kCasing = 1.5;  // pixels around an ink
+const int kRimStyle = 17;
+const float kRimHalfWidth = 1.5;  // pixels
 )";
 
 inline constexpr const char* kLineVertex = R"(
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
 layout(location = 2) in float width;
-layout(location = 3) in uvec3 traits;  // style, depth (1: on top, 2: well before a surface, 3: only behind one), dashed
+layout(location = 3) in uvec3 traits;  // style, depth (1: on top, 2: only behind a surface), dashed
 uniform bool is_behind;
 noperspective out vec2 place;  // pixels along the line from its start, and across
 flat out vec2 sizes;           // length and half width in pixels
 flat out uvec2 look;           // style, dashed
-// Shares of the way to the eye, whatever lies between the nearest and the furthest of the scene.
-const float kNearer = 5e-4;      // lines on a surface come before it
-const float kMuchNearer = 4e-3;  // rims of wounds: lips may overlap
+// Lines on a surface come before it, by a share of the way to the eye: whatever lies between the nearest and the
+// furthest of the scene.
+const float kNearer = 5e-4;
 
 void main() {
   gl_Position = vec4(2, 2, 2, 1);  // seen by nobody
-  if (is_behind ? traits.y != 1u && traits.y != 3u : traits.y == 3u) return;
+  if (is_behind ? traits.y == 0u : traits.y == 2u) return;
   vec4 a = to_clip * (to_view * vec4(from, 1)), b = to_clip * (to_view * vec4(to, 1));
   float da = a.z + a.w, db = b.z + b.w;  // below 0: nearer than the near plane
   if (da < 0.0 && db < 0.0) return;
@@ -45,9 +47,10 @@ void main() {
   vec4 at = end > 0.5 ? b : a;
   vec2 p = mix(pa, pb, end) + ((2.0 * end - 1.0) * along + side * across) * reach;
   place = vec2(end * size + (2.0 * end - 1.0) * reach, side * reach);
+  if (size > 1.0) at.z = at.w * mix(a.z / a.w, b.z / b.w, place.x / size);  // beyond its ends it goes on as steeply
   sizes = vec2(size, 0.5 * width);
   look = traits.xz;
-  float nearer = is_behind ? 0.0 : traits.y == 2u ? kMuchNearer : kNearer;
+  float nearer = is_behind ? 0.0 : kNearer;
   gl_Position = vec4(p / (0.5 * pixels) * at.w, at.z + nearer * to_clip[3][2], at.w);
 }
 )";
@@ -56,7 +59,7 @@ inline constexpr const char* kLineFragment = R"(
 noperspective in vec2 place;
 flat in vec2 sizes;
 flat in uvec2 look;
-uniform bool is_behind;
+uniform bool is_behind, is_core;
 out vec4 color;
 
 // Pixels along the line to the nearest stretch of ink; the patterns' measures are in widths.
@@ -80,8 +83,78 @@ void main() {
   float ink = clamp(0.5 - (is_hollow ? max(away, -away - 0.62 * sizes.y) : away), 0.0, 1.0);
   float casing = 0.75 * clamp(0.5 + kCasing - away, 0.0, 1.0);
   float opacity = max(ink, casing);
-  if (opacity < 0.03) discard;
+  if (opacity < 0.03 || (is_core && ink < 1.0)) discard;
   color = vec4(mix(casings[style], inks[style], ink), is_behind ? 0.32 * ink : opacity);
+}
+)";
+
+/// A rim is one strip of one ink. Its stretches lie over each other at their joints, and each draws there: the core of
+/// the strip is opaque, so that it does not matter how often, and its soft border is drawn by the stretch that is
+/// nearer alone.
+inline constexpr const char* kRimVertex = R"(
+layout(location = 0) in vec3 before;
+layout(location = 1) in vec3 from;
+layout(location = 2) in vec3 to;
+layout(location = 3) in vec3 after;
+out vec2 place;        // pixels along the stretch from its start, and across
+flat out float size;   // its length in pixels
+flat out vec4 joints;  // at its start and its end: the way on, halfway between both stretches; 0 where there is none
+const float kMuchNearer = 4e-3;  // before the surface, by a share of the way to the eye: lips may overlap
+const float kLeastPixels = 0.05, kSharpest = 0.2;  // of a stretch, and of the sum of two directions, that tell a way
+
+vec4 seen(vec3 at) { return to_clip * (to_view * vec4(at, 1)); }
+vec2 pixel_of(vec4 p) { return 0.5 * pixels * p.xy / p.w; }
+
+// From one pixel to another, unit.
+vec2 way(vec2 a, vec2 b) {
+  float far = distance(a, b);
+  return far > kLeastPixels ? (b - a) / far : vec2(0);
+}
+
+vec2 halfway(vec2 a, vec2 b) {
+  float size_of = length(a + b);
+  bool is_told = dot(a, a) > 0.0 && dot(b, b) > 0.0 && size_of > kSharpest;
+  return is_told ? (a + b) / size_of : vec2(0);
+}
+
+void main() {
+  gl_Position = vec4(2, 2, 2, 1);  // seen by nobody
+  vec4 a = seen(from), b = seen(to), c = seen(before), d = seen(after);
+  float da = a.z + a.w, db = b.z + b.w;  // below 0: nearer than the near plane
+  if (da < 0.0 && db < 0.0) return;
+  vec4 whole = a;
+  if (da < 0.0) a = mix(a, b, da / (da - db) + 1e-5);
+  if (db < 0.0) b = mix(b, whole, db / (db - da) + 1e-5);
+  vec2 pa = pixel_of(a), pb = pixel_of(b), ahead = way(pa, pb);
+  bool has_start = da > 0.0 && c.z + c.w > 0.0, has_end = db > 0.0 && d.z + d.w > 0.0;
+  joints.xy = has_start ? halfway(way(pixel_of(c), pa), ahead) : vec2(0);
+  joints.zw = has_end ? halfway(ahead, way(pb, pixel_of(d))) : vec2(0);
+  vec2 along = dot(ahead, ahead) > 0.0 ? ahead : vec2(1, 0), across = vec2(-along.y, along.x);
+  joints = vec4(dot(joints.xy, along), dot(joints.xy, across), dot(joints.zw, along), dot(joints.zw, across));
+  size = distance(pa, pb);
+  float end = float(gl_VertexID & 1), side = float(gl_VertexID >> 1) * 2.0 - 1.0, reach = kRimHalfWidth + 1.0;
+  place = vec2(end * size + (2.0 * end - 1.0) * reach, side * reach);
+  vec2 p = pa + place.x * along + place.y * across;
+  float za = (a.z + kMuchNearer * to_clip[3][2]) / a.w, zb = (b.z + kMuchNearer * to_clip[3][2]) / b.w;
+  float z = mix(za, zb, size > 1.0 ? place.x / size : end);  // beyond its ends it goes on as steeply
+  gl_Position = vec4(p / (0.5 * pixels), z, 1);
+}
+)";
+
+inline constexpr const char* kRimFragment = R"(
+in vec2 place;
+flat in float size;
+flat in vec4 joints;
+uniform bool is_core;
+out vec4 color;
+const float kShared = 0.02;  // pixels at a joint that both of its stretches draw: no border is left out by rounding
+
+void main() {
+  float beyond = max(max(-place.x, place.x - size), 0.0);
+  float ink = clamp(0.5 + kRimHalfWidth - length(vec2(beyond, place.y)), 0.0, 1.0);
+  bool is_others = dot(place, joints.xy) < -kShared || dot(place - vec2(size, 0), joints.zw) > kShared;
+  if (ink < (is_core || is_others ? 1.0 : 0.03)) discard;
+  color = vec4(inks[kRimStyle], ink);
 }
 )";
 

@@ -18,7 +18,7 @@ struct DrawStatistics {
   std::size_t bytes_uploaded = 0;  ///< into buffers; 0 where the picture is the same but for the camera
   std::size_t triangles = 0;       ///< slots of the surface, free ones left out
   std::size_t points = 0;          ///< of the surface
-  std::size_t marks = 0;           ///< lines (front edges among them), balls and triangles
+  std::size_t marks = 0;           ///< lines (front edges among them), stretches of rims, balls and triangles
   double compare_ms = 0;           ///< finding what changed, and the bounds
   double normals_ms = 0;
   double upload_ms = 0;

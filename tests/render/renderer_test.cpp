@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -299,6 +300,30 @@ TEST(Renderer, an_instrument_that_is_not_finite_is_left_out) {
   picture.marks.instruments.clear();
   expect_drawn(drawing, picture);
   EXPECT_EQ(compare(drawing.read(), with).differing, 0);
+}
+
+TEST(Renderer, lines_that_go_on_from_each_other_are_one) {
+  Drawing drawing(incise_test::kSmall, 0);
+  INCISE_SKIP_WITHOUT(drawing);
+  app::Picture picture = flat_sheet();
+  const std::array<Eigen::Vector3f, 4> way = {
+      Eigen::Vector3f(0.2F, 0.4F, 0.1F), {0.4F, 0.6F, 0.1F}, {0.6F, 0.6F, 0.1F}, {0.8F, 0.4F, 0.1F}};
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    picture.marks.lines.push_back({way[i], way[i + 1], app::Ink::kPicked, 6, false, false});
+  }
+  expect_drawn(drawing, picture);
+  const incise::render::Image image = drawing.read();
+  const auto ink_at = [&](const Eigen::Vector3f& place) {
+    const auto pixel = to_pixel(picture.camera, incise_test::kSmall, place.cast<double>()).value();
+    return image.at(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+  };
+  const auto ink = ink_at(0.5F * (way[1] + way[2]));
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    for (int step = 0; step <= 40; ++step) {
+      const float share = static_cast<float>(step) / 40;
+      EXPECT_EQ(ink_at((1 - share) * way[i] + share * way[i + 1]), ink) << i << ", " << share;
+    }
+  }
 }
 
 TEST(Renderer, a_mark_on_tissue_that_is_seen_aslant_is_drawn_whole) {

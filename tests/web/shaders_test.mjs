@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { ballShader, lineShader, solidShader, surfaceShader, triangleShader } from '../../web/src/glsl.mjs';
+import { ballShader, lineShader, rimShader, solidShader, surfaceShader, triangleShader } from '../../web/src/glsl.mjs';
 
 const texts = {};
 for (const header of ['marks', 'shadow', 'solid', 'surface']) {
@@ -17,6 +17,7 @@ test('the page finds what it replaces in the shaders', () => {
   const marks = texts.kMarksPrelude;
   const all = [
     lineShader(shader('kLineVertex', 'kLineFragment', marks)),
+    rimShader(shader('kRimVertex', 'kRimFragment', marks)),
     ballShader(shader('kBallVertex', 'kBallFragment', marks)),
     triangleShader(shader('kFillVertex', 'kFillFragment', marks)),
     solidShader(shader('kSolidVertex', 'kSolidFragment')),

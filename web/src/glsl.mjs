@@ -44,6 +44,8 @@ export function lineShader({ vertex, fragment }) {
   return { vertexShader: HEAD + flat, fragmentShader: HEAD + replaced(fragment, [['noperspective in', 'in']]) };
 }
 
+export const rimShader = ({ vertex, fragment }) => ({ vertexShader: HEAD + vertex, fragmentShader: HEAD + fragment });
+
 export const ballShader = ({ vertex, fragment }) => ({ vertexShader: HEAD + withTraits(vertex, 'uvec2'), fragmentShader: HEAD + fragment });
 
 export const triangleShader = ({ vertex, fragment }) => ({

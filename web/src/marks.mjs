@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is drawn beside the surface: instruments, lines, balls and translucent triangles.
 import { BufferGeometry, DoubleSide, GLSL3, GreaterDepth, InstancedBufferGeometry, LessEqualDepth, Mesh, RawShaderMaterial } from 'three';
-import { ballShader, lineShader, solidShader, triangleShader } from './glsl.mjs';
+import { ballShader, lineShader, rimShader, solidShader, triangleShader } from './glsl.mjs';
 import { putRows } from './rows.mjs';
 
 const LINE = [['from', 3], ['to', 3], ['width', 1], ['traits_of', 3]];
+const RIM = [['before', 3], ['from', 3], ['to', 3], ['after', 3]];
 const BALL = [['centre', 3], ['radius', 1], ['traits_of', 2]];
 const CORNER = [['at', 3], ['opacity', 1], ['style', 1]];
 const SOLID = [['position', 3], ['normal', 3], ['finish', 4], ['gloss', 1]];
@@ -22,16 +23,18 @@ function squares() {
 
 export class Marks {
   #lines = squares();
+  #rims = squares();
   #balls = squares();
   #triangles = new BufferGeometry();
   #solids = new BufferGeometry();
   #meshes = {};
 
-  /** In the order of the window: solids with the body, ghosts, triangles, lines, balls. */
+  /** In the order of the window: solids with the body, ghosts, triangles, rims, lines, balls. */
   constructor(scene, shaders, uniforms) {
     const sheer = { transparent: true, depthWrite: false };
-    const behind = { ...uniforms, is_behind: { value: true } }, before = { ...uniforms, is_behind: { value: false } };
-    const lines = lineShader(shaders.lines), solids = solidShader(shaders.solids);
+    const whole = { ...uniforms, is_core: { value: false } }, core = { ...uniforms, is_core: { value: true } };
+    const isBehind = { value: true }, isBefore = { value: false };
+    const lines = lineShader(shaders.lines), rims = rimShader(shaders.rims), solids = solidShader(shaders.solids);
     const add = (name, geometry, made, renderOrder) => {
       const mesh = new Mesh(geometry, made);
       mesh.frustumCulled = false;
@@ -44,13 +47,17 @@ export class Marks {
     add('ghostDepths', this.ghosts, material(solids, uniforms, { colorWrite: false, transparent: true }), 3);
     add('ghosts', this.ghosts, material(solids, uniforms, { transparent: true }), 4);
     add('triangles', this.#triangles, material(triangleShader(shaders.triangles), uniforms, sheer), 5);
-    add('hidden', this.#lines, material(lines, behind, { ...sheer, depthFunc: GreaterDepth }), 6);
-    add('lines', this.#lines, material(lines, before, { transparent: true }), 7);
-    add('balls', this.#balls, material(ballShader(shaders.balls), uniforms, { transparent: true }), 8);
+    add('rims', this.#rims, material(rims, whole, sheer), 6);
+    add('rimCores', this.#rims, material(rims, core, { transparent: true }), 7);
+    add('hidden', this.#lines, material(lines, { ...whole, is_behind: isBehind }, { ...sheer, depthFunc: GreaterDepth }), 8);
+    add('lines', this.#lines, material(lines, { ...whole, is_behind: isBefore }, sheer), 9);
+    add('lineCores', this.#lines, material(lines, { ...core, is_behind: isBefore }, { transparent: true }), 10);
+    add('balls', this.#balls, material(ballShader(shaders.balls), uniforms, { transparent: true }), 11);
   }
 
-  take({ lines, balls, triangles, solids, solidCornersBeforeGhosts }) {
-    this.#rows(['lines', 'hidden'], this.#lines, lines, LINE);
+  take({ lines, rims, balls, triangles, solids, solidCornersBeforeGhosts }) {
+    this.#rows(['lines', 'lineCores', 'hidden'], this.#lines, lines, LINE);
+    this.#rows(['rims', 'rimCores'], this.#rims, rims, RIM);
     this.#rows(['balls'], this.#balls, balls, BALL);
     this.#corners(['triangles'], this.#triangles, triangles, CORNER);
     const width = 11, ghosts = solidCornersBeforeGhosts * width;

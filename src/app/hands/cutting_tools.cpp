@@ -174,6 +174,7 @@ class PunchTool final : public HandTool {
     punch.up = hit.normal;
     punch.opening = settings.punch_radius;
     punch.millimetre = millimetre_of(settings);
+    punch.is_ghost = true;  // it stands on what it is aimed at
     marks.instruments.push_back(punch);
   }
 

@@ -16,59 +16,80 @@ constexpr double kPushPerNotch = 0.5;                      // of the hook's radi
 constexpr double kNearestShare = 0.2, kFarthestShare = 5;  // of the depth of what was grasped
 constexpr double kLeastSteep = 0.3;                        // cosine of a ray to a surface that a hook is led along
 constexpr double kFarthestAlong = 2;                       // of the depth of what was grasped, on that way
-constexpr double kJaw = 0.5;                               // of the hook's radius, as drawn
+constexpr double kJaw = 0.5, kFold = 0.12;                 // of the hook's radius, as drawn: open, and on what is held
 // Aside by up, of what pulls: a hook's shaft lies low and hides no wound; a retractor's handle is bent already.
 constexpr double kHookLean = 2, kRetractorLean = 0.7;
-constexpr double kLeastCosine = 1e-3;  // of a ray to the middle of the view: none are in a picture
+constexpr double kPinHead = 1.6, kLeastPinHead = 0.014;  // its radius: mm, and of half a picture's height
+constexpr double kPinHeight = 3;                         // of that radius: of the head's middle above the skin
+constexpr float kPinNeedle = 2;                          // pixels
+constexpr double kLeastCosine = 1e-3;                    // of a ray to the middle of the view: none are in a picture
 
 double depth_of(const Camera& camera, const Vec3& point) {
   return (camera.eye() - point).dot(camera.backward());
 }
 
+double head_radius(const Pin& pin, const Camera& camera) {
+  const double half_height = depth_of(camera, pin.hook.position) * std::tan(0.5 * camera.field_of_view);
+  return std::max(kPinHead * pin.millimetre, kLeastPinHead * half_height);
+}
+
+Vec3 head_of(const Pin& pin, const Camera& camera) {
+  return pin.hook.position + kPinHeight * head_radius(pin, camera) * pin.normal;
+}
+
 }  // namespace
 
-Grasp::Grasp(const Hook& hook, const Camera& camera)
-    : hook_(hook), grasped_(hook.position), depth_(depth_of(camera, grasped_)), first_depth_(depth_) {}
+Grasp::Grasp(const Hook& hook, const Camera& camera, GraspWay way, const Vec3& normal)
+    : hook_(hook),
+      grasped_(hook.position),
+      depth_(depth_of(camera, grasped_)),
+      first_depth_(depth_),
+      way_(way),
+      normal_(normal),
+      level_(grasped_) {}
 
 void Grasp::take(const Camera& camera) {
   depth_ = first_depth_ = depth_of(camera, hook_.position);
+  level_ = hook_.position;
 }
 
-Grasp::Grasp(const Hook& hook, const Camera& camera, const Vec3& normal) : Grasp(hook, camera) {
-  normal_ = normal;
-}
-
-/// Where a ray meets the plane along the surface through the hook, if it meets it steeply, and not far beyond what was
-/// grasped.
+/// Where a ray meets the plane along the surface, if it meets it steeply, and not far beyond what was grasped.
 std::optional<Vec3> Grasp::along_surface(const Ray& ray) const {
   const double cosine = -ray.direction.dot(normal_);
   if (cosine < kLeastSteep) return std::nullopt;
-  const double way = (ray.origin - hook_.position).dot(normal_) / cosine;
+  const double way = (ray.origin - level_).dot(normal_) / cosine;
   if (!(way > kNearestShare * first_depth_ && way < kFarthestAlong * first_depth_)) return std::nullopt;
   return Vec3(ray.origin + way * ray.direction);
 }
 
-void Grasp::move(const Ray& ray, const Camera& camera) {
-  if (const std::optional<Vec3> place = along_surface(ray)) {
-    hook_.position = *place;
-    depth_ = depth_of(camera, *place);
-    return;
-  }
+std::optional<Vec3> Grasp::across_view(const Ray& ray, const Camera& camera) const {
   const double cosine = -ray.direction.dot(camera.backward());
-  if (cosine > kLeastCosine) hook_.position = ray.origin + depth_ / cosine * ray.direction;
+  if (!(cosine > kLeastCosine)) return std::nullopt;
+  return Vec3(ray.origin + depth_ / cosine * ray.direction);
+}
+
+void Grasp::move(const Ray& ray, const Camera& camera) {
+  std::optional<Vec3> place = across_view(ray, camera);
+  const bool is_below = place && (*place - level_).dot(normal_) < 0;
+  if (way_ == GraspWay::kAlongSurface || (way_ == GraspWay::kLifting && is_below)) {
+    const std::optional<Vec3> along = along_surface(ray);
+    if (along && way_ == GraspWay::kAlongSurface) depth_ = depth_of(camera, *along);
+    if (along) place = along;
+  }
+  if (place) hook_.position = *place;
 }
 
 void Grasp::push(double notches, const Camera& camera) {
   const double wanted = depth_ + kPushPerNotch * hook_.radius * notches;
   const double depth = std::clamp(wanted, kNearestShare * first_depth_, kFarthestShare * first_depth_);
-  hook_.position = camera.eye() + depth / depth_ * (hook_.position - camera.eye());
+  const Vec3 old = hook_.position;
+  hook_.position = camera.eye() + depth / depth_ * (old - camera.eye());
+  level_ += hook_.position - old;
   depth_ = depth;
 }
 
 void Grasp::draw(Marks& marks) const {
-  const Eigen::Vector3f to = hook_.position.cast<float>();
-  marks.lines.push_back({grasped_.cast<float>(), to, Ink::kHook, 2, true, false});
-  marks.balls.push_back({to, Ink::kHook, 6, true});
+  marks.balls.push_back({hook_.position.cast<float>(), Ink::kHook, 6, true});
 }
 
 Instrument instrument_at(const Hook& hook, const Vec3& grasped, const HeldBy& by, const Camera& camera) {
@@ -78,8 +99,8 @@ Instrument instrument_at(const Hook& hook, const Vec3& grasped, const HeldBy& by
   made.millimetre = by.millimetre;
   if (by.kind == InstrumentKind::kForceps) {
     made.up = (camera.backward() + 0.6 * camera.right()).normalized();
-    made.ahead = camera.upward();
-    made.opening = 2 * kJaw * (1 - hook.closed) * hook.radius;
+    made.ahead = camera.right();  // both arms are seen, one above the other
+    made.opening = 2 * (hook.closed > 0 ? kFold : kJaw) * hook.radius;
     return made;
   }
   const Vec3 pull = hook.position - grasped;
@@ -103,11 +124,11 @@ void draw_circle(const Vec3& centre, const Vec3& normal, double radius, Marks& m
   }
 }
 
-std::optional<std::size_t> find_pin(const std::vector<Hook>& pins, const Camera& camera, const Viewport& viewport,
-                                    const Vec2& pixel, double reach) {
+std::optional<std::size_t> find_place(const std::vector<Vec3>& places, const Camera& camera, const Viewport& viewport,
+                                      const Vec2& pixel, double reach) {
   std::optional<std::size_t> nearest;
-  for (std::size_t i = 0; i < pins.size(); ++i) {
-    const std::optional<Vec2> at = to_pixel(camera, viewport, pins[i].position);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::optional<Vec2> at = to_pixel(camera, viewport, places[i]);
     if (!at || (*at - pixel).norm() > reach) continue;
     reach = (*at - pixel).norm();
     nearest = i;
@@ -115,8 +136,24 @@ std::optional<std::size_t> find_pin(const std::vector<Hook>& pins, const Camera&
   return nearest;
 }
 
-void draw_pins(const std::vector<Hook>& pins, Marks& marks) {
-  for (const Hook& pin : pins) marks.balls.push_back({pin.position.cast<float>(), Ink::kPin, 6, true});
+std::optional<std::size_t> find_pin(const std::vector<Pin>& pins, const Camera& camera, const Viewport& viewport,
+                                    const Vec2& pixel, double reach) {
+  std::vector<Vec3> places;
+  for (const Pin& pin : pins) {
+    places.push_back(pin.hook.position);
+    places.push_back(head_of(pin, camera));
+  }
+  const std::optional<std::size_t> place = find_place(places, camera, viewport, pixel, reach);
+  if (!place) return std::nullopt;
+  return *place / 2;
+}
+
+void draw_pins(const std::vector<Pin>& pins, const Camera& camera, Marks& marks) {
+  for (const Pin& pin : pins) {
+    const Eigen::Vector3f point = pin.hook.position.cast<float>(), head = head_of(pin, camera).cast<float>();
+    marks.lines.push_back({point, head, Ink::kTool, kPinNeedle, false, false});
+    marks.balls.push_back({head, Ink::kPin, static_cast<float>(head_radius(pin, camera)), false});
+  }
 }
 
 }  // namespace app

@@ -14,14 +14,18 @@ namespace incise {
 inline namespace v0 {
 namespace app {
 
-/// A hook in the hand: it moves in the plane across the view through what it grasped, or along the surface there.
+/// How a hook goes with the pointer. Where a surface is seen too flat to be gone along, it goes across the view.
+enum class GraspWay : std::uint8_t {
+  kAcross,        ///< in the plane across the view through what it grasped
+  kAlongSurface,  ///< along the surface there: a hand that pulls a lip aside does not pull it into the body
+  kLifting,       ///< across the view where that is above the surface, else along it
+};
+
+/// A hook in the hand.
 class Grasp {
  public:
-  Grasp(const Hook& hook, const Camera& camera);
-  /// @param normal  unit, of the surface that it moves along: a hand that pulls a lip aside pulls it along the skin,
-  /// and
-  ///                not into the body. Where the surface is seen too flat for that, it moves across the view.
-  Grasp(const Hook& hook, const Camera& camera, const Vec3& normal);
+  /// @param normal  unit, outwards, of the surface that it took hold of; not asked for across the view.
+  Grasp(const Hook& hook, const Camera& camera, GraspWay way, const Vec3& normal);
 
   /// Another hand, or another view, takes it where it is.
   void take(const Camera& camera);
@@ -36,16 +40,29 @@ class Grasp {
 
  private:
   [[nodiscard]] std::optional<Vec3> along_surface(const Ray& ray) const;
+  [[nodiscard]] std::optional<Vec3> across_view(const Ray& ray, const Camera& camera) const;
 
   Hook hook_;
-  Vec3 grasped_;                // where it took hold
-  double depth_;                // of the hook before the eye
-  double first_depth_;          // of what was grasped
-  Vec3 normal_ = Vec3::Zero();  // of the surface that it moves along; zero: across the view
+  Vec3 grasped_;        // where it took hold
+  double depth_;        // of the plane across the view, before the eye
+  double first_depth_;  // of what was grasped
+  GraspWay way_;
+  Vec3 normal_;
+  Vec3 level_;  // a place of the plane along the surface
 };
 
-/// The nearest of some pins to a place of the picture, within `reach` pixels: its index.
-[[nodiscard]] std::optional<std::size_t> find_pin(const std::vector<Hook>& pins, const Camera& camera,
+/// What holds tissue where it is.
+struct Pin {
+  Hook hook;
+  Vec3 normal = Vec3::UnitZ();  ///< of the surface that it stands on, outwards
+  double millimetre = 0.001;    ///< see `Instrument`
+};
+
+/// The nearest of some places to one of the picture, within `reach` pixels: its index.
+[[nodiscard]] std::optional<std::size_t> find_place(const std::vector<Vec3>& places, const Camera& camera,
+                                                    const Viewport& viewport, const Vec2& pixel, double reach);
+/// The pin whose head or whose point is the nearest, likewise.
+[[nodiscard]] std::optional<std::size_t> find_pin(const std::vector<Pin>& pins, const Camera& camera,
                                                   const Viewport& viewport, const Vec2& pixel, double reach);
 /// The instrument that a hook in the hand is, and where it was put on.
 struct HeldBy {
@@ -57,7 +74,8 @@ struct HeldBy {
 [[nodiscard]] Instrument instrument_at(const Hook& hook, const Vec3& grasped, const HeldBy& by, const Camera& camera);
 /// A circle on a surface: what a grip takes hold of, or where the pointer is.
 void draw_circle(const Vec3& centre, const Vec3& normal, double radius, Marks& marks);
-void draw_pins(const std::vector<Hook>& pins, Marks& marks);
+/// Each with its head above the skin, of at least a few pixels.
+void draw_pins(const std::vector<Pin>& pins, const Camera& camera, Marks& marks);
 
 }  // namespace app
 }  // namespace v0

@@ -38,7 +38,8 @@ class GraspTool final : public HandTool {
     }
     Hook hook = new_hook(moment, *place.hit, moment.settings.grasp_radius, moment.settings.grasp_stiffness);
     hook.closed = kJawsClosed;
-    grasp_.emplace(hook, moment.camera);
+    // Tissue is lifted, and pulled along the skin, but not pushed into the body.
+    grasp_.emplace(hook, moment.camera, place.is_wall ? GraspWay::kAcross : GraspWay::kLifting, place.hit->normal);
     by_ = {InstrumentKind::kForceps, place.hit->normal, millimetre_of(moment.settings)};
   }
   void move(const DragMoment& moment) override {
@@ -88,8 +89,8 @@ class StayingTool final : public HandTool {
     }
     const ToolSettings& s = moment.settings;
     const Hook hook = new_hook(moment, *place.hit, share_ * s.grasp_radius, kFirmness * s.grasp_stiffness);
-    const Vec3 along = place.is_wall ? Vec3(Vec3::Zero()) : place.hit->normal;
-    held_.emplace_back(hook, moment.camera, along);
+    const GraspWay way = place.is_wall ? GraspWay::kAcross : GraspWay::kAlongSurface;
+    held_.emplace_back(hook, moment.camera, way, place.hit->normal);
     by_.push_back({kind_, place.hit->normal, millimetre_of(s)});
     moving_ = held_.size() - 1;
   }
@@ -130,9 +131,9 @@ class StayingTool final : public HandTool {
 
  private:
   [[nodiscard]] std::optional<std::size_t> find_held(const DragMoment& moment) const {
-    std::vector<Hook> hooks;
-    for (const Grasp& grasp : held_) hooks.push_back(grasp.hook());
-    return find_pin(hooks, moment.camera, moment.context.viewport, moment.event.pixel, kPinPixels);
+    std::vector<Vec3> places;
+    for (const Grasp& grasp : held_) places.push_back(grasp.hook().position);
+    return find_place(places, moment.camera, moment.context.viewport, moment.event.pixel, kPinPixels);
   }
   void let_go() {
     held_.erase(held_.begin() + static_cast<std::ptrdiff_t>(*moving_));
@@ -159,8 +160,9 @@ class PinTool final : public HandTool {
     } else if (clicked_pin_) {
       pins_.erase(pins_.begin() + static_cast<std::ptrdiff_t>(*clicked_pin_));
     } else if (clicked_) {
-      pins_.push_back(
-          {next_hook++, clicked_->point, settings.pin_radius, settings.pin_stiffness, HookReach::kSurface, 0});
+      const Hook hook{
+          next_hook++, clicked_->point, settings.pin_radius, settings.pin_stiffness, HookReach::kSurface, 0};
+      pins_.push_back({hook, clicked_->normal, millimetre_of(settings)});
     } else {
       results.refusal = kNoTissue;
     }
@@ -169,11 +171,13 @@ class PinTool final : public HandTool {
     clicked_.reset();
     clicked_pin_.reset();
   }
-  void add_to(HandState& hands) const override { hands.hooks.insert(hands.hooks.end(), pins_.begin(), pins_.end()); }
-  void draw(const Camera& /*camera*/, Marks& marks) const override { draw_pins(pins_, marks); }
+  void add_to(HandState& hands) const override {
+    for (const Pin& pin : pins_) hands.hooks.push_back(pin.hook);
+  }
+  void draw(const Camera& camera, Marks& marks) const override { draw_pins(pins_, camera, marks); }
 
  private:
-  std::vector<Hook> pins_;
+  std::vector<Pin> pins_;
   std::optional<SurfaceHit> clicked_;       // where the drag began
   std::optional<std::size_t> clicked_pin_;  // on which pin
 };

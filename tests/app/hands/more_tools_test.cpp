@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "app/hands/grip.h"
 #include "app/hands/punch.h"
 #include "app/hands/scissors.h"
 #include "app/view/viewed_body.h"
@@ -177,6 +179,75 @@ TEST(StayingHooks, PullAlongTheSkinAndNotIntoIt) {
     cube.drag(cube.pixel(top(0.5, 0.5)), cube.pixel(top(0.5, 0.2)), 10);
     ASSERT_EQ(cube.tools().hands().hooks.size(), 1U);
     EXPECT_LT((cube.tools().hands().hooks[0].position - top(0.5, 0.2)).norm(), 1e-3 * kSide);
+  }
+}
+
+TEST(Forceps, LiftAndPullAlongTheSkinAndNeverIntoIt) {
+  TouchedCube cube;
+  cube.tools().choose(ToolKind::kGrasp);
+  const Vec3 grasped = top(0.5, 0.5);
+  const Vec2 from = cube.pixel(grasped);
+  cube.press_and_move(from, from, 1);
+  for (int turn = 0; turn < 24; ++turn) {
+    const double angle = turn * std::numbers::pi / 12;
+    const Vec2 pull = 70 * Vec2(std::cos(angle), std::sin(angle));
+    cube.send(Kind::kMove, from + pull);
+    const Vec3 held = cube.tools().hands().hooks[0].position;
+    EXPECT_LT((cube.pixel(held) - from - pull).norm(), 1e-6) << turn;
+    EXPECT_GE(held.z(), grasped.z() - 1e-6 * kSide) << turn;
+    if (pull.y() < -20) {
+      EXPECT_GT(held.z(), grasped.z() + 0.02 * kSide) << turn;
+    }
+    if (pull.y() > 20) {
+      EXPECT_NEAR(held.z(), grasped.z(), 1e-6 * kSide) << turn;
+    }
+  }
+  cube.send(Kind::kMove, from);
+  EXPECT_LT((cube.tools().hands().hooks[0].position - grasped).norm(), 1e-6 * kSide);
+}
+
+TEST(Forceps, ShowBothArmsToTheViewer) {
+  Camera camera;
+  camera.elevation = 0.7;
+  Hook hook;
+  hook.radius = 1;
+  const Instrument forceps = instrument_at(hook, hook.position, {}, camera);
+  const Vec3 between_arms = forceps.up.cross(forceps.ahead).normalized();
+  EXPECT_GT(std::abs(between_arms.dot(camera.upward())), 0.99);
+  EXPECT_GT(forceps.up.dot(camera.backward()), 0.5);
+  hook.closed = 0.5;
+  EXPECT_LT(instrument_at(hook, hook.position, {}, camera).opening, 0.3 * forceps.opening);
+}
+
+TEST(Pins, StandOnTheSkinAndAreLetGoByTheirHeads) {
+  TouchedCube cube;
+  cube.tools().choose(ToolKind::kPin);
+  cube.drag(cube.pixel(top(0.3, 0.5)), cube.pixel(top(0.3, 0.5)), 0);
+  cube.drag(cube.pixel(top(0.7, 0.5)), cube.pixel(top(0.7, 0.5)), 0);
+  ASSERT_EQ(cube.tools().hands().hooks.size(), 2U);
+  Marks marks;
+  cube.tools().draw(cube.context(), cube.camera(), marks);
+  ASSERT_EQ(marks.balls.size(), 2U);
+  ASSERT_EQ(marks.lines.size(), 2U);
+  const Marks::Ball& head = marks.balls[0];
+  EXPECT_FALSE(head.is_in_pixels);
+  EXPECT_GT(head.centre.z(), kSide + head.radius);
+  const Vec2 at = cube.pixel(head.centre.cast<double>());
+  cube.drag(at, at, 0);
+  ASSERT_EQ(cube.tools().hands().hooks.size(), 1U);
+  EXPECT_NEAR(cube.tools().hands().hooks[0].position.x(), 0.7 * kSide, 1e-3 * kSide);
+}
+
+TEST(Pins, AreNeverSmallerThanAShareOfThePicture) {
+  Camera camera;
+  const Pin pin{{}, Vec3::UnitZ(), 1e-6};
+  for (const double distance : {1.0, 50.0}) {
+    camera.distance = distance;
+    Marks marks;
+    draw_pins({pin}, camera, marks);
+    const double half_height = distance * std::tan(0.5 * camera.field_of_view);
+    EXPECT_GT(marks.balls.at(0).radius, 0.01 * half_height);
+    EXPECT_LT(marks.balls.at(0).radius, 0.02 * half_height);
   }
 }
 
