@@ -121,8 +121,8 @@ vec3 base_color(uvec4 look, float grain) {
 }
 
 // Whether the inside of the skin is seen, and not the skin's own outline: there, samples of a pixel are of the side that
-// is turned away as well, by a hair's breadth.
-bool shows_back(vec3 to_eye) { return !gl_FrontFacing && dot(view_normal, to_eye) < -0.2; }
+// is turned away as well, by a hair's breadth. Through translucent skin all of the inside is seen.
+bool shows_back(vec3 to_eye) { return !gl_FrontFacing && (opacity < 1.0 || dot(view_normal, to_eye) < -0.2); }
 
 // Towards the eye, unit.
 vec3 facing_normal(bool is_flat, vec3 to_eye) {
