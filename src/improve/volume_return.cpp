@@ -59,10 +59,10 @@ std::vector<Giver> find_givers(const Care& care, const std::vector<VertexId>& ne
 bool give(Care& care, VertexId vertex, double share6, double edge) {
   const std::vector<TetId> star = care.walker.star(care.mesh, vertex);
   const VertexSurfaces surfaces = surfaces_at(care.mesh, vertex, star);
+  if (surfaces.count > 2) return false;
   const SurfaceAt& surface = surfaces.surfaces[0];
   Vec3 area2 = surface.vector_area;
   if (surfaces.count == 2) area2 += surfaces.surfaces[1].vector_area;  // those before it have made a crease here
-  if (surfaces.count > 2) return false;
   const Vec3 start = care.mesh.rest(vertex);
   const Vec3 step = (share6 / area2.squaredNorm()) * area2;
   const double size = care.references.sizes().at(start);

@@ -15,6 +15,7 @@
 #include "incise/mesh/validate.h"
 #include "support/bodies.h"
 #include "support/campaign.h"
+#include "support/engines.h"
 #include "support/mirror_checks.h"
 #include "support/random.h"
 
@@ -91,14 +92,7 @@ TEST(Continuation, is_undone_redone_and_made_again_bit_for_bit) {
   const RandomPlane plane(5);
   Engine engine = engine_of_cube();
   for (double way = -1.0; way < 0.0; way += 0.1) stroke(engine, plane, way, way + 0.1);
-  const std::uint64_t before = engine.mesh().hash();
-  stroke(engine, plane, 0.0, 0.1);
-  const std::uint64_t after = engine.mesh().hash();
-  EXPECT_NE(after, before);
-  EXPECT_TRUE(engine.undo());
-  EXPECT_EQ(engine.mesh().hash(), before);
-  EXPECT_TRUE(engine.redo());
-  EXPECT_EQ(engine.mesh().hash(), after);
+  const std::uint64_t after = expect_undone_and_redone(engine, [&] { stroke(engine, plane, 0.0, 0.1); });
   EXPECT_TRUE(engine.undo());
   stroke(engine, plane, 0.0, 0.1);
   EXPECT_EQ(engine.mesh().hash(), after);

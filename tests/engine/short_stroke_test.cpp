@@ -7,6 +7,7 @@
 #include "incise/engine/engine.h"
 #include "incise/mesh/shapes.h"
 #include "incise/mesh/validate.h"
+#include "support/engines.h"
 
 namespace incise::short_stroke_test {
 namespace {
@@ -64,14 +65,7 @@ TEST(ShortStroke, moves_the_front_and_cuts_nothing) {
 
 TEST(ShortStroke, is_undone_redone_and_made_again_bit_for_bit) {
   Engine engine = half_cut();
-  const std::uint64_t before = engine.mesh().hash();
-  go_on(engine, 0.5, 0.5 + kStep);
-  const std::uint64_t after = engine.mesh().hash();
-  EXPECT_NE(after, before);
-  EXPECT_TRUE(engine.undo());
-  EXPECT_EQ(engine.mesh().hash(), before);
-  EXPECT_TRUE(engine.redo());
-  EXPECT_EQ(engine.mesh().hash(), after);
+  const std::uint64_t after = test::expect_undone_and_redone(engine, [&] { go_on(engine, 0.5, 0.5 + kStep); });
   EXPECT_TRUE(engine.undo());
   go_on(engine, 0.5, 0.5 + kStep);
   EXPECT_EQ(engine.mesh().hash(), after);

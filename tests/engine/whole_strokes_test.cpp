@@ -122,14 +122,7 @@ TEST_P(WholeStrokes, that_abut_are_undone_redone_and_made_again_bit_for_bit) {
   Engine engine = engine_of(kuhn_cube(5), GetParam());
   cut_whole(engine, strokes[0]);
   cut_whole(engine, strokes[1]);
-  const std::uint64_t before = engine.mesh().hash();
-  cut_whole(engine, strokes[2]);
-  const std::uint64_t after = engine.mesh().hash();
-  EXPECT_NE(after, before);
-  EXPECT_TRUE(engine.undo());
-  EXPECT_EQ(engine.mesh().hash(), before);
-  EXPECT_TRUE(engine.redo());
-  EXPECT_EQ(engine.mesh().hash(), after);
+  expect_undone_and_redone(engine, [&] { cut_whole(engine, strokes[2]); });
   cut_whole(engine, strokes[3]);
   EXPECT_EQ(piece_volumes(engine.mesh()).size(), 2U);
 }

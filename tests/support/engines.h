@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,21 @@ double wall_area(const TetMesh& mesh, std::uint32_t tag = 0);
 
 /// Cuts, or fails the test. Checks that nothing is broken.
 CutStatistics cut(Engine& engine, const Stroke& stroke);
+
+/// Does some work that changes the mesh, takes it back and does it again, each time to the hash there was. Returns the
+/// hash after it.
+template <class Work>
+std::uint64_t expect_undone_and_redone(Engine& engine, Work&& work) {
+  const std::uint64_t before = engine.mesh().hash();
+  work();
+  const std::uint64_t after = engine.mesh().hash();
+  EXPECT_NE(after, before);
+  EXPECT_TRUE(engine.undo());
+  EXPECT_EQ(engine.mesh().hash(), before);
+  EXPECT_TRUE(engine.redo());
+  EXPECT_EQ(engine.mesh().hash(), after);
+  return after;
+}
 
 /// The plane n·x = d through the whole body.
 Stroke plane(const Engine& engine, const Vec3& normal, double offset);
