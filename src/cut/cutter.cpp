@@ -675,12 +675,12 @@ Result<CutStatistics> Cutter::cut_to_end(TetMesh& mesh, Journal& journal, const 
   return guarded(mesh, journal, times, [&](const CutContext& context) {
     context.statistics.steps = stroke.times.size() - 1;
     begin(mesh, journal, stroke.edges.front(), /*has_moved=*/false, tag);
+    stroke_.given_row = stroke.edges.back();
     const double spacing = stroke_.spacing;
     SweptSurface surface = sweep(with_divided_edge(stroke, kTwist * spacing), kOwnSlit * spacing);
     if (stroke_cut_.older_walls(mesh).exist() || needs_steps(stroke, surface, kCoincident * spacing)) {
       return lay_rows(context, stroke);
     }
-    stroke_.given_row = stroke.edges.back();
     return lay_at_once(context, stroke, std::move(surface));
   });
 }

@@ -38,7 +38,7 @@ class CutRun {
 
  private:
   bool cut(const Stroke& stroke) {
-    const bool is_cut = options_.is_paper ? cut_whole(stroke) : cut_by_steps(stroke);
+    const bool is_cut = options_.cuts_whole ? cut_whole(stroke) : cut_by_steps(stroke);
     return is_cut && has_time() && maintain();
   }
   bool cut_whole(const Stroke& stroke) { return is_done(engine_.cut(stroke), stroke); }

@@ -20,15 +20,17 @@ struct AttackOptions {
   const char* flags;  ///< of the command
   double snap;
   bool is_paper, maintains;
+  bool cuts_whole;  ///< each stroke at once
   bool counts_pieces, judges_shape;
 };
 
-inline constexpr std::array<AttackOptions, 5> kAttackOptions = {{
-    {"default", "", 0.2, false, true, true, true},
-    {"snap0", "--snap 0", 0, false, true, true, false},
-    {"raw", "--no-merge --no-improve", 0.2, false, false, true, false},
-    {"paper", "--profile paper", 0.2, true, true, false, false},
-    {"paper-pieces", "--profile paper", 0.2, true, true, true, false},
+inline constexpr std::array<AttackOptions, 6> kAttackOptions = {{
+    {"default", "", 0.2, false, true, false, true, true},
+    {"snap0", "--snap 0", 0, false, true, false, true, false},
+    {"raw", "--no-merge --no-improve", 0.2, false, false, false, true, false},
+    {"paper", "--profile paper --at-once", 0.2, true, true, true, false, false},
+    {"paper-pieces", "--profile paper --at-once", 0.2, true, true, true, true, false},
+    {"at-once", "--at-once", 0.2, false, true, true, true, true},
 }};
 
 /// How a result falls short.
@@ -46,7 +48,7 @@ struct CutOutcome {
   std::string error;
 };
 
-/// Cuts a body stroke by stroke, each step by step, and maintains it after each. Gives up where it takes longer than
+/// Cuts a body stroke by stroke, each step by step unless the options say otherwise, and maintains it after each. Gives up where it takes longer than
 /// `limit` seconds, which is looked at between steps.
 [[nodiscard]] CutOutcome cut_body(const AttackedBody& body, const std::vector<Stroke>& strokes,
                                   const AttackOptions& options, double limit);

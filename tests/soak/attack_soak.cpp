@@ -170,7 +170,7 @@ std::size_t kind_of(const AttackSet& set, std::uint64_t number) {
 }
 
 const AttackOptions& options_of(const AttackSet& set, std::uint64_t number) {
-  return kAttackOptions[number / set.kinds.size() % kAttackOptions.size()];
+  return kAttackOptions[number / set.kinds.size() % set.options];
 }
 
 /// All that a case is made of.

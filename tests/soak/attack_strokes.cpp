@@ -6,25 +6,15 @@
 #include <utility>
 
 #include "soak/models.h"
-#include "soak/sheet_pieces.h"
+#include "soak/sheet.h"
 #include "support/random_strokes.h"
 #include "support/strokes.h"
 
 namespace incise::test {
 namespace {
 
-using Edge = std::vector<Vec3>;
-using Edges = std::vector<Edge>;
-
 /// A piece thinner than this many edges may be lost without blame.
 constexpr double kThin = 0.6;
-
-struct Span {
-  double from, to;
-
-  [[nodiscard]] double at(double share) const { return from + share * (to - from); }
-  [[nodiscard]] double length() const { return to - from; }
-};
 
 double mean_first_edge(const TetSoup& soup) {
   double sum = 0;
@@ -37,61 +27,6 @@ double diagonal_of(const TetSoup& soup) {
   for (const Vec3& p : soup.points) box.extend(p);
   return (box.hi - box.lo).norm();
 }
-
-/// A point inside the body: the middle of any tet.
-Vec3 inner_point(const TetSoup& soup, Random& random) {
-  const auto& t =
-      soup.tets[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(soup.tets.size()) - 1))];
-  return (soup.points[t[0]] + soup.points[t[1]] + soup.points[t[2]] + soup.points[t[3]]) / 4.0;
-}
-
-/// Directions at right angles, of length 1.
-struct Frame {
-  Vec3 n, a, b;
-};
-
-Frame random_frame(Random& random) {
-  const Vec3 n = random_direction(random), a = n.cross(random_direction(random)).normalized();
-  return {n, a, n.cross(a)};
-}
-
-/// A plane through a point inside the body: a straight edge along `a`, moved along `b`.
-class Sheet {
- public:
-  Sheet(const AttackedBody& body, const Frame& frame, Random& random)
-      : n(frame.n), a(frame.a), b(frame.b), q(inner_point(body.soup, random)) {
-    way = {HUGE_VAL, -HUGE_VAL};
-    for (const auto& t : body.soup.tets) {
-      for (const std::uint32_t v : t) reach((body.soup.points[v] - q).dot(b));
-    }
-    way = {way.from - 0.7 * body.edge, way.to + 0.7 * body.edge};
-    width = {-1.3 * body.diagonal, 1.3 * body.diagonal};
-  }
-
-  /// The edge at `s` along the way, `lift` above the plane.
-  [[nodiscard]] Edge at(double s, const Span& w, double lift = 0) const {
-    const Vec3 middle = q + s * b + lift * n;
-    return {middle + w.from * a, middle + w.to * a};
-  }
-  [[nodiscard]] Edges sweep(const Span& s, unsigned steps, const Span& w, double lift = 0) const {
-    Edges edges;
-    for (unsigned i = 0; i <= steps; ++i) edges.push_back(at(s.at(static_cast<double>(i) / steps), w, lift));
-    return edges;
-  }
-  [[nodiscard]] Edges whole(unsigned steps) const { return sweep(way, steps, width); }
-  [[nodiscard]] SheetPlane plane() const { return {q, n}; }
-  /// A point of a circle in the plane of two directions.
-  [[nodiscard]] static Vec3 turned(const Vec3& x, const Vec3& y, double turns) {
-    const auto [c, s] = on_circle(turns);
-    return c * x + s * y;
-  }
-
-  Vec3 n, a, b, q;
-  Span way{}, width{};  ///< along b, along a; both leave the body
-
- private:
-  void reach(double s) { way = {std::min(way.from, s), std::max(way.to, s)}; }
-};
 
 /// Makes the strokes of each kind on one sheet, or on several.
 class Attacker {

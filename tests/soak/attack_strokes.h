@@ -53,11 +53,12 @@ struct Attack {
 /// The strokes of one kind, an index into `kAttackKinds`.
 [[nodiscard]] Attack make_attack(std::size_t kind, const AttackedBody& body, Random& random);
 
-/// A campaign: its name, the kinds of its cases, and what makes them.
+/// A campaign: its name, the kinds of its cases, what makes them, and how many of `kAttackOptions` they take in turn.
 struct AttackSet {
   const char* name;
   std::span<const char* const> kinds;
   Attack (*make)(std::size_t kind, const AttackedBody& body, Random& random);
+  std::size_t options = 5;
 };
 inline constexpr AttackSet kAttacks = {"attack", kAttackKinds, make_attack};
 

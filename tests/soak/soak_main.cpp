@@ -9,15 +9,16 @@
 // `strokes` moves blades step by step, as people do, through made meshes (motions.h), `models` through those of the
 // corpus; `seeds` does it with the seeds of a file, `describe` says what a seed makes, and `minimise` makes a failing
 // one small. `attack` makes sheets in many ways of which it is known what must come out (attack_strokes.h), `hands`
-// moves blades that shake, turn, dwell and wander (hand_strokes.h). usage: incise_soak strokes|models [--rounds N]
+// moves blades that shake, turn, dwell and wander (hand_strokes.h), `passes` makes incisions in several passes of
+// several strokes (pass_strokes.h). usage: incise_soak strokes|models [--rounds N]
 //        incise_soak seeds FILE
 //        incise_soak describe|minimise strokes|models SEED...
 //        incise_soak simulate [--rounds N] [--frames N] [--log N] [--judge-energy 1]
 //        incise_soak compose [--rounds N]
 //        incise_soak stability [--every N]
 //        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
-//        incise_soak attack|hands [--meshes FILE|made|corpus...] [--kinds A,B] [--options A,B] [--cases N] [--case N]
-//                                 [--keep FOLDER] [--limit SECONDS]
+//        incise_soak attack|hands|passes [--meshes FILE|made|corpus...] [--kinds A,B] [--options A,B] [--cases N] [--case N]
+//                                        [--keep FOLDER] [--limit SECONDS]
 // INCISE_SOAK_SECONDS: go on for this time (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
 // INCISE_SOAK_STROKES: `strokes` and `models` end after this number of strokes. A failure comes back with the seed that
 // it names, `--rounds 1` or `--only NAME`, and the same other arguments.
@@ -45,6 +46,7 @@
 #include "soak/hand_strokes.h"
 #include "soak/models.h"
 #include "soak/motion_soak.h"
+#include "soak/pass_strokes.h"
 #include "soak/simulation_run.h"
 #include "soak/stability.h"
 #include "soak/watch.h"
@@ -455,7 +457,7 @@ int usage() {
                "       incise_soak compose [--rounds N]\n"
                "       incise_soak stability [--every N]\n"
                "       incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]\n"
-               "       incise_soak attack|hands %s\n",
+               "       incise_soak attack|hands|passes %s\n",
                kAttackUsage);
   return 2;
 }
@@ -525,7 +527,7 @@ int run(const std::vector<std::string>& arguments) {
   start_watch();
   if (arguments.empty()) return usage();
   const std::string& kind = arguments[0];
-  for (const AttackSet* set : {&kAttacks, &kHands}) {
+  for (const AttackSet* set : {&kAttacks, &kHands, &kPasses}) {
     if (kind == set->name) return soak_attacks(*set, {arguments.begin() + 1, arguments.end()});
   }
   if (kind == "seeds") return arguments.size() == 2 ? soak_seeds(arguments[1]) : usage();
