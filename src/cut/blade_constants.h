@@ -106,6 +106,9 @@ inline constexpr double kStartShare = 0.2, kMostStarts = 1024.0;
 /// A stroke goes on from one whose blade stood within so many spacings from where it starts, at rest and in a body that
 /// has moved: there the tissue tells where that blade would be (docs/decisions/0030).
 inline constexpr double kStandsWithin = 0.05;
+/// A blade that cannot go on yet waits while it is no more spacings from there (docs/decisions/0169). Longer steps have
+/// passed the wall, or there is nothing that it could get through to.
+inline constexpr double kMostWait = 1.0;
 
 // --- fronts that are taken along (`front_carry`)
 

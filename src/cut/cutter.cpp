@@ -15,6 +15,7 @@
 #include "cut/constants.h"
 #include "cut/far_blade.h"
 #include "cut/front_carry.h"
+#include "cut/kept_apart.h"
 #include "cut/material_blade.h"
 #include "cut/open_border.h"
 #include "cut/piece_finder.h"
@@ -223,6 +224,53 @@ bool Cutter::resume(TetMesh& mesh, Journal& journal, const Pause& pause, std::si
     journal.take_back(mesh, end);
   }
   return goes_on;
+}
+
+bool Cutter::Pause::is_near(std::span<const Vec3> row) const {
+  double away = 0;
+  for (std::size_t c = 0; c < row.size(); ++c) away = std::max(away, (row[c] - stroke.given_row[c]).norm());
+  return away <= kMostWait * stroke.spacing;
+}
+
+/// Deterministic: what was tried and taken back comes out again.
+std::optional<CutStatistics> Cutter::go_on_through(TetMesh& mesh, Journal& journal, const Pause& pause,
+                                                   std::size_t first_step, std::span<const std::vector<Vec3>> rows,
+                                                   bool ends, std::uint32_t tag, StageTimes& times) {
+  const std::size_t before = journal.position();
+  const auto between_sheets = std::exchange(between_sheets_, {});
+  std::optional<CutStatistics> sum;
+  try {
+    KeptApart pieces;
+    StageTimes tried;
+    bool is_cut = go_on_along(mesh, journal, pause, first_step, rows, tag, tried).ok();
+    if (is_cut && ends) is_cut = end(mesh, journal, tried).ok();
+    if (is_cut) pieces.look_after(mesh, journal, first_step);
+    forget_tried(mesh, journal, before);
+    times += tried;
+    if (is_cut && pieces.would_stay(mesh)) {
+      if (const auto cut = go_on_along(mesh, journal, pause, first_step, rows, tag, times); cut.ok()) sum = *cut;
+    }
+  } catch (const std::bad_alloc&) {
+    sum.reset();
+  }
+  if (!sum) forget_tried(mesh, journal, before);
+  between_sheets_ = between_sheets;
+  return sum;
+}
+
+/// Takes back what ended a stroke, and moves its blade along rows.
+Result<CutStatistics> Cutter::go_on_along(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
+                                          std::span<const std::vector<Vec3>> rows, std::uint32_t tag,
+                                          StageTimes& times) {
+  for (std::size_t i = journal.position(); i-- > first_step;) reverse(mesh, journal, i);
+  take_up(mesh, journal, pause, /*has_moved=*/false, tag);
+  CutStatistics sum;
+  for (const std::vector<Vec3>& row : rows.subspan(1)) {
+    Result<CutStatistics> cut = step(mesh, journal, row, Vec3::Zero(), /*has_moved=*/false, times);
+    if (!cut) return cut;
+    sum += *cut;
+  }
+  return sum;
 }
 
 Result<CutStatistics> Cutter::cut(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,

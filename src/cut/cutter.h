@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -77,6 +78,14 @@ class Cutter {
   /// there `begin`. Cost: O(those steps + band + strips), and that of `PieceFinder`.
   bool go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, std::span<const Vec3> row,
              bool has_moved, std::uint32_t tag);
+  /// As `go_on` at rest where that alone would join pieces, since the last stroke has ended at an older wall: the blade
+  /// moves along `rows`, of which the first is where it stands, at once. Returns none, with nothing changed, where
+  /// pieces that are apart would still be joined, and if it `ends` there, once it has ended: then the blade has to get
+  /// on, or to begin anew. `end` is left to the caller. Cost: twice that of
+  /// `go_on` and of the steps, and `KeptApart`. Source: ours (docs/decisions/0169).
+  std::optional<CutStatistics> go_on_through(TetMesh& mesh, Journal& journal, const Pause& pause,
+                                             std::size_t first_step, std::span<const std::vector<Vec3>> rows, bool ends,
+                                             std::uint32_t tag, StageTimes& times);
   /// Has `between_sheets` called within `step` and `end` wherever a sheet of the stroke is finished and another one
   /// starts, since the blade has come back to what it cut: the mesh may be maintained there. It must not throw. Empty:
   /// nothing is called.
@@ -118,6 +127,8 @@ class Cutter {
   bool resume(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step, bool has_moved,
               std::uint32_t tag);
   bool take_end_back(TetMesh& mesh, Journal& journal, std::size_t first_step);
+  Result<CutStatistics> go_on_along(TetMesh& mesh, Journal& journal, const Pause& pause, std::size_t first_step,
+                                    std::span<const std::vector<Vec3>> rows, std::uint32_t tag, StageTimes& times);
   void take_up(const TetMesh& mesh, const Journal& journal, const Pause& pause, bool has_moved, std::uint32_t tag);
   [[nodiscard]] std::uint32_t pieces_at(const TetMesh& mesh, const Journal& journal, std::size_t first,
                                         std::size_t last);
@@ -175,6 +186,9 @@ class Cutter::Pause {
 
   /// Whether the body stood at rest all the while.
   [[nodiscard]] bool is_at_rest() const { return !stroke.is_in_material; }
+  /// Whether a blade that cuts at rest, with as many points, is still about where this stroke stopped: one that has to
+  /// get on before it may go on from there waits so long.
+  [[nodiscard]] bool is_near(std::span<const Vec3> row) const;
 };
 
 }  // namespace v0

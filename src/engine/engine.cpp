@@ -92,9 +92,11 @@ class Engine::Conductor {
     StrokeReport report;
     std::size_t first_step = 0;
     BladePose first_pose;
-    std::size_t steps = 0;   ///< taken so far
-    Continuation from = {};  ///< until its first step
-    Continuation to = {};    ///< once it has ended
+    std::size_t steps = 0;           ///< taken so far
+    Continuation from = {};          ///< until it has gone on, or begins anew
+    std::vector<BladePose> waiting;  ///< all its poses until then
+    Continuation to = {};            ///< once it has ended
+    bool is_whole = false;           ///< it is cut in the body at rest, however that stands
   };
 
   [[nodiscard]] std::string name_of_next_pose() const;
@@ -111,10 +113,18 @@ class Engine::Conductor {
   Result<CutStatistics> cut_whole(const Stroke& stroke);
   Result<CutStatistics> cut_by_steps(const Stroke& stroke);
   Result<CutStatistics> end_whole(Result<CutStatistics> cut);
-  bool go_on_at_rest(std::span<const Vec3> row);
+  bool is_at_last_end(std::span<const Vec3> row);
   void maintain_rest(const Stroke& stroke);
   Result<CutStatistics> cut_step(const BladePose& pose, StepReport& report);
-  void go_on_from_last_stroke();
+  Result<CutStatistics> move_blade(const BladePose& pose, MaintainStatistics& maintained, StageTimes& times);
+  Result<CutStatistics> go_on_from_last_stroke(const BladePose& pose, MaintainStatistics& maintained,
+                                               StageTimes& times);
+  std::optional<CutStatistics> go_on_through(bool ends, StageTimes& times);
+  Result<CutStatistics> stop_waiting();
+  Result<CutStatistics> begin_anew(MaintainStatistics& maintained, StageTimes& times);
+  [[nodiscard]] bool is_waiting() const { return open_.from.pause != nullptr; }
+  [[nodiscard]] bool may_wait() const { return !cuts_in_motion() && open_.from.pause->is_at_rest(); }
+  [[nodiscard]] bool cuts_in_motion() const { return has_moved_ && !open_.is_whole; }
   Status close_stroke();
   void maintain_between_sheets(MaintainStatistics& sum, StageTimes& times);
   Error abort_stroke(std::size_t first_step, Error error);
@@ -204,19 +214,21 @@ Result<StrokeReport> Engine::Conductor::cut(const Stroke& stroke) {
 Result<CutStatistics> Engine::Conductor::cut_whole(const Stroke& stroke) {
   StrokeReport& report = open_.report;
   if (is_paper()) return paper_cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
-  if (go_on_at_rest(stroke.edges.front())) return end_whole(cut_by_steps(stroke));
+  if (is_at_last_end(stroke.edges.front())) return end_whole(cut_by_steps(stroke));
   if (!cutter_.leaves_front(mesh_, journal_, stroke)) {
     return cutter_.cut(mesh_, journal_, stroke, report.stroke, report.times);
   }
   return end_whole(cutter_.cut_to_end(mesh_, journal_, stroke, report.stroke, report.times));
 }
 
-/// The cutter stands at the first row.
+/// From where the last stroke has ended.
 Result<CutStatistics> Engine::Conductor::cut_by_steps(const Stroke& stroke) {
+  open_.from = operations_.back().continuation;
+  open_.waiting = {{stroke.edges.front()}};
+  open_.is_whole = true;
   CutStatistics sum;
   for (std::size_t row = 1; row < stroke.edges.size(); ++row) {
-    Result<CutStatistics> cut =
-        cutter_.step(mesh_, journal_, stroke.edges[row], Vec3::Zero(), /*has_moved=*/false, open_.report.times);
+    Result<CutStatistics> cut = move_blade({stroke.edges[row]}, open_.report.maintain, open_.report.times);
     if (!cut) return cut;
     sum += *cut;
   }
@@ -227,7 +239,13 @@ Result<CutStatistics> Engine::Conductor::cut_by_steps(const Stroke& stroke) {
 /// there takes back no more than that end.
 Result<CutStatistics> Engine::Conductor::end_whole(Result<CutStatistics> cut) {
   if (!cut) return cut;
-  maintain_wake(busy(), open_.report.maintain, open_.report.times);
+  if (is_waiting()) {
+    Result<CutStatistics> more = stop_waiting();
+    if (!more) return more;
+    *cut += *more;
+  } else {
+    maintain_wake(busy(), open_.report.maintain, open_.report.times);
+  }
   open_.to = {cutter_.pause(mesh_), journal_.position()};
   Result<CutStatistics> end = cutter_.end(mesh_, journal_, open_.report.times);
   if (!end) return end;
@@ -235,13 +253,12 @@ Result<CutStatistics> Engine::Conductor::end_whole(Result<CutStatistics> cut) {
   return cut;
 }
 
-/// Takes over the cut of the last operation, if a blade that cuts at rest stands where that has ended.
-bool Engine::Conductor::go_on_at_rest(std::span<const Vec3> row) {
+/// Whether a blade that cuts at rest stands where the last operation has ended.
+bool Engine::Conductor::is_at_last_end(std::span<const Vec3> row) {
   if (operations_.empty()) return false;
   const Continuation& last = operations_.back().continuation;
-  if (!last.pause || !last.pause->is_at_rest()) return false;
-  return cutter_.may_go_on(mesh_, journal_, *last.pause, last.first_step, row, /*has_moved=*/false) &&
-         cutter_.go_on(mesh_, journal_, *last.pause, last.first_step, row, /*has_moved=*/false, open_.report.stroke);
+  return last.pause && last.pause->is_at_rest() &&
+         cutter_.may_go_on(mesh_, journal_, *last.pause, last.first_step, row, /*has_moved=*/false);
 }
 
 /// Maintains what a whole stroke has cut; where its blade came in steps, with what that has left of the call's budget.
@@ -349,6 +366,7 @@ Result<std::uint32_t> Engine::Conductor::begin_stroke(const BladePose& pose) {
     const bool goes_on =
         last.pause && cutter_.may_go_on(mesh_, journal_, *last.pause, last.first_step, pose.edge, has_moved_);
     if (goes_on) open_.from = last;
+    open_.waiting = {pose};
   }
   if (is_paper()) {
     paper_cutter_.begin(mesh_, journal_, pose.edge, has_moved_, open_.report.stroke);
@@ -384,7 +402,7 @@ Result<StepReport> Engine::Conductor::step(const BladePose& pose) {
     return abort_stroke(first_step, status.error());
   }
   const std::size_t first_maintaining = journal_.position();
-  if (!is_paper()) maintain_wake(busy(), report.maintain, report.times);
+  if (!is_paper() && !is_waiting()) maintain_wake(busy(), report.maintain, report.times);
   if (Status status = check_steps(first_maintaining); !status) {
     return abort_stroke(first_step, status.error());
   }
@@ -399,19 +417,64 @@ Result<CutStatistics> Engine::Conductor::cut_step(const BladePose& pose, StepRep
   if (is_paper()) {
     return paper_cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
   }
-  go_on_from_last_stroke();
-  maintain_between_sheets(report.maintain, report.times);
-  return cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), has_moved_, report.times);
+  return move_blade(pose, report.maintain, report.times);
 }
 
-/// Before its first step a stroke that starts where the last one ended takes over the cut.
-void Engine::Conductor::go_on_from_last_stroke() {
-  if (!open_.from.pause) return;
-  const Continuation from = std::exchange(open_.from, {});
-  const std::vector<Vec3>& row = open_.first_pose.edge;
-  if (!cutter_.go_on(mesh_, journal_, *from.pause, from.first_step, row, has_moved_, open_.report.stroke)) {
-    cutter_.begin(mesh_, journal_, row, has_moved_, open_.report.stroke);
+Result<CutStatistics> Engine::Conductor::move_blade(const BladePose& pose, MaintainStatistics& maintained,
+                                                    StageTimes& times) {
+  if (is_waiting()) return go_on_from_last_stroke(pose, maintained, times);
+  maintain_between_sheets(maintained, times);
+  return cutter_.step(mesh_, journal_, pose.edge, direction_of(pose), cuts_in_motion(), times);
+}
+
+/// A stroke that starts where the last one ended takes over the cut with its first step. Where that would join pieces,
+/// since the last one has ended at an older wall, the blade waits until it is through.
+Result<CutStatistics> Engine::Conductor::go_on_from_last_stroke(const BladePose& pose, MaintainStatistics& maintained,
+                                                                StageTimes& times) {
+  const Continuation from = open_.from;
+  const bool is_first = open_.waiting.size() == 1;
+  open_.waiting.push_back(pose);
+  if (is_first && cutter_.go_on(mesh_, journal_, *from.pause, from.first_step, open_.waiting.front().edge,
+                                cuts_in_motion(), open_.report.stroke)) {
+    open_.from = {};
+    return move_blade(pose, maintained, times);
   }
+  if (const std::optional<CutStatistics> cut = go_on_through(/*ends=*/false, times)) return *cut;
+  if (may_wait() && from.pause->is_near(pose.edge)) return CutStatistics();
+  return begin_anew(maintained, times);
+}
+
+/// Takes the end of the last stroke back and cuts along the poses at which the blade has waited, if all pieces stay
+/// apart.
+std::optional<CutStatistics> Engine::Conductor::go_on_through(bool ends, StageTimes& times) {
+  if (!may_wait()) return std::nullopt;
+  std::vector<std::vector<Vec3>> rows;
+  for (const BladePose& pose : open_.waiting) rows.push_back(pose.edge);
+  const Continuation& from = open_.from;
+  std::optional<CutStatistics> cut =
+      cutter_.go_on_through(mesh_, journal_, *from.pause, from.first_step, rows, ends, open_.report.stroke, times);
+  if (cut) open_.from = {};
+  return cut;
+}
+
+/// The stroke ends where its blade waits.
+Result<CutStatistics> Engine::Conductor::stop_waiting() {
+  StageTimes& times = open_.report.times;
+  if (const std::optional<CutStatistics> cut = go_on_through(/*ends=*/true, times)) return *cut;
+  return begin_anew(open_.report.maintain, times);
+}
+
+/// Cuts along the poses at which the blade has waited, as any other stroke.
+Result<CutStatistics> Engine::Conductor::begin_anew(MaintainStatistics& maintained, StageTimes& times) {
+  open_.from = {};
+  cutter_.begin(mesh_, journal_, open_.waiting.front().edge, cuts_in_motion(), open_.report.stroke);
+  CutStatistics sum;
+  for (std::size_t i = 1; i < open_.waiting.size(); ++i) {
+    Result<CutStatistics> cut = move_blade(open_.waiting[i], maintained, times);
+    if (!cut) return cut;
+    sum += *cut;
+  }
+  return sum;
 }
 
 /// Where the blade comes back to what it cut, it must find the mesh in shape: what it crosses twice would be slivers.
@@ -456,9 +519,14 @@ Result<StrokeReport> Engine::Conductor::end_stroke() {
 
 /// Cuts to where the blade was last, and maintains what is left.
 Status Engine::Conductor::close_stroke() {
-  if (open_.from.pause) {  // it took no step
+  if (is_waiting() && open_.waiting.size() == 1) {  // it took no step
     open_.to = open_.from;
     return {};
+  }
+  if (is_waiting()) {
+    Result<CutStatistics> cut = stop_waiting();
+    if (!cut) return cut.error();
+    open_.report.cut += *cut;
   }
   const std::size_t first_step = journal_.position();
   open_.to = {cutter_.pause(mesh_), first_step};

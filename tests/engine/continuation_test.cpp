@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "compose/compose_rows.h"
@@ -38,6 +39,13 @@ struct RandomPlane {
     forwards = (forwards - forwards.dot(normal) * normal).normalized();
     along = normal.cross(forwards);
     centre = {random.real(0.35, 0.65), random.real(0.35, 0.65), random.real(0.35, 0.65)};
+  }
+  /// A plane that meets this one in the line along which the edge of both goes through the centre.
+  [[nodiscard]] RandomPlane turned(double degrees) const {
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    RandomPlane other = *this;
+    other.forwards = std::cos(angle) * forwards + std::sin(angle) * along.cross(forwards);
+    return other;
   }
   [[nodiscard]] BladePose at(double way) const {
     const Vec3 middle = centre + way * forwards;
@@ -86,6 +94,55 @@ TEST(Continuation, leaves_a_mesh_in_shape_after_each_stroke) {
     EXPECT_LE(measure_quality(engine.mesh()).lr_max, 60.0);
     ASSERT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
   }
+}
+
+/// A pass through the cube in strokes that meet at its centre, each of some steps; pieces that came apart stay apart.
+void pass_through(Engine& engine, const RandomPlane& plane, unsigned strokes, unsigned steps) {
+  std::size_t pieces = find_components(engine.mesh()).count();
+  const auto has_kept_apart = [&] {
+    const std::size_t now = find_components(engine.mesh()).count();
+    return now >= std::exchange(pieces, now);
+  };
+  for (unsigned i = 0; i < strokes; ++i) {
+    const double from = -1.0 + 2.0 * i / strokes, length = 2.0 / strokes;
+    ASSERT_TRUE(engine.begin_stroke(plane.at(from)).ok());
+    for (unsigned k = 1; k <= steps; ++k) {
+      ASSERT_TRUE(engine.step(plane.at(from + length * k / steps)).ok());
+      EXPECT_TRUE(has_kept_apart()) << "stroke " << i << ", step " << k;
+    }
+    ASSERT_TRUE(engine.end_stroke().ok());
+    EXPECT_TRUE(has_kept_apart()) << "stroke " << i;
+  }
+}
+
+TEST(Continuation, of_a_stroke_that_ended_at_an_older_wall_goes_on_through_it) {
+  struct Pass {
+    unsigned strokes, steps;
+  };
+  for (const Pass pass : {Pass{2, 1}, Pass{2, 10}, Pass{28, 1}, Pass{28, 4}}) {
+    for (const double degrees : {62.0, 73.0, 90.0}) {
+      for (std::uint64_t seed = 1; seed <= of_campaign(2U, 8U); ++seed) {
+        SCOPED_TRACE(testing::Message() << pass.strokes << " strokes of " << pass.steps << " steps, " << degrees
+                                        << " degrees, seed " << seed);
+        const RandomPlane plane(seed);
+        Engine engine = engine_of_cube();
+        pass_through(engine, plane, 1, 20);
+        pass_through(engine, plane.turned(degrees), pass.strokes, pass.steps);
+        EXPECT_EQ(find_components(engine.mesh()).count(), 4U);
+        EXPECT_LE(engine.mesh().tet_count(), 1000U);
+        EXPECT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
+      }
+    }
+  }
+}
+
+TEST(Continuation, through_an_older_wall_is_undone_redone_and_made_again_bit_for_bit) {
+  const RandomPlane plane(1);
+  Engine engine = engine_of_cube();
+  pass_through(engine, plane, 1, 20);
+  stroke(engine, plane.turned(73), -1, 0);
+  expect_undone_and_redone(engine, [&] { stroke(engine, plane.turned(73), 0, 1); });
+  EXPECT_EQ(find_components(engine.mesh()).count(), 4U);
 }
 
 TEST(Continuation, is_undone_redone_and_made_again_bit_for_bit) {

@@ -127,6 +127,30 @@ TEST_P(WholeStrokes, that_abut_are_undone_redone_and_made_again_bit_for_bit) {
   EXPECT_EQ(piece_volumes(engine.mesh()).size(), 2U);
 }
 
+/// A pass along a plane across x, in so many strokes; the edge goes down to z = `depth`.
+std::vector<Stroke> pass_in_x(double x, double depth, std::size_t count) {
+  Rows rows;
+  for (std::size_t k = 0; k <= kSteps; ++k) {
+    const double y = -0.5 + 2.0 * static_cast<double>(k) / kSteps;
+    rows.push_back({Vec3(x, y, -0.5), Vec3(x, y, depth)});
+  }
+  return abutting(rows, count);
+}
+
+TEST(WholeStrokesOfIncise, deeper_in_passes_of_several_strokes_are_one_cut) {
+  for (const std::size_t count : {1U, 2U, 7U, 14U}) {
+    for (const double first : {0.3, 0.62}) {
+      SCOPED_TRACE(testing::Message() << count << " strokes, first to " << first);
+      Engine engine = engine_of(kuhn_cube(5), Profile::kIncise);
+      for (const Stroke& stroke : pass_in_x(0.47, first, count)) cut_whole(engine, stroke);
+      EXPECT_EQ(piece_volumes(engine.mesh()).size(), 1U);
+      for (const Stroke& stroke : pass_in_x(0.47, 1.5, count)) cut_whole(engine, stroke);
+      EXPECT_EQ(piece_volumes(engine.mesh()).size(), 2U);
+      expect_valid(engine.mesh(), volume_of(engine.mesh()));
+    }
+  }
+}
+
 // Profile paper may leave a crumb there, by steps as well (docs/limits.md).
 TEST(WholeStrokesOfIncise, that_go_back_over_the_last_one_and_on_again_leave_no_crumbs) {
   for (const std::uint64_t seed : {0U, 1U, 2U}) {

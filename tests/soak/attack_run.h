@@ -48,8 +48,8 @@ struct CutOutcome {
   std::string error;
 };
 
-/// Cuts a body stroke by stroke, each step by step unless the options say otherwise, and maintains it after each. Gives up where it takes longer than
-/// `limit` seconds, which is looked at between steps.
+/// Cuts a body stroke by stroke, each step by step unless the options say otherwise, and maintains it after each. Gives
+/// up where it takes longer than `limit` seconds, which is looked at between steps.
 [[nodiscard]] CutOutcome cut_body(const AttackedBody& body, const std::vector<Stroke>& strokes,
                                   const AttackOptions& options, double limit);
 

@@ -17,7 +17,8 @@
 //        incise_soak compose [--rounds N]
 //        incise_soak stability [--every N]
 //        incise_soak cuts|corpus [--rounds N] [--strokes N] [--max-tets N] [--only NAME] [--skip NAME]
-//        incise_soak attack|hands|passes [--meshes FILE|made|corpus...] [--kinds A,B] [--options A,B] [--cases N] [--case N]
+//        incise_soak attack|hands|passes [--meshes FILE|made|corpus...] [--kinds A,B] [--options A,B] [--cases N]
+//        [--case N]
 //                                        [--keep FOLDER] [--limit SECONDS]
 // INCISE_SOAK_SECONDS: go on for this time (unset: one round); INCISE_SOAK_SEED: the first seed, 1 unless given;
 // INCISE_SOAK_STROKES: `strokes` and `models` end after this number of strokes. A failure comes back with the seed that
