@@ -12,7 +12,15 @@ inline namespace v0 {
 
 void EndedStrokes::add(EndedStroke stroke) {
   ended_.push_back(std::move(stroke));
-  if (ended_.size() > kEndsKept) ended_.pop_front();
+  if (ended_.size() <= kEndsKept) return;
+  const auto is_open = [](const EndedStroke& ended) { return !ended.row.empty() && !ended.is_gone_on_from; };
+  const auto dispensable = std::find_if_not(ended_.begin(), ended_.end() - 1, is_open);
+  ended_.erase(dispensable == ended_.end() - 1 ? ended_.begin() : dispensable);
+}
+
+void EndedStrokes::go_on_from(const EndedStroke& stroke) {
+  const auto at = std::find_if(ended_.begin(), ended_.end(), [&](const EndedStroke& e) { return &e == &stroke; });
+  if (at != ended_.end()) at->is_gone_on_from = true;
 }
 
 const EndedStroke* EndedStrokes::find(std::span<const Vec3> given, double within) const {

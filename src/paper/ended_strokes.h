@@ -19,14 +19,17 @@ struct EndedStroke {
   EdgeDivision edge = EdgeDivision();
   std::vector<Vec3> row;                             ///< where its blade stood, divided
   std::vector<std::shared_ptr<const Strip>> strips;  ///< the last that it laid, oldest first
+  bool is_gone_on_from = false;                      ///< by another stroke: no tissue waits at its end any more
 };
 
 /// The ends of the last strokes at rest.
 class EndedStrokes {
  public:
   /// One without a row is a stroke that none goes on from here: whole, or in a body that moves. Forgets the oldest
-  /// above `kEndsKept`. Cost: O(1).
+  /// above `kEndsKept`, those first from which none will go on. Cost: O(kEndsKept).
   void add(EndedStroke stroke);
+  /// A stroke goes on from the end at which its blade stands: one that `find` told of.
+  void go_on_from(const EndedStroke& stroke);
   /// All incisions are complete, or others than they were.
   void clear() { ended_.clear(); }
   /// The latest stroke at whose end a blade stands, each of its points within a length; null where there is none.

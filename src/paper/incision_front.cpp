@@ -62,15 +62,33 @@ std::optional<Vec3> plane_at(const TetMesh& mesh, const Sheet& sheet, VertexId v
   return is_in_plane ? std::optional(normal) : std::nullopt;
 }
 
-/// Whether an earlier sheet's point lies on a sheet, as if the two were one.
-bool lies_on(const TetMesh& mesh, const Sheet& sheet, const CollisionPoint& point, StarWalker& walker) {
-  const auto is_along = [&](const std::optional<Vec3>& normal) {
-    return normal && std::abs(normal->dot(point.normal)) > kJoinCosine;
-  };
-  if (is_along(plane_at(mesh, sheet, point.vertex, kJoinOffset, walker))) return true;
-  const double reach = kJoinReach * longest_edge_at(mesh, point.vertex, walker.star(mesh, point.vertex));
-  return (point.rim - mesh.rest(point.vertex)).norm() <= reach &&
-         is_along(passing_normal(mesh, sheet, point.rim, point.vertex, walker));
+double distance_to(std::span<const Strip::Segment> border, const Vec3& place) {
+  double least2 = std::numeric_limits<double>::infinity();
+  for (const auto& [from, to] : border) {
+    least2 = std::min(least2, closest_on_triangle(place, from.position, to.position, to.position).distance2);
+  }
+  return std::sqrt(least2);
+}
+
+bool encloses_less(const std::optional<Vec3>& normal, const CollisionPoint& point, double cosine) {
+  return normal && std::abs(normal->dot(point.normal)) > cosine;
+}
+
+/// Whether a strip passes an earlier sheet's point in its plane.
+bool lies_along(const TetMesh& mesh, const SheetSoFar& sheet, const CollisionPoint& point, StarWalker& walker) {
+  return encloses_less(plane_at(mesh, sheet.strip(), point.vertex, kJoinOffset, walker), point, kAlongCosine);
+}
+
+/// Whether an earlier sheet's point lies on a sheet, as if the two were one: on its strip, or behind a rim from which
+/// that goes on.
+bool lies_on(const TetMesh& mesh, const SheetSoFar& sheet, const CollisionPoint& point, StarWalker& walker) {
+  if (lies_along(mesh, sheet, point, walker)) return true;
+  const std::vector<TetId>& star = walker.star(mesh, point.vertex);
+  if ((point.rim - mesh.rest(point.vertex)).norm() > kJoinReach * longest_edge_at(mesh, point.vertex, star) ||
+      distance_to(sheet.border(), point.rim) > kJoinOffset * mean_edge_length_at(mesh, point.vertex, star)) {
+    return false;
+  }
+  return encloses_less(passing_normal(mesh, sheet.strip(), point.rim, point.vertex, walker), point, kJoinCosine);
 }
 
 /// The walls of cuts at a vertex that go along a plane.
@@ -80,12 +98,15 @@ struct WallsAlong {
   bool is_above = false, is_below = false;  ///< some of their tets are, of the plane
 };
 
-WallsAlong find_walls_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
+/// Those that `counts` accepts by their tags.
+template <class Counts>
+WallsAlong find_walls_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker,
+                            Counts&& counts) {
   WallsAlong walls;
   for (const TetId tet : walker.star(mesh, vertex)) {
     for (unsigned s = 0; s < 4; ++s) {
       const Link link = mesh.links(tet)[s];
-      if (mesh.vertices(tet)[s] == vertex || !link.is_boundary() || link.tag() == 0) continue;
+      if (mesh.vertices(tet)[s] == vertex || !link.is_boundary() || link.tag() == 0 || !counts(link.tag())) continue;
       const auto face = mesh.vertices(Side(tet, s));
       const Vec3 &a = mesh.rest(face[0]), &b = mesh.rest(face[1]), &c = mesh.rest(face[2]);
       const Vec3 outward = (b - a).cross(c - a).normalized();
@@ -101,7 +122,7 @@ WallsAlong find_walls_along(const TetMesh& mesh, VertexId vertex, const Vec3& no
 }
 
 bool has_wall_along(const TetMesh& mesh, VertexId vertex, const Vec3& normal, StarWalker& walker) {
-  const WallsAlong walls = find_walls_along(mesh, vertex, normal, walker);
+  const WallsAlong walls = find_walls_along(mesh, vertex, normal, walker, [](std::uint32_t) { return true; });
   return walls.is_above || walls.is_below;
 }
 
@@ -171,26 +192,6 @@ bool has_both_sides(const TetMesh& mesh, const Sheet& sheet, const CollisionPoin
          has_both_sides_beyond_corner(mesh, sheet, point, walker);
 }
 
-/// Whether tissue joins both sides of the sheet at a point: no lip of the incision is there, or both are, as at its
-/// border, or tissue besides the one that is lies well behind all of it. The lips of a curved sheet leave its planes,
-/// and so does what lies close behind them.
-bool is_joined(const TetMesh& mesh, const CollisionPoint& point, StarWalker& walker) {
-  const WallsAlong walls = find_walls_along(mesh, point.vertex, point.normal, walker);
-  if (walls.is_above == walls.is_below) return true;
-  const Vec3& place = mesh.rest(point.vertex);
-  const std::vector<TetId>& star = walker.star(mesh, point.vertex);
-  const double least = kJoinOffset * mean_edge_length_at(mesh, point.vertex, star);
-  const auto is_behind = [&](VertexId corner) {
-    const Vec3 way = mesh.rest(corner) - place;
-    return !std::binary_search(walls.corners.begin(), walls.corners.end(), corner) &&
-           std::all_of(walls.normals.begin(), walls.normals.end(), [&](const Vec3& n) { return n.dot(way) > least; });
-  };
-  return std::any_of(star.begin(), star.end(), [&](TetId tet) {
-    const TetVertices& v = mesh.vertices(tet);
-    return std::any_of(v.begin(), v.end(), is_behind);
-  });
-}
-
 /// Adds the copies of points, which lie on the sheet as well. Returns the vertices that were copied and the copies,
 /// ascending.
 std::vector<VertexId> add_copies(const TetMesh& mesh, const std::vector<CopiedVertex>& copied, Points& points) {
@@ -204,7 +205,7 @@ std::vector<VertexId> add_copies(const TetMesh& mesh, const std::vector<CopiedVe
       from = std::find_if(copies.begin(), copies.end(), is_source);
       if (from == copies.end()) continue;
     }
-    copies.push_back({copy.id, mesh.generation(copy.id), from->normal, from->rim, from->is_split});
+    copies.push_back({copy.id, mesh.generation(copy.id), from->normal, from->rim, from->is_split, from->sheet});
     divided.insert(divided.end(), {copy.source, copy.id});
   }
   std::sort(divided.begin(), divided.end());
@@ -219,6 +220,7 @@ void IncisionFront::begin_sheet() {
   older_.insert(older_.end(), own_.begin(), own_.end());
   own_.clear();
   make_set(older_);
+  ++sheet_;
 }
 
 void IncisionFront::end_sheet(const TetMesh& mesh, std::span<const Strip::Segment> border) {
@@ -237,14 +239,20 @@ void IncisionFront::end_sheet(const TetMesh& mesh, std::span<const Strip::Segmen
   }
 }
 
-void IncisionFront::mark(const TetMesh& mesh, const Sheet& sheet, std::uint32_t tag, Neighbourhood& near,
+void IncisionFront::mark(const TetMesh& mesh, const SheetSoFar& sheet, std::uint32_t tag, Neighbourhood& near,
                          StarWalker& walker) {
   const auto met = std::stable_partition(older_.begin(), older_.end(), [&](const CollisionPoint& point) {
     return !lives(mesh, point) || !lies_on(mesh, sheet, point, walker);
   });
+  sheet_of_[tag] = sheet_;
+  const Points gained(met, older_.end());
   own_.insert(own_.end(), met, older_.end());
   older_.erase(met, older_.end());
-  adopt_walls(mesh, sheet, tag, near, walker);
+  for (const CollisionPoint& point : gained) {
+    if (point.sheet != sheet_ && lies_along(mesh, sheet, point, walker)) unite(point.sheet);
+  }
+  for (CollisionPoint& point : own_) point.sheet = sheet_;
+  adopt_walls(mesh, sheet.strip(), tag, near, walker);
   make_set(own_);
   for (const CollisionPoint& point : own_) {
     if (lives(mesh, point)) near.mark_on(point.vertex);
@@ -262,7 +270,7 @@ void IncisionFront::adopt_walls(const TetMesh& mesh, const Sheet& sheet, std::ui
       if (has_older_wall_on(mesh, sheet, v, tag, walker)) near.mark_on(v);
       const auto normal = plane_at(mesh, sheet, v, kCoincident, walker);
       if (normal && has_wall_along(mesh, v, *normal, walker) && has_both_sides(mesh, v, *normal, walker)) {
-        own_.push_back({v, mesh.generation(v), *normal, mesh.rest(v)});
+        own_.push_back({v, mesh.generation(v), *normal, mesh.rest(v), false, sheet_});
       }
     }
   }
@@ -271,12 +279,14 @@ void IncisionFront::adopt_walls(const TetMesh& mesh, const Sheet& sheet, std::ui
 
 void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, StarWalker& walker) {
   const auto add = [&](VertexId vertex, std::uint32_t triangle, bool is_split) {
-    own_.push_back({vertex, mesh.generation(vertex), sheet.normal(triangle).normalized(), mesh.rest(vertex), is_split});
+    own_.push_back(
+        {vertex, mesh.generation(vertex), sheet.normal(triangle).normalized(), mesh.rest(vertex), is_split, sheet_});
   };
   for (const CutEdge& edge : near.edges.edges()) {
     if (edge.split.is_valid()) add(edge.split, edge.crossings.triangle, true);
   }
   make_set(own_);
+  add_splits_of_older(mesh, near);
   const std::size_t known = own_.size();
   for (const VertexId v : near.on) {
     if (std::binary_search(own_.begin(), own_.begin() + static_cast<std::ptrdiff_t>(known), CollisionPoint{v},
@@ -289,6 +299,24 @@ void IncisionFront::take(const TetMesh& mesh, const Sheet& sheet, const Neighbou
     }
   }
   make_set(own_);
+}
+
+void IncisionFront::add_splits_of_older(const TetMesh& mesh, const Neighbourhood& near) {
+  const auto find = [&](VertexId v) -> const CollisionPoint* {
+    const auto at = std::lower_bound(older_.begin(), older_.end(), CollisionPoint{v}, is_before);
+    return at != older_.end() && at->vertex == v ? &*at : nullptr;
+  };
+  Points splits;
+  for (const CutEdge& edge : near.edges.edges()) {
+    if (!edge.split.is_valid()) continue;
+    const CollisionPoint *a = find(edge.a), *b = find(edge.b);
+    if (a == nullptr || b == nullptr) continue;
+    const CollisionPoint& nearer = edge.t < 0.5 ? *a : *b;
+    splits.push_back({edge.split, mesh.generation(edge.split), nearer.normal, a->rim + edge.t * (b->rim - a->rim),
+                      false, nearer.sheet});
+  }
+  older_.insert(older_.end(), splits.begin(), splits.end());
+  make_set(older_);
 }
 
 void IncisionFront::follow(const TetMesh& mesh, const Sheet& sheet, const Step& step, StarWalker& walker) {
@@ -306,7 +334,8 @@ void IncisionFront::add(const TetMesh& mesh, const Sheet& sheet, const std::vect
   for (const VertexId v : vertices) {
     const auto hit = sheet.tree().closest(mesh.rest(v), longest_edge_at(mesh, v, walker.star(mesh, v)));
     if (!hit.is_valid()) continue;
-    const CollisionPoint point{v, mesh.generation(v), sheet.normal(hit.triangle).normalized(), mesh.rest(v)};
+    const CollisionPoint point{v,     mesh.generation(v), sheet.normal(hit.triangle).normalized(), mesh.rest(v), false,
+                               sheet_};
     if (has_both_sides(mesh, sheet, point, walker)) own_.push_back(point);
   }
   make_set(own_);
@@ -322,6 +351,44 @@ void IncisionFront::renew(const TetMesh& mesh) {
 void IncisionFront::clear() {
   own_.clear();
   older_.clear();
+  sheet_of_.clear();
+}
+
+void IncisionFront::unite(std::uint32_t sheet) {
+  for (auto& [tag, of] : sheet_of_) {
+    if (of == sheet) of = sheet_;
+  }
+  for (Points* points : {&own_, &older_}) {
+    for (CollisionPoint& point : *points) {
+      if (point.sheet == sheet) point.sheet = sheet_;
+    }
+  }
+}
+
+bool IncisionFront::is_foreign(std::uint32_t tag, const CollisionPoint& point) const {
+  const auto at = sheet_of_.find(tag);
+  return at != sheet_of_.end() && at->second != point.sheet;
+}
+
+/// Whether tissue joins both sides of the sheet at a point: no lip of the incision is there, or both are, as at its
+/// border, or tissue besides the one that is lies well behind all of it. The lips of a curved sheet leave its planes,
+/// and so does what lies close behind them.
+bool IncisionFront::is_joined(const TetMesh& mesh, const CollisionPoint& point, StarWalker& walker) const {
+  const WallsAlong walls = find_walls_along(mesh, point.vertex, point.normal, walker,
+                                            [&](std::uint32_t tag) { return !is_foreign(tag, point); });
+  if (walls.is_above == walls.is_below) return true;
+  const Vec3& place = mesh.rest(point.vertex);
+  const std::vector<TetId>& star = walker.star(mesh, point.vertex);
+  const double least = kJoinOffset * mean_edge_length_at(mesh, point.vertex, star);
+  const auto is_behind = [&](VertexId corner) {
+    const Vec3 way = mesh.rest(corner) - place;
+    return !std::binary_search(walls.corners.begin(), walls.corners.end(), corner) &&
+           std::all_of(walls.normals.begin(), walls.normals.end(), [&](const Vec3& n) { return n.dot(way) > least; });
+  };
+  return std::any_of(star.begin(), star.end(), [&](TetId tet) {
+    const TetVertices& v = mesh.vertices(tet);
+    return std::any_of(v.begin(), v.end(), is_behind);
+  });
 }
 
 void IncisionFront::leave_lips(const TetMesh& mesh, StarWalker& walker) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "incise/mesh/journal.h"
 #include "incise/mesh/star.h"
 #include "paper/neighbourhood.h"
+#include "paper/sheet_so_far.h"
 
 namespace incise {
 inline namespace v0 {
@@ -19,6 +21,7 @@ struct CollisionPoint {
   Vec3 normal = Vec3::Zero();    ///< unit, of the sheet there; zero where it had none
   Vec3 rim = Vec3::Zero();       ///< where the sheet ended next to it, once that has ended; else its place
   bool is_split = false;         ///< the stroke under way has made it where it crosses tissue
+  std::uint32_t sheet = 0;       ///< the incision that it is of, by a number of its own
 };
 
 /// The collision points at the front of incisions, kept from frame to frame and from stroke to stroke.
@@ -26,9 +29,9 @@ struct CollisionPoint {
 /// A frame crosses some edges of a tet, the next one others: a face between collision points of both is an incision
 /// face, too. So every frame is cut with the points that those before have left joined. Points of the sheet under way
 /// count as they are. Those of an earlier sheet count where they lie on the present one: in its plane, and within an
-/// edge of it; or where that passes the rim of theirs beside them: curved sheets leave each other's planes. An incision
-/// whose front a stroke meets like that goes on, whatever was cut in between. Source: paper
-/// §2.2 and §2.3, which speak of one incision, and §4.2, in which it takes many frames; docs/decisions/0050.
+/// edge of it; or where that begins at the rim of theirs beside them: curved sheets leave each other's planes. An
+/// incision whose front a stroke meets like that goes on, whatever was cut in between. Source: paper §2.2 and §2.3,
+/// which speak of one incision, and §4.2, in which it takes many frames; docs/decisions/0050.
 class IncisionFront {
  public:
   /// Those of the sheet so far become those of an earlier one. Cost: O(points).
@@ -38,7 +41,7 @@ class IncisionFront {
   /// Marks the points that take part in the cut along a sheet, near or not, and makes them the sheet's own; and the
   /// vertices nearby of walls that strokes with other tags have opened along it, which maintenance may have moved.
   /// Cost: O(points of the sheet), and a search of the sheet for each earlier point and each vertex of a wall nearby.
-  void mark(const TetMesh& mesh, const Sheet& sheet, std::uint32_t tag, Neighbourhood& near, StarWalker& walker);
+  void mark(const TetMesh& mesh, const SheetSoFar& sheet, std::uint32_t tag, Neighbourhood& near, StarWalker& walker);
   /// Takes the collision points of a sheet besides: the vertices that split edges, and those of the mesh that lie on it
   /// with tissue on both sides. `near` as `subdivide` left it. Cost: O(near edges + marked vertices · their stars).
   void take(const TetMesh& mesh, const Sheet& sheet, const Neighbourhood& near, StarWalker& walker);
@@ -69,8 +72,18 @@ class IncisionFront {
   /// its plane that have tissue on both sides are points of the front. Where the blade has left the body, a lip is no
   /// front; but merging may tie it to tissue that the blade meets next.
   void adopt_walls(const TetMesh& mesh, const Sheet& sheet, std::uint32_t tag, Neighbourhood& near, StarWalker& walker);
+  /// A sheet that crosses the front of an earlier one splits edges between its points: what splits them is one as well.
+  void add_splits_of_older(const TetMesh& mesh, const Neighbourhood& near);
 
-  std::vector<CollisionPoint> own_, older_;  // ascending
+  /// An earlier sheet turns out to be the same incision as the one under way.
+  void unite(std::uint32_t sheet);
+  /// Whether a wall is known to be of another incision than a point.
+  [[nodiscard]] bool is_foreign(std::uint32_t tag, const CollisionPoint& point) const;
+  [[nodiscard]] bool is_joined(const TetMesh& mesh, const CollisionPoint& point, StarWalker& walker) const;
+
+  std::vector<CollisionPoint> own_, older_;          // ascending
+  std::uint32_t sheet_ = 0;                          // the one under way
+  std::map<std::uint32_t, std::uint32_t> sheet_of_;  // by the tag of a stroke
 };
 
 }  // namespace v0

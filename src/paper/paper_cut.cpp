@@ -141,7 +141,7 @@ Status PaperCutter::cut_stroke(const CutContext& context, const Stroke& stroke, 
   stroke_.spacing = spacing;
   front_.begin_sheet();
   const Strip whole(surface, {});
-  Status status = sheet_cut_.cut(context, SheetSoFar(whole.sheet), tag, front_);
+  Status status = sheet_cut_.cut(context, SheetSoFar(whole), tag, front_);
   context.statistics.latent_faces += sheet_cut_.latent_faces();
   ++context.statistics.sheets;
   if (status) status = end_whole(context, ended_at(surface, division_of(wide, twist), spacing));
@@ -199,6 +199,7 @@ void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<c
     stroke_.is_in_material = true;
     put_in_place(mesh, row);
   } else if (ended != nullptr) {
+    ended_.go_on_from(*ended);
     go_on_from(*ended);
     stroke_.goes_over = !goes_on;
   } else {
@@ -276,11 +277,12 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
   });
 }
 
-/// Goes over the last strips of a stroke that has ended where this one does, if others have cut in between.
+/// Goes over the last strips of a stroke that has ended where this one does, if others have cut in between and none
+/// went on from there.
 Status PaperCutter::end_at_rest(const CutContext& context, EndedStroke ended) {
   const EndedStroke* met = ended_.find(ended.row, kStandsWithin * stroke_.spacing);
   Status status;
-  if (met != nullptr && !ended_.is_last(*met)) status = go_over(context, met->strips);
+  if (met != nullptr && !ended_.is_last(*met) && !met->is_gone_on_from) status = go_over(context, met->strips);
   ended_.add(std::move(ended));
   return status;
 }
@@ -290,8 +292,8 @@ Status PaperCutter::go_over(const CutContext& context, std::span<const std::shar
   SweptSurface surface;
   for (const auto& strip : strips) append(surface, strip->surface);
   if (surface.triangles.empty()) return {};
-  const Sheet sheet(surface);
-  return sheet_cut_.cut(context, SheetSoFar(sheet), stroke_.tag, front_);
+  const Strip strip(std::move(surface), {});
+  return sheet_cut_.cut(context, SheetSoFar(strip), stroke_.tag, front_);
 }
 
 void PaperCutter::count_last_sheet(CutStatistics& statistics) const {

@@ -112,7 +112,7 @@ void SheetCut::collide(Transaction& transaction, const SheetSoFar& sheet, std::u
     std::sort(made.begin(), made.end());
     find_crossings(mesh, sheet.strip(), tets_near(mesh, sheet.strip(), made), near_, threads_);
     if (!made.empty()) find_crossings_at(mesh, sheet.whole(), made, near_);
-    front.mark(mesh, sheet.strip(), tag, near_, walker_);
+    front.mark(mesh, sheet, tag, near_, walker_);
     const std::vector<DoublyCrossed> twice = find_doubly_crossed(mesh, sheet.whole(), near_, kGrazeShare);
     if (twice.empty() || round == kMaxBisectionRounds) {
       return;

@@ -7,7 +7,7 @@ namespace incise {
 inline namespace v0 {
 
 SheetSoFar::SheetSoFar(const Strip& strip, std::span<const std::shared_ptr<const Strip>> before)
-    : strip_(strip.sheet), whole_(&strip.sheet) {
+    : strip_(strip.sheet), border_(strip.border), whole_(&strip.sheet) {
   if (before.empty()) return;
   together_ = strip.surface;
   for (const auto& earlier : before) append(together_, earlier->surface);

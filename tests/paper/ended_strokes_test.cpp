@@ -59,5 +59,20 @@ TEST(EndedStrokes, forget_the_oldest) {
   EXPECT_EQ(strokes.find(row_at(1), 0.05), nullptr);
 }
 
+TEST(EndedStrokes, forget_those_first_from_which_none_will_go_on) {
+  EndedStrokes strokes;
+  strokes.add(ended_at(-1));
+  for (std::size_t i = 0; i < 3 * kEndsKept; ++i) {
+    const double x = static_cast<double>(i);
+    strokes.add(ended_at(x));
+    strokes.go_on_from(*strokes.find(row_at(x), 0.05));
+  }
+  strokes.add({});
+  const EndedStroke* open = strokes.find(row_at(-1), 0.05);
+  ASSERT_NE(open, nullptr) << "however many strokes another incision took";
+  EXPECT_FALSE(open->is_gone_on_from);
+  EXPECT_FALSE(strokes.is_last(*open));
+}
+
 }  // namespace
 }  // namespace incise::test::ended_strokes_test

@@ -16,7 +16,7 @@ namespace {
 
 /// The plane x = 0.5 in the unit cube, for z from below to a height.
 SweptSurface swept_up_to(double z) {
-  return sweep(quad_stroke({0.5, -0.2, -0.2}, {0.5, 1.2, -0.2}, {0.5, 1.2, z}, {0.5, -0.2, z}));
+  return sweep(quad_stroke({0.5, -0.2, -0.2}, {0.5, 1.2, -0.2}, {0.5, -0.2, z}, {0.5, 1.2, z}));
 }
 
 class IncisionFrontTest : public ::testing::Test {
@@ -76,7 +76,8 @@ class IncisionFrontTest : public ::testing::Test {
       near.tets.emplace_back();
       near.tets.back().id = tet;
     });
-    front.mark(mesh_, whole(surface), tag, near, walker_);
+    const Strip strip(surface, {});
+    front.mark(mesh_, SheetSoFar(strip), tag, near, walker_);
     return near.on;
   }
 
@@ -127,7 +128,7 @@ TEST_F(IncisionFrontTest, goes_on_at_points_of_an_earlier_sheet_that_are_no_wall
   front.begin_sheet();
   EXPECT_EQ(met_by(swept_up_to(0.4), front), std::vector{centre_});
   const SweptSurface oblique =
-      sweep(quad_stroke({0.45, -0.2, -0.2}, {0.45, 1.2, -0.2}, {0.5, 1.2, 0.45}, {0.5, -0.2, 0.45}));
+      sweep(quad_stroke({0.45, -0.2, -0.2}, {0.45, 1.2, -0.2}, {0.5, -0.2, 0.45}, {0.5, 1.2, 0.45}));
   EXPECT_EQ(met_by(oblique, front), std::vector{centre_}) << "by a hand that does not come back to the plane itself";
 }
 
@@ -138,17 +139,20 @@ TEST_F(IncisionFrontTest, goes_on_where_a_sheet_passes_the_rim_of_an_earlier_one
   front.end_sheet(mesh_, earlier.border);
   front.begin_sheet();
   // From the rim at z = 0.6 on, leaning by 40 degrees: the point below it does not lie in the plane of that sheet.
-  const SweptSurface bent = sweep(quad_stroke({0.5, -0.2, 0.6}, {0.5, 1.2, 0.6}, {0.92, 1.2, 1.1}, {0.92, -0.2, 1.1}));
+  const SweptSurface bent = sweep(quad_stroke({0.5, -0.2, 0.6}, {0.5, 1.2, 0.6}, {0.92, -0.2, 1.1}, {0.92, 1.2, 1.1}));
   EXPECT_EQ(met_by(bent, front), std::vector{centre_});
   const SweptSurface elsewhere =
-      sweep(quad_stroke({0.45, -0.2, 0.6}, {0.45, 1.2, 0.6}, {0.87, 1.2, 1.1}, {0.87, -0.2, 1.1}));
+      sweep(quad_stroke({0.45, -0.2, 0.6}, {0.45, 1.2, 0.6}, {0.87, -0.2, 1.1}, {0.87, 1.2, 1.1}));
   EXPECT_TRUE(met_by(elsewhere, front).empty());
+  const SweptSurface through =
+      sweep(quad_stroke({0.5 - 0.42, -0.2, 0.1}, {0.5 - 0.42, 1.2, 0.1}, {0.92, -0.2, 1.1}, {0.92, 1.2, 1.1}));
+  EXPECT_TRUE(met_by(through, front).empty()) << "one that crosses at the rim goes on from none";
 }
 
 TEST_F(IncisionFrontTest, takes_the_wall_of_an_older_stroke_beside_the_sheet_for_its_own) {
   divide(/*quarter_gets_copy=*/true);
   const auto beside = [](double x) {
-    return sweep(quad_stroke({x, -0.2, -0.2}, {x, 1.2, -0.2}, {x, 1.2, 0.6}, {x, -0.2, 0.6}));
+    return sweep(quad_stroke({x, -0.2, -0.2}, {x, 1.2, -0.2}, {x, -0.2, 0.6}, {x, 1.2, 0.6}));
   };
   EXPECT_EQ(met_by(beside(0.49), {}, 2).size(), 2U) << "maintenance has moved it: the vertex and its copy";
   EXPECT_TRUE(met_by(beside(0.49), {}, 1).empty()) << "one of its own is no older one";
@@ -163,13 +167,13 @@ TEST_F(IncisionFrontTest, goes_on_at_a_wall_in_the_plane_that_tissue_joins) {
 TEST_F(IncisionFrontTest, leaves_walls_alone_that_are_not_in_the_plane_or_far_from_the_sheet_or_not_walls) {
   EXPECT_TRUE(met_by(swept_up_to(0.4)).empty()) << "no wall yet";
   divide(/*quarter_gets_copy=*/true);
-  const SweptSurface far = sweep(quad_stroke({0.5, -0.2, -2}, {0.5, 1.2, -2}, {0.5, 1.2, -1}, {0.5, -0.2, -1}));
+  const SweptSurface far = sweep(quad_stroke({0.5, -0.2, -2}, {0.5, 1.2, -2}, {0.5, -0.2, -1}, {0.5, 1.2, -1}));
   EXPECT_TRUE(met_by(far).empty());
   const SweptSurface beside =
-      sweep(quad_stroke({0.51, -0.2, -0.2}, {0.51, 1.2, -0.2}, {0.51, 1.2, 0.4}, {0.51, -0.2, 0.4}));
+      sweep(quad_stroke({0.51, -0.2, -0.2}, {0.51, 1.2, -0.2}, {0.51, -0.2, 0.4}, {0.51, 1.2, 0.4}));
   EXPECT_TRUE(met_by(beside).empty());
   const SweptSurface across =
-      sweep(quad_stroke({-0.2, -0.2, 0.5}, {-0.2, 1.2, 0.5}, {0.4, 1.2, 0.5}, {0.4, -0.2, 0.5}));
+      sweep(quad_stroke({-0.2, -0.2, 0.5}, {-0.2, 1.2, 0.5}, {0.4, -0.2, 0.5}, {0.4, 1.2, 0.5}));
   EXPECT_TRUE(met_by(across).empty()) << "a wall across the sheet ends nothing";
 }
 

@@ -149,7 +149,6 @@ TEST(SeveralStrokes, go_on_behind_one_that_crosses) {
   }
 }
 
-/// A stroke that ends just behind a sharp corner of its way, and another one that goes on from there.
 /// Two planes through the middle of the cube that enclose 14 to 18 degrees, the first of which is smoothed before the
 /// second comes: beside their axis its wall passed for one of the second's, whose strips are short.
 TEST(SeveralStrokes, cross_at_small_angles_in_many_frames) {
@@ -168,6 +167,65 @@ TEST(SeveralStrokes, cross_at_small_angles_in_many_frames) {
   }
 }
 
+/// Rows in so many strokes, each of which goes on from the one before.
+void add_in_strokes(std::vector<Rows>& strokes, const Rows& rows, std::size_t count) {
+  const auto steps = static_cast<std::ptrdiff_t>((rows.size() - 1) / count);
+  for (auto from = rows.begin(); from + steps < rows.end(); from += steps) strokes.push_back({from, from + steps + 1});
+}
+
+/// Rows of a plane through a point, from so far before it to so far behind.
+Rows plane_rows(const Vec3& middle, const Vec3& forwards, const Vec3& along) {
+  Rows rows;
+  for (int k = 0; k <= 28; ++k) {
+    const Vec3 at = middle + 1.2 * (k / 14.0 - 1) * forwards;
+    rows.push_back({at - 1.6 * along, at + 1.6 * along});
+  }
+  return rows;
+}
+
+/// In each of two planes that cross a stroke ends on their axis, and the next one goes on from there.
+TEST(SeveralStrokes, that_end_on_the_axis_of_planes_leave_no_crumbs) {
+  const Vec3 along = Vec3(0.1, 1, 0.2).normalized(), u = Vec3(0.9, 0.3, 0.1).cross(along).normalized(),
+             w = along.cross(u), middle(0.52, 0.49, 0.51);
+  for (const double degrees : {55.0, 70.0, 89.0}) {
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    for (const std::size_t count : {2U, 4U, 14U}) {
+      for (const std::uint64_t seed : {0U, 1U, 2U}) {
+        SCOPED_TRACE(testing::Message() << degrees << " degrees, " << count << " strokes, seed " << seed);
+        std::vector<Rows> strokes;
+        add_in_strokes(strokes, plane_rows(middle, u, along), count);
+        add_in_strokes(strokes, plane_rows(middle, std::cos(angle) * u + std::sin(angle) * w, along), count);
+        const Engine engine = cut(seed == 0 ? kuhn_cube(5) : jittered_cube(5, seed), strokes, true);
+        EXPECT_EQ(piece_volumes(engine.mesh()).size(), 4U);
+      }
+    }
+  }
+}
+
+/// A plane crosses one half of a bent sheet, and its front, at an acute angle before the other half is cut.
+TEST(SeveralStrokes, go_on_at_a_bent_front_that_a_plane_has_crossed) {
+  for (const double degrees : {31.0, 44.0, 70.0}) {
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    const BentSheet sheet([](double s) { return 0.1 * s * (1 - s * s); });
+    const Row middle = sheet.from(10, 11).front(), next = sheet.from(10, 11).back();
+    const Vec3 along = (middle[1] - middle[0]).normalized(), u = (next[0] - middle[0]).normalized(), n = along.cross(u);
+    for (const std::size_t count : {1U, 2U, 7U, 28U}) {
+      for (const std::uint64_t seed : {0U, 1U, 2U}) {
+        SCOPED_TRACE(testing::Message() << degrees << " degrees, plane in " << count << " strokes, seed " << seed);
+        std::vector<Rows> strokes;
+        add_in_strokes(strokes, sheet.from(0, 10), count == 28 ? 10 : 1);
+        const Vec3 axis = (u + along).normalized(), across = n.cross(axis);
+        add_in_strokes(strokes, plane_rows(Vec3(0.5, 0.52, 0.48), std::sin(angle) * n + std::cos(angle) * across, axis),
+                       count);
+        add_in_strokes(strokes, sheet.from(10, 20), count == 28 ? 10 : 1);
+        const Engine engine = cut(seed == 0 ? kuhn_cube(5) : jittered_cube(5, seed), strokes, true);
+        EXPECT_EQ(piece_volumes(engine.mesh()).size(), 4U);
+      }
+    }
+  }
+}
+
+/// A stroke that ends just behind a sharp corner of its way, and another one that goes on from there.
 TEST(SeveralStrokes, go_on_just_behind_a_corner) {
   for (const double behind : {0.05, 0.1, 0.15}) {
     SCOPED_TRACE(behind);
