@@ -25,13 +25,20 @@ void EndedStrokes::go_on_from(const EndedStroke& stroke) {
 
 const EndedStroke* EndedStrokes::find(std::span<const Vec3> given, double within) const {
   const auto stands_at = [&](const EndedStroke& ended) {
-    if (given.size() != ended.edge.points()) return false;
+    if (ended.is_gone_on_from || given.size() != ended.edge.points()) return false;
     const std::vector<Vec3> row = ended.edge.divided(given);
     return std::equal(row.begin(), row.end(), ended.row.begin(), ended.row.end(),
                       [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= within; });
   };
   const auto at = std::find_if(ended_.rbegin(), ended_.rend(), stands_at);
   return at == ended_.rend() ? nullptr : &*at;
+}
+
+const EndedStroke* EndedStrokes::find_at(std::span<const std::shared_ptr<const Strip>> strips) const {
+  const auto at = std::find_if(ended_.begin(), ended_.end(), [&](const EndedStroke& ended) {
+    return !strips.empty() && !ended.strips.empty() && ended.strips.back() == strips.back();
+  });
+  return at == ended_.end() ? nullptr : &*at;
 }
 
 }  // namespace v0

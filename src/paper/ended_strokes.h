@@ -32,9 +32,11 @@ class EndedStrokes {
   void go_on_from(const EndedStroke& stroke);
   /// All incisions are complete, or others than they were.
   void clear() { ended_.clear(); }
-  /// The latest stroke at whose end a blade stands, each of its points within a length; null where there is none.
-  /// Cost: O(points · kEndsKept).
+  /// The latest stroke at whose end a blade stands, each of its points within a length, and from which none has gone
+  /// on; null where there is none. Cost: O(points · kEndsKept).
   [[nodiscard]] const EndedStroke* find(std::span<const Vec3> row, double within) const;
+  /// The one with these strips; null where it is forgotten. Cost: O(kEndsKept).
+  [[nodiscard]] const EndedStroke* find_at(std::span<const std::shared_ptr<const Strip>> strips) const;
   /// Whether no stroke has ended after one of these.
   [[nodiscard]] bool is_last(const EndedStroke& stroke) const { return &stroke == &ended_.back(); }
 

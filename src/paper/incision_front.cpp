@@ -365,6 +365,11 @@ void IncisionFront::unite(std::uint32_t sheet) {
   }
 }
 
+bool IncisionFront::is_of_sheet(std::uint32_t tag) const {
+  const auto at = sheet_of_.find(tag);
+  return at != sheet_of_.end() && at->second == sheet_;
+}
+
 bool IncisionFront::is_foreign(std::uint32_t tag, const CollisionPoint& point) const {
   const auto at = sheet_of_.find(tag);
   return at != sheet_of_.end() && at->second != point.sheet;

@@ -62,6 +62,8 @@ class IncisionFront {
 
   /// Of the sheet under way, ascending.
   [[nodiscard]] const std::vector<CollisionPoint>& own() const { return own_; }
+  /// Whether a stroke with a tag has cut along the sheet under way.
+  [[nodiscard]] bool is_of_sheet(std::uint32_t tag) const;
   /// Whether there are any points.
   [[nodiscard]] bool is_empty() const { return own_.empty() && older_.empty(); }
   /// The vertices of all of them that live, ascending.

@@ -144,6 +144,7 @@ Status PaperCutter::cut_stroke(const CutContext& context, const Stroke& stroke, 
   Status status = sheet_cut_.cut(context, SheetSoFar(whole), tag, front_);
   context.statistics.latent_faces += sheet_cut_.latent_faces();
   ++context.statistics.sheets;
+  if (status) status = cut_at_row(context, divided.edges.front(), whole);
   if (status) status = end_whole(context, ended_at(surface, division_of(wide, twist), spacing));
   front_.end_sheet(context.mesh, whole.border);
   return status;
@@ -199,10 +200,11 @@ void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<c
     stroke_.is_in_material = true;
     put_in_place(mesh, row);
   } else if (ended != nullptr) {
-    ended_.go_on_from(*ended);
+    stroke_.stands_at_end = true;
     go_on_from(*ended);
     stroke_.goes_over = !goes_on;
   } else {
+    stroke_.first_row = row;
     stroke_.motion.begin(row, spacing);
   }
 }
@@ -282,9 +284,39 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
 Status PaperCutter::end_at_rest(const CutContext& context, EndedStroke ended) {
   const EndedStroke* met = ended_.find(ended.row, kStandsWithin * stroke_.spacing);
   Status status;
-  if (met != nullptr && !ended_.is_last(*met) && !met->is_gone_on_from) status = go_over(context, met->strips);
+  if (met != nullptr && !ended_.is_last(*met)) status = go_over(context, met->strips);
+  if (status) status = cut_at_row(context, ended.row, *ended.strips.back());
   ended_.add(std::move(ended));
   return status;
+}
+
+/// Whether tets near a sheet have walls of other incisions than that under way.
+bool PaperCutter::meets_other_walls(const TetMesh& mesh, const Sheet& sheet) const {
+  const std::vector<TetId> near = find_near_tets(mesh, sheet);
+  return std::any_of(near.begin(), near.end(), [&](TetId tet) {
+    const TetLinks& links = mesh.links(tet);
+    return std::any_of(links.begin(), links.end(), [&](const Link link) {
+      return link.is_boundary() && link.tag() != 0 && !front_.is_of_sheet(link.tag());
+    });
+  });
+}
+
+/// Cuts along what lies within rounding of the row at which a strip begins or ends, on both sides of it: where that
+/// lies on an older wall, it meets it.
+Status PaperCutter::cut_at_row(const CutContext& context, std::span<const Vec3> row, const Strip& strip) {
+  const double margin = kCoincident * stroke_.spacing;
+  std::vector<Vec3> before, behind;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const auto hit = strip.sheet.tree().closest(row[c], stroke_.spacing);
+    if (!hit.is_valid()) return {};
+    const Vec3 along = row[std::min(c + 1, row.size() - 1)] - row[c > 0 ? c - 1 : 0];
+    const Vec3 onwards = strip.sheet.normal(hit.triangle).cross(along).normalized();
+    before.push_back(row[c] - margin * onwards);
+    behind.push_back(row[c] + margin * onwards);
+  }
+  const Strip beside(sweep({"", {0.0, 1.0}, {before, behind}}, 0.0), {});
+  if (beside.surface.triangles.empty() || !meets_other_walls(context.mesh, beside.sheet)) return {};
+  return sheet_cut_.cut(context, SheetSoFar(beside), stroke_.tag, front_);
 }
 
 /// Cuts along strips once more. Edges that other strokes have made since may cross them.
@@ -429,6 +461,10 @@ bool PaperCutter::meets_any(const Strip& strip, std::span<const std::shared_ptr<
 /// Cuts along what the blade's motion asks for.
 Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
   if (move.strip == nullptr) return {};
+  if (std::exchange(stroke_.stands_at_end, false)) {
+    const EndedStroke* ended = ended_.find_at(stroke_.gone_on_from);
+    if (ended != nullptr && !goes_back(*ended, stroke_.last_row, stroke_.spacing)) ended_.go_on_from(*ended);
+  }
   if (std::exchange(stroke_.goes_over, false)) {
     if (Status status = go_over(context, stroke_.gone_on_from); !status) return status;
   }
@@ -446,8 +482,9 @@ Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
       sheet_cut_.cut(context, SheetSoFar(*move.strip, strips_before(*move.strip)), stroke_.tag, front_, crumbs);
   context.statistics.cut_tets = cut_before + sheet_cut_.divided_tets();  // few are crossed wholly in one frame
   stroke_.has_cut = stroke_.has_cut || sheet_cut_.divided_tets() > 0;
-  stroke_.sheet.add(std::move(move.strip));
-  return status;
+  const Strip& strip = stroke_.sheet.add(std::move(move.strip));
+  const std::vector<Vec3> first_row = std::exchange(stroke_.first_row, {});
+  return status ? cut_at_row(context, first_row, strip) : status;
 }
 
 Result<CutStatistics> cut_as_paper(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,

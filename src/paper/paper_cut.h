@@ -73,15 +73,17 @@ class PaperCutter {
     OwnSheet sheet;
     std::vector<std::shared_ptr<const Strip>> gone_on_from;  // the last of the stroke before, if this one goes on
     EdgeDivision edge;
-    std::vector<Vec3> last_row;  // divided
+    std::vector<Vec3> first_row;  // of a stroke at rest that goes on from none
+    std::vector<Vec3> last_row;   // divided
     double spacing = 1.0;
     Vec3 direction = Vec3::Zero();  // of the last frame in a body that moves
     Vec3 course = Vec3::Zero();     // of the front there, at rest; unit
     double gone = 0;                // how far it has: the length of the wound
     bool is_in_material = false, is_last = false;
     bool has_cut = false;
-    bool may_go_on = false;  // it has ended, and nothing else has happened since
-    bool goes_over = false;  // the strips that it goes on from, before it cuts
+    bool may_go_on = false;      // it has ended, and nothing else has happened since
+    bool stands_at_end = false;  // of another one, until it moves
+    bool goes_over = false;      // the strips that it goes on from, before it cuts
     std::uint32_t tag = 1;
 
     [[nodiscard]] std::vector<std::shared_ptr<const Strip>> last_strips() const;
@@ -98,6 +100,8 @@ class PaperCutter {
   void go_on_from(const EndedStroke& ended);
   [[nodiscard]] bool stands_in_material(const TetMesh& mesh, std::span<const Vec3> row);
   Status end_at_rest(const CutContext& context, EndedStroke ended);
+  [[nodiscard]] bool meets_other_walls(const TetMesh& mesh, const Sheet& sheet) const;
+  Status cut_at_row(const CutContext& context, std::span<const Vec3> row, const Strip& strip);
   Status go_over(const CutContext& context, std::span<const std::shared_ptr<const Strip>> strips);
   void enter_material(const TetMesh& mesh);
   Status step_in_material(const CutContext& context, const std::vector<Vec3>& before);

@@ -70,8 +70,9 @@ TEST(EndedStrokes, forget_those_first_from_which_none_will_go_on) {
   strokes.add({});
   const EndedStroke* open = strokes.find(row_at(-1), 0.05);
   ASSERT_NE(open, nullptr) << "however many strokes another incision took";
-  EXPECT_FALSE(open->is_gone_on_from);
   EXPECT_FALSE(strokes.is_last(*open));
+  strokes.go_on_from(*open);
+  EXPECT_EQ(strokes.find(row_at(-1), 0.05), nullptr) << "no tissue waits there any more";
 }
 
 }  // namespace

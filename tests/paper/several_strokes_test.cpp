@@ -202,6 +202,30 @@ TEST(SeveralStrokes, that_end_on_the_axis_of_planes_leave_no_crumbs) {
   }
 }
 
+/// The last row of a stroke lies on an older wall, or its first one: they meet, however many strokes both take.
+TEST(SeveralStrokes, that_end_or_begin_on_an_older_wall_meet_it) {
+  const Vec3 along = Vec3(0.1, 1, 0.2).normalized(), u = Vec3(0.9, 0.3, 0.1).cross(along).normalized(),
+             w = along.cross(u), middle(0.52, 0.49, 0.51);
+  for (const double degrees : {50.0, 67.0, 90.0}) {
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    const Rows whole = plane_rows(middle, std::cos(angle) * u + std::sin(angle) * w, along);
+    for (const bool begins : {false, true}) {
+      Rows half = begins ? Rows(whole.begin() + 14, whole.end()) : Rows(whole.begin(), whole.begin() + 15);
+      for (const std::size_t count : {1U, 2U, 7U}) {
+        for (const std::uint32_t seed : {0U, 1U, 2U, 3U}) {
+          SCOPED_TRACE(testing::Message() << degrees << " degrees, " << count << " strokes, seed " << seed
+                                          << (begins ? ", begins there" : ", ends there"));
+          std::vector<Rows> strokes;
+          add_in_strokes(strokes, plane_rows(middle, u, along), count);
+          add_in_strokes(strokes, half, count);
+          const Engine engine = cut(seed == 0 ? kuhn_cube(5) : jittered_cube(4 + seed, seed), strokes, true);
+          EXPECT_EQ(piece_volumes(engine.mesh()).size(), 3U);
+        }
+      }
+    }
+  }
+}
+
 /// A plane crosses one half of a bent sheet, and its front, at an acute angle before the other half is cut.
 TEST(SeveralStrokes, go_on_at_a_bent_front_that_a_plane_has_crossed) {
   for (const double degrees : {31.0, 44.0, 70.0}) {
