@@ -285,7 +285,7 @@ Status PaperCutter::end_at_rest(const CutContext& context, EndedStroke ended) {
   const EndedStroke* met = ended_.find(ended.row, kStandsWithin * stroke_.spacing);
   Status status;
   if (met != nullptr && !ended_.is_last(*met)) status = go_over(context, met->strips);
-  if (status) status = cut_at_row(context, ended.row, *ended.strips.back());
+  if (status && !ended.strips.empty()) status = cut_at_row(context, ended.row, *ended.strips.back());
   ended_.add(std::move(ended));
   return status;
 }
