@@ -74,10 +74,10 @@ int compute(const BatchArguments& a, const app::BatchPlan& plan, const Terminal&
   if (!report.ok()) return fail(terminal, report.error(), exit_of(report.error()));
   if (report->was_stopped) return kInterrupted;
   tell(terminal, report->failed, "failed: ");
-  const std::string text = app::counted(report->items, "item") + " of shard " + std::to_string(shard->index) + "/" +
-                           std::to_string(shard->count) + ": " + std::to_string(report->done) + " computed, " +
-                           std::to_string(report->skipped) + " there before, " + std::to_string(report->failed.size()) +
-                           " failed\n";
+  const std::string name = a.shard ? *a.shard : std::to_string(shard->index) + "/" + std::to_string(shard->count);
+  const std::string text = app::counted(report->items, "item") + " of shard " + name + ": " +
+                           std::to_string(report->done) + " computed, " + std::to_string(report->skipped) +
+                           " there before, " + std::to_string(report->failed.size()) + " failed\n";
   const int code = finish(terminal, print(a, terminal, app::to_json(*report), text));
   return code == kDone && !report->failed.empty() ? int{kFailure} : code;
 }

@@ -25,8 +25,15 @@ void add_json(CLI::App& command, bool& as_json) {
   command.add_flag("--json", as_json, "Print JSON to stdout");
 }
 
+const CLI::Validator& names_a_file() {
+  static const CLI::Validator validator(
+      [](std::string& name) { return name.empty() ? std::string("the name is empty; give one") : std::string(); }, "",
+      "names a file");
+  return validator;
+}
+
 void add_report(CLI::App& command, std::string& report, bool& as_json) {
-  command.add_option("--report", report, "Write figures as JSON to this file; - for stdout");
+  command.add_option("--report", report, "Write figures as JSON to this file; - for stdout")->check(names_a_file());
   command.add_flag("--json", as_json, "Print the figures as JSON to stdout, instead of a few lines for people");
 }
 
@@ -39,7 +46,7 @@ void add_format(CLI::App& command, std::string& format, const std::vector<std::s
 }
 
 void add_output(CLI::App& command, MeshOutput& output) {
-  command.add_option("-o,--output", output.file, kOutputHelp);
+  command.add_option("-o,--output", output.file, kOutputHelp)->check(names_a_file());
   add_format(command, output.format);
 }
 

@@ -16,6 +16,8 @@ inline constexpr const char* kMeshHelp = "Mesh file, or - for stdin; the format 
 /// A command of the program, with examples below its help.
 CLI::App* add_command(CLI::App& root, const std::string& name, const std::string& what, const std::string& examples);
 void add_json(CLI::App& command, bool& as_json);
+/// Refuses an empty name: that of a variable that is not set.
+const CLI::Validator& names_a_file();
 void add_report(CLI::App& command, std::string& report, bool& as_json);
 /// `more`: names of formats besides those of meshes.
 void add_format(CLI::App& command, std::string& format, const std::vector<std::string>& more = {});

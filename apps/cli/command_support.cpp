@@ -51,6 +51,19 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return fs::absolute(a, code).lexically_normal() == fs::absolute(b, code).lexically_normal();
 }
 
+std::string clash_of(const std::vector<NamedFile>& files, const std::vector<std::string>& others) {
+  std::vector<std::string> taken = others;
+  for (const auto& [option, file] : files) {
+    if (file.empty() || file == "-") continue;
+    for (const std::string& other : taken) {
+      if (other.empty() || other == "-" || !is_same_file(file, other)) continue;
+      return std::string(option) + " " + file + " is another file of this command; give it a name of its own";
+    }
+    taken.push_back(file);
+  }
+  return {};
+}
+
 bool has_folder(const std::string& file) {
   if (file.empty() || file == "-") return true;
   const fs::path folder = fs::path(file).parent_path();

@@ -24,6 +24,15 @@ ExitCode exit_of(const incise::Error& error);
 void print_notes(const std::vector<std::string>& notes, const std::string& file, const Terminal& terminal);
 
 bool is_same_file(const std::string& a, const std::string& b);
+
+/// A file that an option names.
+struct NamedFile {
+  const char* option;
+  std::string file;  ///< empty: none; "-": stdout
+};
+/// In words: which of some files would take the place of another one of them, or of others that the command reads or
+/// writes. Empty: none.
+std::string clash_of(const std::vector<NamedFile>& files, const std::vector<std::string>& others);
 /// Whether the folder of an output exists: found out before the work, not after.
 bool has_folder(const std::string& file);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `incise convert`: files go through `app::convert`; stdin and stdout, which have no extension, are read and written
 // here.
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -33,11 +34,13 @@ std::string surface_extension_of(const std::string& format) {
 }
 
 /// A surface, or the boundary of a mesh, from a file or stdin to stdout.
-Result<app::Conversion> surface_to_stdout(const ConvertArguments& a, const Terminal& terminal) {
+Result<app::Conversion> surface_to_stdout(const ConvertArguments& a, const Terminal& terminal,
+                                          const std::function<void()>& before_writing) {
   const Result<app::BoundaryOf> boundary = app::read_boundary(input_of(a.in));
   if (!boundary.ok()) return boundary.error();
   const Result<std::string> bytes = io::write_surface_bytes(surface_extension_of(a.out.format), boundary->surface);
   if (!bytes.ok()) return bytes.error();
+  before_writing();
   if (Status status = terminal.data(*bytes); !status.ok()) return status.error();
   app::Conversion done;
   done.notes = boundary->notes;
@@ -45,20 +48,33 @@ Result<app::Conversion> surface_to_stdout(const ConvertArguments& a, const Termi
 }
 
 /// A mesh from a file or stdin to stdout.
-Result<app::Conversion> mesh_to_stdout(const ConvertArguments& a, const Terminal& terminal) {
+Result<app::Conversion> mesh_to_stdout(const ConvertArguments& a, const Terminal& terminal,
+                                       const std::function<void()>& before_writing) {
   Result<io::MeshFile> file = io::read_mesh(input_of(a.in));
   if (!file.ok()) return file.error();
   io::drop_mid_nodes(*file);
+  before_writing();
   if (Status status = write_output(a.out, file->data, terminal); !status.ok()) return status.error();
   app::Conversion done;
   done.notes = file->notes;
   return done;
 }
 
-Result<app::Conversion> convert(const ConvertArguments& a, const Terminal& terminal) {
+/// An interrupt ends the program while it reads, and waits from `zone` on.
+Result<app::Conversion> convert(const ConvertArguments& a, const Terminal& terminal, std::optional<WritingZone>& zone) {
+  std::optional<ProgressBar> bar(std::in_place, terminal, "stages");
+  bar->show_stage("reading", 0, 2);
+  const auto before_writing = [&] {
+    zone.emplace();
+    bar->show_stage("writing", 1, 2);
+    if (a.out.is_stdout()) bar.reset();
+  };
   const bool is_surface = !surface_extension_of(a.out.format).empty();
-  if (a.out.is_stdout()) return is_surface ? surface_to_stdout(a, terminal) : mesh_to_stdout(a, terminal);
-  return app::convert(input_of(a.in), a.out.file, is_surface ? io::WriteOptions() : write_options_of(a.out));
+  if (a.out.is_stdout()) {
+    return is_surface ? surface_to_stdout(a, terminal, before_writing) : mesh_to_stdout(a, terminal, before_writing);
+  }
+  return app::convert(input_of(a.in), a.out.file, is_surface ? io::WriteOptions() : write_options_of(a.out),
+                      before_writing);
 }
 
 /// Of an output that may be a surface, too.
@@ -98,8 +114,8 @@ std::string counts_of(const app::Conversion& done) {
 
 int run_convert(const ConvertArguments& arguments, const Terminal& terminal) {
   if (const auto problem = problem_of_conversion(arguments)) return fail(terminal, problem->text, problem->code);
-  const WritingZone zone;
-  const Result<app::Conversion> done = convert(arguments, terminal);
+  std::optional<WritingZone> zone;
+  const Result<app::Conversion> done = convert(arguments, terminal, zone);
   if (!done.ok()) {
     return fail(terminal, explain_kind(done.error(), arguments.in, FileKind::kMesh), exit_of(done.error()));
   }
@@ -120,7 +136,8 @@ Command add_convert(CLI::App& root) {
                   "  incise convert - - --format stl < cut.vtu > walls.stl");
   convert->add_option("IN", arguments->in, "File to read; - for stdin")->required();
   convert->add_option("OUT", arguments->out.file, "File to write; the extension names the format; - for stdout")
-      ->required();
+      ->required()
+      ->check(names_a_file());
   add_format(*convert, arguments->out.format, {"obj", "stl", "ply", "off"});
   add_json(*convert, arguments->as_json);
   return {convert, [arguments](const Terminal& terminal) { return run_convert(*arguments, terminal); }};

@@ -65,22 +65,6 @@ std::optional<Plane> parse_plane(const std::string& text) {
   return Plane{normal, numbers[3]};
 }
 
-/// Whether the recording would take the place of something else that the command reads or writes.
-bool takes_a_place(const CutArguments& a) {
-  for (const std::string& other : {a.mesh, a.blade, a.output.file, a.report, a.picture}) {
-    if (!a.record.empty() && !other.empty() && is_same_file(a.record, other)) return true;
-  }
-  return false;
-}
-
-/// Likewise for the picture.
-bool draws_over(const CutArguments& a) {
-  for (const std::string& other : {a.mesh, a.blade, a.output.file, a.report}) {
-    if (!a.picture.empty() && !other.empty() && is_same_file(a.picture, other)) return true;
-  }
-  return false;
-}
-
 /// The method that the paper cites, where one was asked for.
 std::optional<LabMethod> method_of(const CutArguments& a) {
   return find_lab_method(a.profile);
@@ -100,8 +84,10 @@ std::string usage_problem(const CutArguments& a) {
   }
   if (is_stdin(a.mesh) && !a.record.empty()) return "--record needs the mesh as a file, which a replay can read again";
   if (a.record == "-" || a.picture == "-") return "recordings and pictures do not go to stdout; name a file";
-  if (takes_a_place(a)) return "--record " + a.record + " is another file of this command; give it a name of its own";
-  if (draws_over(a)) return "--picture " + a.picture + " is another file of this command; give it a name of its own";
+  const std::string clash =
+      clash_of({{"--report", a.report}, {"--record", a.record}, {"--picture", a.picture}, {"--drawn", a.fine.drawn}},
+               {a.mesh, a.blade, a.output.file});
+  if (!clash.empty()) return clash;
   if (const std::string problem = fine_problem(a.fine); !problem.empty()) return problem;
   if (!a.picture.empty() && fs::path(a.picture).extension() != ".png") {
     return "--picture " + a.picture + ": unknown extension; pictures are .png";
@@ -332,9 +318,11 @@ Command add_cut(CLI::App& root) {
   add_report(*cut, arguments->report, arguments->as_json);
   cut->add_option("--seed", arguments->seed, "Seed, repeated in the report");
   add_threads(*cut, arguments->threads);
-  cut->add_option("--record", arguments->record, "Record every step as JSON lines, for incise replay");
+  cut->add_option("--record", arguments->record, "Record every step as JSON lines, for incise replay")
+      ->check(names_a_file());
   add_fine(*cut, arguments->fine);
-  cut->add_option("--picture", arguments->picture, "Draw the result to this PNG; needs OpenGL, but no display");
+  cut->add_option("--picture", arguments->picture, "Draw the result to this PNG; needs OpenGL, but no display")
+      ->check(names_a_file());
   add_budget(
       *cut, arguments->budget_us,
       "Microseconds for maintenance per stroke, 1 to 3600000000; what is left over may be spent later, what is not "

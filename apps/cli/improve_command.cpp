@@ -25,6 +25,8 @@ struct ImproveArguments {
 
 int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
   const ReportOutput report{arguments.report, arguments.as_json};
+  const std::string clash = clash_of({{"--report", arguments.report}}, {arguments.mesh, arguments.output.file});
+  if (!clash.empty()) return fail(terminal, clash, kUsage);
   if (const auto code = refuse_outputs(arguments.output, report.is_on_stdout(), {arguments.report}, terminal)) {
     return *code;
   }

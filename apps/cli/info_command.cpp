@@ -22,9 +22,14 @@ struct InfoArguments {
 };
 
 int run_info(const InfoArguments& arguments, const Terminal& terminal) {
+  std::optional<ProgressBar> bar(std::in_place, terminal, "stages");
+  bar->show_stage("reading", 0, 2);
   const Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
+  if (file.ok()) bar->show_stage("measuring", 1, 2);
+  if (!file.ok()) bar.reset();
   if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
   const app::MeshInfo info = app::inspect(*file, name_of_input(arguments.mesh));
+  bar.reset();
   return finish(terminal, terminal.data(arguments.as_json ? app::to_json(info) : app::to_text(info)));
 }
 

@@ -43,14 +43,6 @@ struct SimulateArguments {
 
 constexpr std::size_t kMostSceneBytes = std::size_t{64} << 20U;
 
-/// Whether the recording would take the place of something else that the command reads or writes.
-bool takes_a_place(const SimulateArguments& a, const std::string& model) {
-  for (const std::string& other : {a.scene, a.output, a.report, model}) {
-    if (!a.record.empty() && !other.empty() && is_same_file(a.record, other)) return true;
-  }
-  return false;
-}
-
 /// What is wrong with the arguments, or nothing.
 std::string usage_problem(const SimulateArguments& a) {
   if (!a.output.empty() && std::filesystem::path(a.output).extension() != ".pvd") {
@@ -224,10 +216,12 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   }
   const Result<std::filesystem::path> model = app::find_model(scene);
   if (!scene.model.file.empty() && !model.ok()) return fail(terminal, model.error(), kBadInput);
-  if (takes_a_place(arguments, scene.model.file.empty() ? "" : model->string())) {
-    return fail(terminal,
-                "--record " + arguments.record + " is another file of this command; give it a name of its own", kUsage);
-  }
+  const std::string clash = clash_of({{"--report", arguments.report},
+                                      {"--record", arguments.record},
+                                      {"--page", arguments.page},
+                                      {"--drawn", arguments.fine.drawn}},
+                                     {arguments.scene, arguments.output, model.ok() ? model->string() : ""});
+  if (!clash.empty()) return fail(terminal, clash, kUsage);
   std::unique_ptr<app::DeviceHand> hand;
   if (!arguments.device.empty()) {
     Result<std::unique_ptr<app::DeviceHand>> opened = incise_apps::open_device(arguments.device, arguments.haptic);
@@ -272,21 +266,24 @@ Command add_simulate(CLI::App& root) {
   simulate->add_option("SCENE", s.scene, "Scene file: JSON of format incise-scene; - for stdin")->required();
   simulate->add_option("--frames", s.frames, "Frames to run, instead of the scene's")
       ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
-  simulate->add_option("-o,--output", s.output, "Write the body over time: NAME.pvd with the folder NAME_frames");
+  simulate->add_option("-o,--output", s.output, "Write the body over time: NAME.pvd with the folder NAME_frames")
+      ->check(names_a_file());
   simulate
       ->add_option("--every", s.every,
                    "Frames between two files of -o, or moments of --drawn (default: about 100, or 24)")
       ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
   add_fine(*simulate, s.fine);
   add_report(*simulate, s.report, s.as_json);
-  simulate->add_option("--record", s.record, "Record every frame as JSON lines, for incise replay");
+  simulate->add_option("--record", s.record, "Record every frame as JSON lines, for incise replay")
+      ->check(names_a_file());
   simulate->add_option("--profile", s.profile, "incise, or paper: the published method; instead of the scene's")
       ->check(CLI::IsMember({"incise", "paper"}));
   add_budget(*simulate, s.budget_us,
              "Microseconds for maintenance per frame, 1 to 3600000000, taken as 10 work units each: no clock is read");
   simulate->add_option("--seed", s.seed, "Seed, instead of the scene's");
   simulate->add_flag("--ideal", s.is_ideal, "Show and score an exercise's ideal strokes, instead of the scene's");
-  simulate->add_option("--page", s.page, "Write how an exercise went as one HTML page with drawings");
+  simulate->add_option("--page", s.page, "Write how an exercise went as one HTML page with drawings")
+      ->check(names_a_file());
   simulate->add_option("--device", s.device,
                        "Who has the blade instead of the scene: haply or haply=HOST:PORT, a hand at a haptic device; "
                        "frames then keep the pace of the clock");

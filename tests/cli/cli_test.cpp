@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the command does when all is well.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <map>
@@ -385,6 +386,18 @@ TEST(Cli, an_interrupt_leaves_no_partial_file) {
     if (folder.names().size() == 2) {
       EXPECT_EQ(read(folder / "cut.mesh").substr(read(folder / "cut.mesh").size() - 4), "End\n");
     }
+  }
+}
+
+TEST(Cli, an_interrupt_ends_what_waits_for_its_input) {
+  const Folder folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string command : {"convert", "improve"}) {
+    std::vector<std::string> arguments = {command, pipe};
+    if (command == "improve") arguments.emplace_back("-o");
+    arguments.push_back(folder / "out.vtu");
+    EXPECT_EQ(run_interrupted(arguments, 0.2).code, 130) << command;
   }
 }
 

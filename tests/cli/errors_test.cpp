@@ -190,6 +190,41 @@ TEST_F(CliErrors, outputs_that_cannot_be_written) {
   EXPECT_EQ(run({"convert", cube_, folder_ / "no/out.vtu"}).code, 1);
 }
 
+TEST_F(CliErrors, outputs_that_would_take_the_place_of_other_files) {
+  const std::string blade = folder_.write("blade.json", "{}"), out = folder_ / "same.vtu", page = folder_ / "same.txt";
+  const std::vector<std::vector<std::string>> commands = {
+      {"cut", cube_, "--plane", "1,0,0,0.5", "--report", cube_},
+      {"cut", cube_, "--blade", blade, "--report", blade},
+      {"cut", cube_, "--plane", "1,0,0,0.5", "-o", out, "--report", out},
+      {"cut", cube_, "--plane", "1,0,0,0.5", "--report", page, "--record", page},
+      {"improve", cube_, "--report", cube_},
+  };
+  const auto before = folder_.names();
+  for (const auto& command : commands) {
+    const Outcome refused = run(command);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("is another file of this command"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(folder_.names(), before);
+  EXPECT_EQ(read(cube_), cube_mesh(2));
+  EXPECT_EQ(read(blade), "{}");
+}
+
+TEST_F(CliErrors, outputs_without_a_name) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"cut", cube_, "--plane", "1,0,0,0.5", "-o", ""},
+      {"cut", cube_, "--plane", "1,0,0,0.5", "--report", ""},
+      {"cut", cube_, "--plane", "1,0,0,0.5", "--record", ""},
+      {"improve", cube_, "-o", ""},
+      {"convert", cube_, ""},
+  };
+  for (const auto& command : commands) {
+    const Outcome refused = run(command);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("the name is empty; give one"), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(CliErrors, meshes_whose_lengths_cannot_be_computed_with) {
   for (const std::string unit : {"1e150", "1e-150"}) {
     const std::string path = folder_.write(

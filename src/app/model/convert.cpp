@@ -37,9 +37,11 @@ Result<BoundaryOf> boundary_of(io::MeshFile file, const fs::path& in) {
   return BoundaryOf{io::to_surface(loaded->mesh), loaded->source.notes};
 }
 
-Result<Conversion> convert_to_surface(const fs::path& in, const fs::path& out) {
+Result<Conversion> convert_to_surface(const fs::path& in, const fs::path& out,
+                                      const std::function<void()>& before_writing) {
   const Result<BoundaryOf> boundary = read_boundary(in);
   if (!boundary.ok()) return boundary.error();
+  if (before_writing) before_writing();
   if (const Status status = io::write_surface(out, boundary->surface); !status.ok()) return status.error();
   return Conversion{boundary->notes, {out}, boundary->surface.points.size(), 0, boundary->surface.triangles.size()};
 }
@@ -73,7 +75,8 @@ Result<BoundaryOf> read_boundary(const fs::path& in) {
   return BoundaryOf{std::move(surface).value(), {}};
 }
 
-Result<Conversion> convert(const fs::path& in, const fs::path& out, const io::WriteOptions& options) {
+Result<Conversion> convert(const fs::path& in, const fs::path& out, const io::WriteOptions& options,
+                           const std::function<void()>& before_writing) {
   const bool wants_surface = options.extension.empty() && is_surface_extension(out);
   if (!wants_surface && options.extension.empty() && !is_mesh_extension(out)) {
     return Error{
@@ -81,10 +84,11 @@ Result<Conversion> convert(const fs::path& in, const fs::path& out, const io::Wr
         out.string() + ": unknown extension; use " + mesh_extensions() + ", or for surfaces " + kSurfaceExtensions,
         {}};
   }
-  if (wants_surface) return convert_to_surface(in, out);
+  if (wants_surface) return convert_to_surface(in, out, before_writing);
   Result<io::MeshFile> file = io::read_mesh(in);
   if (!file.ok()) return file.error();
   io::drop_mid_nodes(*file);
+  if (before_writing) before_writing();
   const io::MeshData& data = file->data;
   if (const Status status = io::write_mesh(out, data, options); !status.ok()) return status.error();
   return Conversion{file->notes, io::mesh_files(out, options), data.soup.points.size(), data.soup.tets.size(),

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,11 +45,13 @@ struct BoundaryOf {
 /// Converts mesh to mesh as it stands, mesh to surface (its boundary), or surface to surface.
 ///
 /// Ten-node tets keep their corners.
+/// @param before_writing  called once all has been read; empty: nothing is
 /// @param options  how a mesh is written; an extension there makes `out` a mesh, whatever its own.
 /// Errors: as the readers and writers; kBadArgument for an extension that cannot be written, or a surface where a mesh
 /// is asked for. Cost: O(n).
 [[nodiscard]] Result<Conversion> convert(const std::filesystem::path& in, const std::filesystem::path& out,
-                                         const io::WriteOptions& options = {});
+                                         const io::WriteOptions& options = {},
+                                         const std::function<void()>& before_writing = {});
 
 }  // namespace app
 }  // namespace v0
