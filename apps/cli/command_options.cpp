@@ -26,10 +26,10 @@ void add_json(CLI::App& command, bool& as_json) {
 }
 
 const CLI::Validator& names_a_file() {
-  static const CLI::Validator validator(
+  static const CLI::Validator kValidator(
       [](std::string& name) { return name.empty() ? std::string("the name is empty; give one") : std::string(); }, "",
       "names a file");
-  return validator;
+  return kValidator;
 }
 
 void add_report(CLI::App& command, std::string& report, bool& as_json) {
