@@ -52,9 +52,11 @@ double mean_edge_length(const TetMesh& mesh, const ClosedComplex& complex, Verte
 /// The link of a vertex: its neighbours, joined where a tet of the star joins them.
 class LinkGraph {
  public:
-  /// `is_close(VertexId)` tells which neighbours are close to the sheet.
+  /// `is_close(VertexId)` tells which neighbours are close to the sheet. Those on walls of older cuts that are joined
+  /// alike hang together: where the centre lies on the rim of such a cut, it is that which lies between them.
   template <class IsClose>
-  void build(const ClosedComplex& complex, VertexId centre, std::span<const std::uint32_t> star, IsClose&& is_close) {
+  void build(const TetMesh& mesh, const ClosedComplex& complex, VertexId centre, std::span<const std::uint32_t> star,
+             IsClose&& is_close) {
     vertices_.clear();
     for (const std::uint32_t index : star) {
       const Master& master = complex[index];
@@ -73,6 +75,7 @@ class LinkGraph {
         }
       }
     }
+    unite_walls(mesh);
   }
   /// Whether the neighbours on either side of the sheet form at most one connected part each.
   [[nodiscard]] bool has_two_parts_at_most() {
@@ -84,6 +87,15 @@ class LinkGraph {
   }
 
  private:
+  void unite_walls(const TetMesh& mesh) {
+    std::array<std::uint32_t, 3> last = {kInvalidIndex, kInvalidIndex, kInvalidIndex};
+    for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
+      if ((mesh.shape_of(vertices_[i].vertex) & shape::kWall) == 0) continue;
+      std::uint32_t& known = last[static_cast<std::size_t>(vertices_[i].joint)];
+      if (known != kInvalidIndex) unite(known, i);
+      known = i;
+    }
+  }
   std::uint32_t find_or_add(VertexId vertex, Joint joint) {
     for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
       if (vertices_[i].vertex == vertex) {
@@ -385,7 +397,7 @@ std::vector<Candidate> find_candidates(const TetMesh& mesh, const CloseVertices&
       return other != nullptr && is_on_same_part(candidate.on, other->on.target, other->on.normal);
     };
     const std::vector<std::uint32_t>& star = complex.star(mesh, candidate.master, v);
-    link.build(complex, v, star, is_close);
+    link.build(mesh, complex, v, star, is_close);
     candidates.back().is_sound = link.has_two_parts_at_most();
     if ((mesh.shape_of(v) & shape::kPinched) != 0 || !crosses_one_part(complex, candidate.on, star)) {
       candidates.pop_back();
@@ -414,7 +426,7 @@ class LoneVertices {
   /// With the vertices that take part, and one more.
   [[nodiscard]] bool is_sound(const Candidate& candidate, VertexId more) {
     const std::vector<std::uint32_t>& star = complex_.star(mesh_, candidate.master, candidate.on.vertex);
-    link_.build(complex_, candidate.on.vertex, star, [&](VertexId v) { return v == more || complex_.is_on(v); });
+    link_.build(mesh_, complex_, candidate.on.vertex, star, [&](VertexId v) { return v == more || complex_.is_on(v); });
     return link_.has_two_parts_at_most();
   }
 

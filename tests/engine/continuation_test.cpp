@@ -136,6 +136,25 @@ TEST(Continuation, of_a_stroke_that_ended_at_an_older_wall_goes_on_through_it) {
   }
 }
 
+/// Half of a plane, another plane exactly where that has ended, and the other half.
+TEST(Continuation, of_half_a_plane_behind_another_one_that_passes_its_rim) {
+  for (const double degrees : {50.0, 70.0, 90.0}) {
+    for (std::uint64_t seed = 1; seed <= of_campaign(4U, 16U); ++seed) {
+      SCOPED_TRACE(testing::Message() << degrees << " degrees, seed " << seed);
+      const RandomPlane plane(seed);
+      Engine engine = engine_of_cube();
+      stroke(engine, plane, -1, 0);
+      pass_through(engine, plane.turned(degrees), 1, 28);
+      EXPECT_EQ(find_components(engine.mesh()).count(), 3U) << "the first half reaches the other plane";
+      stroke(engine, plane, 0, 1);
+      EXPECT_EQ(find_components(engine.mesh()).count(), 4U);
+      EXPECT_LE(engine.mesh().tet_count(), 1000U);
+      EXPECT_LE(measure_quality(engine.mesh()).lr_max, 30.0);
+      EXPECT_TRUE(validate(engine.mesh(), ValidateLevel::kGeometry).ok);
+    }
+  }
+}
+
 TEST(Continuation, through_an_older_wall_is_undone_redone_and_made_again_bit_for_bit) {
   const RandomPlane plane(1);
   Engine engine = engine_of_cube();
