@@ -75,7 +75,8 @@ class LinkGraph {
         }
       }
     }
-    unite_walls(mesh);
+    const bool is_at_rest = !complex.has_inner_points();  // docs/decisions/0172
+    if (is_at_rest) unite_walls(mesh);
   }
   /// Whether the neighbours on either side of the sheet form at most one connected part each.
   [[nodiscard]] bool has_two_parts_at_most() {
