@@ -101,10 +101,10 @@ class ClosedComplex {
   /// Cost: O(masters).
   void restore(const Image& image, const TetMesh& mesh);
 
-  /// Whether every master that the blade is still in has a front point inside, as in a body that moves: there the
-  /// point carries what the body does within the master (docs/decisions/0167).
-  void set_inner_points(bool has_inner_points) { has_inner_points_ = has_inner_points; }
-  [[nodiscard]] bool has_inner_points() const { return has_inner_points_; }
+  /// Whether the body moves. Then every master that the blade is still in has a front point inside, which carries what
+  /// the body does within it (docs/decisions/0167), and rims of older cuts do not take part (0172).
+  void set_in_motion(bool is_in_motion) { is_in_motion_ = is_in_motion; }
+  [[nodiscard]] bool is_in_motion() const { return is_in_motion_; }
 
   /// The master that a live tet belongs to, or `Master::kNone`.
   [[nodiscard]] std::uint32_t find(TetId tet) const {
@@ -317,7 +317,7 @@ class ClosedComplex {
   std::vector<VertexId> retired_;
   std::vector<std::uint32_t> star_, dirty_;
   std::uint32_t mark_ = 0;
-  bool has_inner_points_ = false;
+  bool is_in_motion_ = false;
 };
 
 class ClosedComplex::Image {

@@ -50,6 +50,13 @@ Vec3 middle_of(std::span<const Vec3> places) {
                            [&](const Vec3& a, const Vec3& b) { return sum_from(a) < sum_from(b); });
 }
 
+/// Of a row's points from those of another one.
+double greatest_distance(std::span<const Vec3> row, std::span<const Vec3> from) {
+  double greatest = 0;
+  for (std::size_t c = 0; c < row.size(); ++c) greatest = std::max(greatest, (row[c] - from[c]).norm());
+  return greatest;
+}
+
 /// Whether a whole stroke cannot be one sheet: it meets itself, or closes at a corner.
 bool needs_steps(const Stroke& stroke, const SweptSurface& surface, double least) {
   const bool closes_at_corner = comes_round(stroke, least) && count_sharp_turns(stroke, least) > 0;
@@ -171,11 +178,7 @@ bool Cutter::may_go_on(TetMesh& mesh, Journal& journal, const Pause& pause, std:
   const OpenStroke& paused = pause.stroke;
   if (row.size() != paused.given_row.size()) return false;
   if (!has_moved && !paused.is_in_material) {
-    bool stands = true;
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      stands = stands && (row[c] - paused.given_row[c]).norm() <= kStandsWithin * paused.spacing;
-    }
-    return stands;
+    return greatest_distance(row, paused.given_row) <= kStandsWithin * paused.spacing;
   }
   const std::size_t end = journal.position();
   if (!resume(mesh, journal, pause, first_step, has_moved, paused.tag)) return false;
@@ -227,9 +230,12 @@ bool Cutter::resume(TetMesh& mesh, Journal& journal, const Pause& pause, std::si
 }
 
 bool Cutter::Pause::is_near(std::span<const Vec3> row) const {
-  double away = 0;
-  for (std::size_t c = 0; c < row.size(); ++c) away = std::max(away, (row[c] - stroke.given_row[c]).norm());
-  return away <= kMostWait * stroke.spacing;
+  return greatest_distance(row, stroke.given_row) <= kMostWait * stroke.spacing;
+}
+
+bool Cutter::Pause::has_got_on(std::span<const Vec3> from, std::span<const Vec3> to) const {
+  return greatest_distance(to, stroke.given_row) >
+         greatest_distance(from, stroke.given_row) + kStandsWithin * stroke.spacing;
 }
 
 /// Deterministic: what was tried and taken back comes out again.
@@ -354,16 +360,14 @@ void Cutter::divide_edge(std::span<const Vec3> row) {
 
 /// From where the blade was to `stroke_.last_row`, in parts of at most an element.
 Status Cutter::step_in_material(const CutContext& context, const std::vector<Vec3>& before, const Vec3& direction) {
-  double travel = 0;
-  for (std::size_t c = 0; c < before.size(); ++c) travel = std::max(travel, (stroke_.last_row[c] - before[c]).norm());
+  const double travel = greatest_distance(stroke_.last_row, before);
   if (travel > kMostStepParts * stroke_.spacing || stroke_.material.is_graded()) {
     return step_from_far(context, before, direction);
   }
   // Where the blade was tells nothing in a body that has moved since: only what lies ahead of the front counts.
   const std::vector<Vec3> from =
       stroke_.material.front_of(context.mesh, stroke_cut_.complex(), before, stroke_.last_row);
-  double way = 0;
-  for (std::size_t c = 0; c < from.size(); ++c) way = std::max(way, (stroke_.last_row[c] - from[c]).norm());
+  const double way = greatest_distance(stroke_.last_row, from);
   const double parts = std::clamp(std::ceil(way / stroke_.spacing), 1.0, kMostStepParts);
   for (double part = 1; part <= parts; ++part) {
     std::vector<Vec3> row = stroke_.last_row;
@@ -511,8 +515,7 @@ bool Cutter::goes_on_shortly(const TetMesh& mesh, std::span<const Vec3> row) {
   if (!stroke_.motion.is_at_start() || options_.snap <= 0 || stroke_.is_at_front == OpenStroke::AtFront::kNo)
     return false;
   const std::vector<Vec3> start = stroke_.motion.front();
-  double travel = 0;
-  for (std::size_t c = 0; c < row.size(); ++c) travel = std::max(travel, (row[c] - start[c]).norm());
+  const double travel = greatest_distance(row, start);
   if (!(travel > 0) || travel > kCarry * stroke_.spacing) return false;
   if (stroke_.is_at_front == OpenStroke::AtFront::kUnknown) {
     stroke_.is_at_front = lies_at_front(mesh, start, row) ? OpenStroke::AtFront::kYes : OpenStroke::AtFront::kNo;

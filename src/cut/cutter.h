@@ -189,6 +189,9 @@ class Cutter::Pause {
   /// Whether a blade that cuts at rest, with as many points, is still about where this stroke stopped: one that has to
   /// get on before it may go on from there waits so long.
   [[nodiscard]] bool is_near(std::span<const Vec3> row) const;
+  /// Whether a blade is noticeably further from there than it was: only then it may be through where it was not. So one
+  /// that trembles or rests is asked 20 times at most.
+  [[nodiscard]] bool has_got_on(std::span<const Vec3> from, std::span<const Vec3> to) const;
 };
 
 }  // namespace v0

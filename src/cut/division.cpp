@@ -46,7 +46,7 @@ const SplitTemplate& Divider::find(const Master& master) {
 }
 
 std::uint8_t Divider::apex_of(const Master& master) const {
-  if (complex_.has_inner_points() || master.corner_key != 0) return SplitTemplate::kMiddle;
+  if (complex_.is_in_motion() || master.corner_key != 0) return SplitTemplate::kMiddle;
   std::uint8_t apex = SplitTemplate::kMiddle;
   unsigned points = 0;
   for (unsigned s = 4; s-- > 0;) {

@@ -52,8 +52,8 @@ double mean_edge_length(const TetMesh& mesh, const ClosedComplex& complex, Verte
 /// The link of a vertex: its neighbours, joined where a tet of the star joins them.
 class LinkGraph {
  public:
-  /// `is_close(VertexId)` tells which neighbours are close to the sheet. Those on walls of older cuts that are joined
-  /// alike hang together: where the centre lies on the rim of such a cut, it is that which lies between them.
+  /// `is_close(VertexId)` tells which neighbours are close to the sheet. At rest those on walls of older cuts that are
+  /// joined alike hang together: where the centre lies on the rim of such a cut, it is that which lies between them.
   template <class IsClose>
   void build(const TetMesh& mesh, const ClosedComplex& complex, VertexId centre, std::span<const std::uint32_t> star,
              IsClose&& is_close) {
@@ -75,8 +75,7 @@ class LinkGraph {
         }
       }
     }
-    const bool is_at_rest = !complex.has_inner_points();  // docs/decisions/0172
-    if (is_at_rest) unite_walls(mesh);
+    if (!complex.is_in_motion()) unite_walls(mesh);  // docs/decisions/0172
   }
   /// Whether the neighbours on either side of the sheet form at most one connected part each.
   [[nodiscard]] bool has_two_parts_at_most() {

@@ -38,7 +38,7 @@ class StrokeCut {
   /// comes back to what it has cut through.
   void keep_pieces(bool keeps_pieces) {
     keeps_pieces_ = keeps_pieces;
-    complex_.set_inner_points(keeps_pieces);
+    complex_.set_in_motion(keeps_pieces);
   }
   /// The body has begun to move: `surface` has all walls from now on. Cost: O(walls of the band).
   void enter_material(const TetMesh& mesh) {

@@ -94,7 +94,8 @@ class Engine::Conductor {
     BladePose first_pose;
     std::size_t steps = 0;           ///< taken so far
     Continuation from = {};          ///< until it has gone on, or begins anew
-    std::vector<BladePose> waiting;  ///< all its poses until then
+    std::vector<BladePose> waiting;  ///< its poses until then, each further than those that it went on from
+    std::size_t tried = 1;           ///< so many of them, in vain; the last one may come after them
     Continuation to = {};            ///< once it has ended
     bool is_whole = false;           ///< it is cut in the body at rest, however that stands
   };
@@ -433,13 +434,17 @@ Result<CutStatistics> Engine::Conductor::go_on_from_last_stroke(const BladePose&
                                                                 StageTimes& times) {
   const Continuation from = open_.from;
   const bool is_first = open_.waiting.size() == 1;
+  open_.waiting.resize(open_.tried);
   open_.waiting.push_back(pose);
   if (is_first && cutter_.go_on(mesh_, journal_, *from.pause, from.first_step, open_.waiting.front().edge,
                                 cuts_in_motion(), open_.report.stroke)) {
     open_.from = {};
     return move_blade(pose, maintained, times);
   }
+  const bool gets_on = from.pause->has_got_on(open_.waiting[open_.tried - 1].edge, pose.edge);
+  if (may_wait() && !gets_on) return CutStatistics();
   if (const std::optional<CutStatistics> cut = go_on_through(/*ends=*/false, times)) return *cut;
+  open_.tried = open_.waiting.size();
   if (may_wait() && from.pause->is_near(pose.edge)) return CutStatistics();
   return begin_anew(maintained, times);
 }

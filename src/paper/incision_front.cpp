@@ -244,11 +244,10 @@ void IncisionFront::mark(const TetMesh& mesh, const SheetSoFar& sheet, std::uint
   const auto met = std::stable_partition(older_.begin(), older_.end(), [&](const CollisionPoint& point) {
     return !lives(mesh, point) || !lies_on(mesh, sheet, point, walker);
   });
-  sheet_of_[tag] = sheet_;
-  const Points gained(met, older_.end());
+  note_stroke(tag);
   own_.insert(own_.end(), met, older_.end());
   older_.erase(met, older_.end());
-  for (const CollisionPoint& point : gained) {
+  for (const CollisionPoint& point : own_) {
     if (point.sheet != sheet_ && lies_along(mesh, sheet, point, walker)) unite(point.sheet);
   }
   for (CollisionPoint& point : own_) point.sheet = sheet_;
@@ -365,14 +364,27 @@ void IncisionFront::unite(std::uint32_t sheet) {
   }
 }
 
+void IncisionFront::note_stroke(std::uint32_t tag) {
+  const auto at = std::lower_bound(sheet_of_.begin(), sheet_of_.end(), std::pair(tag, 0U));
+  if (at != sheet_of_.end() && at->first == tag) {
+    at->second = sheet_;
+  } else {
+    sheet_of_.insert(at, {tag, sheet_});
+  }
+}
+
+std::optional<std::uint32_t> IncisionFront::sheet_of(std::uint32_t tag) const {
+  const auto at = std::lower_bound(sheet_of_.begin(), sheet_of_.end(), std::pair(tag, 0U));
+  return at != sheet_of_.end() && at->first == tag ? std::optional(at->second) : std::nullopt;
+}
+
 bool IncisionFront::is_of_sheet(std::uint32_t tag) const {
-  const auto at = sheet_of_.find(tag);
-  return at != sheet_of_.end() && at->second == sheet_;
+  return sheet_of(tag) == sheet_;
 }
 
 bool IncisionFront::is_foreign(std::uint32_t tag, const CollisionPoint& point) const {
-  const auto at = sheet_of_.find(tag);
-  return at != sheet_of_.end() && at->second != point.sheet;
+  const std::optional<std::uint32_t> sheet = sheet_of(tag);
+  return sheet && *sheet != point.sheet;
 }
 
 /// Whether tissue joins both sides of the sheet at a point: no lip of the incision is there, or both are, as at its

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cut/strip.h"
@@ -79,13 +81,17 @@ class IncisionFront {
 
   /// An earlier sheet turns out to be the same incision as the one under way.
   void unite(std::uint32_t sheet);
+  /// Notes that the stroke with a tag is of the sheet under way.
+  void note_stroke(std::uint32_t tag);
+  /// The sheet that a stroke has cut along last; none where it is not known.
+  [[nodiscard]] std::optional<std::uint32_t> sheet_of(std::uint32_t tag) const;
   /// Whether a wall is known to be of another incision than a point.
   [[nodiscard]] bool is_foreign(std::uint32_t tag, const CollisionPoint& point) const;
   [[nodiscard]] bool is_joined(const TetMesh& mesh, const CollisionPoint& point, StarWalker& walker) const;
 
-  std::vector<CollisionPoint> own_, older_;          // ascending
-  std::uint32_t sheet_ = 0;                          // the one under way
-  std::map<std::uint32_t, std::uint32_t> sheet_of_;  // by the tag of a stroke
+  std::vector<CollisionPoint> own_, older_;                        // ascending
+  std::uint32_t sheet_ = 0;                                        // the one under way
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sheet_of_;  // by the tags of strokes, ascending
 };
 
 }  // namespace v0

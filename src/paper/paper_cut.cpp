@@ -279,8 +279,7 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
   });
 }
 
-/// Goes over the last strips of a stroke that has ended where this one does, if others have cut in between and none
-/// went on from there.
+/// Goes over the last strips of a stroke that has ended where this one does, if others have cut in between.
 Status PaperCutter::end_at_rest(const CutContext& context, EndedStroke ended) {
   const EndedStroke* met = ended_.find(ended.row, kStandsWithin * stroke_.spacing);
   Status status;
@@ -304,6 +303,7 @@ bool PaperCutter::meets_other_walls(const TetMesh& mesh, const Sheet& sheet) con
 /// Cuts along what lies within rounding of the row at which a strip begins or ends, on both sides of it: where that
 /// lies on an older wall, it meets it.
 Status PaperCutter::cut_at_row(const CutContext& context, std::span<const Vec3> row, const Strip& strip) {
+  if (row.empty()) return {};
   const double margin = kCoincident * stroke_.spacing;
   std::vector<Vec3> before, behind;
   for (std::size_t c = 0; c < row.size(); ++c) {

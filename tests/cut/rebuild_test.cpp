@@ -177,7 +177,7 @@ void expect_any_pattern_into_any_other(bool has_inner_points) {
     for (unsigned on = 0; on < 15; ++on) {
       SCOPED_TRACE(testing::Message() << flags << " " << on);
       FlaggedBody body(one_tet());
-      body.complex().set_inner_points(has_inner_points);
+      body.complex().set_in_motion(has_inner_points);
       const double volume = volume_of(body.mesh());
       for (unsigned e = 0; e < 6; ++e) {
         if (((flags >> e) & 1U) != 0) body.toggle(body.complex()[0].edges[e], random.real(0.05, 0.95));
@@ -213,7 +213,7 @@ TEST(Rebuild, gives_a_tet_with_one_crossed_edge_six_children_at_rest_and_ten_in_
   const auto count = [](bool moves, unsigned edge) {
     Random random(edge);
     FlaggedBody body(one_tet());
-    body.complex().set_inner_points(moves);
+    body.complex().set_in_motion(moves);
     body.toggle(body.complex()[0].edges[edge], 0.5);
     body.place_points(random, 0.0);
     body.rebuild();

@@ -155,6 +155,29 @@ TEST(Continuation, of_half_a_plane_behind_another_one_that_passes_its_rim) {
   }
 }
 
+/// A hand rests at the wall, trembling, before it goes on: it neither cuts nor tries again each time.
+TEST(Continuation, through_an_older_wall_waits_for_a_hand_that_rests_there) {
+  const RandomPlane plane(1);
+  Engine engine = engine_of_cube();
+  pass_through(engine, plane, 1, 20);
+  stroke(engine, plane.turned(73), -1, 0);
+  ASSERT_TRUE(engine.begin_stroke(plane.turned(73).at(0)).ok());
+  std::uint64_t resting_hash = 0;
+  for (unsigned k = 0; k < 1500; ++k) {
+    const Result<StepReport> step = engine.step(plane.turned(73).at(0.0005 * (k % 3)));
+    ASSERT_TRUE(step.ok());
+    EXPECT_EQ(step->cut.cut_tets, 0U);
+    if (k == 0) resting_hash = engine.mesh().hash();
+    if (k % 500 == 499) {
+      EXPECT_EQ(engine.mesh().hash(), resting_hash);
+    }
+  }
+  for (const double way : {0.01, 0.05, 0.2, 1.0}) ASSERT_TRUE(engine.step(plane.turned(73).at(way)).ok());
+  ASSERT_TRUE(engine.end_stroke().ok());
+  EXPECT_EQ(find_components(engine.mesh()).count(), 4U);
+  EXPECT_LE(engine.mesh().tet_count(), 1000U);
+}
+
 TEST(Continuation, through_an_older_wall_is_undone_redone_and_made_again_bit_for_bit) {
   const RandomPlane plane(1);
   Engine engine = engine_of_cube();

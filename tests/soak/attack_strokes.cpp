@@ -13,9 +13,6 @@
 namespace incise::test {
 namespace {
 
-/// A piece thinner than this many edges may be lost without blame.
-constexpr double kThin = 0.6;
-
 double mean_first_edge(const TetSoup& soup) {
   double sum = 0;
   for (const auto& t : soup.tets) sum += (soup.points[t[0]] - soup.points[t[1]]).norm();

@@ -134,8 +134,6 @@ class PassMaker {
     return std::move(attack_);
   }
 
-  /// A piece thinner than this many edges may be lost without blame.
-  static constexpr double kThin = 0.6;
   static constexpr unsigned kSteps = 28;
   static constexpr std::array<unsigned, 6> kStrokes = {1, 2, 4, 7, 14, 28};  ///< of a pass
   template <Attack (PassMaker::*kMake)()>

@@ -12,6 +12,9 @@ namespace incise::test {
 using Edge = std::vector<Vec3>;
 using Edges = std::vector<Edge>;
 
+/// A piece thinner than this many edges may be lost without blame.
+inline constexpr double kThin = 0.6;
+
 /// A part of a line.
 struct Span {
   double from, to;
