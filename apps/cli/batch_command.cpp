@@ -156,7 +156,7 @@ Command add_batch(CLI::App& root) {
   words->add_flag("--merge", a.merge, "Write results.jsonl in the plan's order; exit 4 where something is missing");
   words->add_option("--verify", a.verify, "Compute this many items again; exit 4 where a line differs")
       ->check(CLI::Range(std::uint64_t{1}, app::kMaxBatchItems));
-  words->add_option("--seed", a.seed, "Which items --verify takes");
+  add_seed(*words, a.seed, "Which items --verify takes");
   words->add_flag(
       "--retry", a.retry,
       "Compute items again that have failed, whose files are not as they were written, or whose line is no result");

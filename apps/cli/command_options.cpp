@@ -2,6 +2,7 @@
 // One function for each option, so that it has the same words and bounds in every command.
 #include "command_options.h"
 
+#include <charconv>
 #include <vector>
 
 #include "app/jobs/cut_job.h"
@@ -32,8 +33,34 @@ const CLI::Validator& names_a_file() {
   return kValidator;
 }
 
+const CLI::Validator& names_a_result() {
+  static const CLI::Validator kValidator(
+      [](std::string& name) {
+        if (name == "/dev/stdout") name = "-";
+        return names_a_file()(name);
+      },
+      "", "names a result");
+  return kValidator;
+}
+
+const CLI::Validator& is_whole() {
+  static const CLI::Validator kValidator(
+      [](std::string& text) {
+        std::uint64_t number = 0;
+        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (code != std::errc() || end != text.data() + text.size()) {
+          return "'" + text + "' is no whole number from 0 to 18446744073709551615";
+        }
+        text = std::to_string(number);  // CLI11 takes 010 for octal
+        return std::string();
+      },
+      "", "is whole");
+  return kValidator;
+}
+
 void add_report(CLI::App& command, std::string& report, bool& as_json) {
-  command.add_option("--report", report, "Write figures as JSON to this file; - for stdout")->check(names_a_file());
+  command.add_option("--report", report, "Write figures as JSON to this file; - for stdout")
+      ->transform(names_a_result());
   command.add_flag("--json", as_json, "Print the figures as JSON to stdout, instead of a few lines for people");
 }
 
@@ -46,7 +73,7 @@ void add_format(CLI::App& command, std::string& format, const std::vector<std::s
 }
 
 void add_output(CLI::App& command, MeshOutput& output) {
-  command.add_option("-o,--output", output.file, kOutputHelp)->check(names_a_file());
+  command.add_option("-o,--output", output.file, kOutputHelp)->transform(names_a_result());
   add_format(command, output.format);
 }
 

@@ -137,7 +137,7 @@ Command add_convert(CLI::App& root) {
   convert->add_option("IN", arguments->in, "File to read; - for stdin")->required();
   convert->add_option("OUT", arguments->out.file, "File to write; the extension names the format; - for stdout")
       ->required()
-      ->check(names_a_file());
+      ->transform(names_a_result());
   add_format(*convert, arguments->out.format, {"obj", "stl", "ply", "off"});
   add_json(*convert, arguments->as_json);
   return {convert, [arguments](const Terminal& terminal) { return run_convert(*arguments, terminal); }};

@@ -212,9 +212,11 @@ void warn_of_closed(const CutArguments& a, const app::CutJob& job, const app::Jo
                               " cut nothing: " + (is_across ? "no face came open" : "no tet lies across it"));
     }
     const bool touches = std::abs(parse_plane(a.plane)->offset - at) <= reach;
-    return terminal.warning("the plane " + a.plane + (touches ? " only touches the mesh" : " misses the mesh") +
-                            ": nothing was cut; d has to lie between " + shown(at - reach) + " and " +
-                            shown(at + reach) + ", where the mesh's box ends along that normal");
+    return terminal.warning(
+        "the plane " + a.plane +
+        (touches ? " only touches the mesh: no face came open" : " misses the mesh: nothing was cut") +
+        "; d has to lie between " + shown(at - reach) + " and " + shown(at + reach) +
+        ", where the mesh's box ends along that normal");
   }
   std::vector<std::uint64_t> missed = report.missed;
   if (report.cut.incision_faces > 0) {  // others may go on within a tet that is open already
@@ -316,7 +318,7 @@ Command add_cut(CLI::App& root) {
   cut->add_flag("--no-smooth-boundary", arguments->no_smooth_boundary,
                 "Of --profile paper: leave its Boundary Laplacian out (the paper's Figure 10)");
   add_report(*cut, arguments->report, arguments->as_json);
-  cut->add_option("--seed", arguments->seed, "Seed, repeated in the report");
+  add_seed(*cut, arguments->seed, "Seed, repeated in the report");
   add_threads(*cut, arguments->threads);
   cut->add_option("--record", arguments->record, "Record every step as JSON lines, for incise replay")
       ->check(names_a_file());

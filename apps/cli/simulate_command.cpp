@@ -280,7 +280,7 @@ Command add_simulate(CLI::App& root) {
       ->check(CLI::IsMember({"incise", "paper"}));
   add_budget(*simulate, s.budget_us,
              "Microseconds for maintenance per frame, 1 to 3600000000, taken as 10 work units each: no clock is read");
-  simulate->add_option("--seed", s.seed, "Seed, instead of the scene's");
+  add_seed(*simulate, s.seed, "Seed, instead of the scene's");
   simulate->add_flag("--ideal", s.is_ideal, "Show and score an exercise's ideal strokes, instead of the scene's");
   simulate->add_option("--page", s.page, "Write how an exercise went as one HTML page with drawings")
       ->check(names_a_file());

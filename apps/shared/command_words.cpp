@@ -37,6 +37,79 @@ Words::const_iterator command_word(const Words& words) {
   return std::find_if(words.begin(), words.end(), [](const auto& word) { return !word.empty() && word[0] != '-'; });
 }
 
+std::string without_dots(std::string text) {
+  while (!text.empty() && text.back() == '.') text.pop_back();
+  return text;
+}
+
+/// `text` where it begins with `before`: what follows, up to `between`, and what follows that.
+bool take_apart(const std::string& text, const std::string& before, const std::string& between, std::string& first,
+                std::string& second) {
+  const std::size_t at = text.find(between, before.size());
+  if (text.rfind(before, 0) != 0 || at == std::string::npos) return false;
+  first = text.substr(before.size(), at - before.size());
+  second = text.substr(at + between.size());
+  return true;
+}
+
+/// The words that nothing takes, in the order of the call: CLI11 gives them from the last to the first.
+std::string left_over(const std::string& listed, const Words& words) {
+  Words found;
+  for (std::size_t at = 0; at < listed.size();) {
+    const std::size_t end = std::min(listed.find(' ', at), listed.size());
+    found.insert(found.begin(), listed.substr(at, end - at));
+    at = end + 1;
+  }
+  std::string text;
+  for (const std::string& word : found) {
+    const bool is_word = std::find(words.begin(), words.end(), word) != words.end();
+    text += (text.empty() || !is_word ? "" : ", ") + word;
+  }
+  return text;
+}
+
+/// The first word that begins as an option and is none of the program's; empty where there is none.
+std::string unknown_option(const CLI::App& root, const Words& words) {
+  const Words known = options_of(root);
+  std::string letters;
+  for (const CLI::Option* option : root.get_options()) {
+    for (const std::string& name : option->get_snames()) letters += name;
+  }
+  for (const std::string& word : words) {
+    if (word.size() < 2 || word[0] != '-') continue;
+    const bool is_known = word[1] == '-'
+                              ? std::find(known.begin(), known.end(), word.substr(0, word.find('='))) != known.end()
+                              : word.find_first_not_of(letters, 1) == std::string::npos;
+    if (!is_known) return word;
+  }
+  return "";
+}
+
+/// CLI11's message in our words.
+std::string in_plain_words(const CLI::ParseError& error, const Words& words) {
+  const std::string text = error.what();
+  std::string first, second;
+  if (text == "A subcommand is required") return "no command is given";
+  if (take_apart(text, "Could not convert: ", " = ", first, second)) return first + ": '" + second + "' is no number";
+  if (take_apart(text, "", " were not expected: ", first, second) ||
+      take_apart(text, "", " was not expected: ", first, second)) {
+    return left_over(second, words) + ": not known here";
+  }
+  if (take_apart(text, "", " is required", first, second)) return first + " is missing";
+  if (take_apart(text, "", ": At Most 1 required but received ", first, second)) {
+    return first + " is given " + second + " times; once is enough";
+  }
+  if (take_apart(text, "", " not in {", first, second)) {
+    for (std::size_t at = 0; (at = second.find(',', at)) != std::string::npos; at += 2) second.replace(at, 1, ", ");
+    return first + " is none of " + second.substr(0, second.rfind('}'));
+  }
+  if (take_apart(text, "", ": Value ", first, second)) {
+    std::string value, range;
+    if (take_apart(second, "", " not in range ", value, range)) return first + ": " + value + " is not within " + range;
+  }
+  return without_dots(text);
+}
+
 }  // namespace
 
 std::string suggestion(const std::string& word, const Words& known) {
@@ -75,12 +148,15 @@ std::string unknown_command(const CLI::App& root, const Words& words) {
 
 std::string explain(const CLI::App& root, const Words& words, const CLI::ParseError& error) {
   Words known = options_of(root);
-  std::string text = error.what(), see = "; see " + root.get_name() + (has_commands(root) ? " help" : " --help");
+  std::string text = in_plain_words(error, words),
+              see = "; see " + root.get_name() + (has_commands(root) ? " help" : " --help");
   const auto command = has_commands(root) ? command_word(words) : words.end();
   if (command != words.end()) {
     const Words more = options_of(*command_named(root, *command));
     known.insert(known.end(), more.begin(), more.end());
     see += " " + *command;
+  } else if (const std::string unknown = unknown_option(root, words); !unknown.empty()) {
+    text = unknown + ": not known here";
   }
   for (const std::string& word : words) {
     const std::string name = word.substr(0, word.find('='));

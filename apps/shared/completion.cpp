@@ -45,10 +45,12 @@ std::vector<const CLI::Option*> options_at(const CLI::App& root, const CLI::App&
   return options;
 }
 
-/// What a positional of a command may be, where it is one of a set.
-Words positional_choices(const CLI::App& command) {
+/// What a positional of a command may be, where it is one of a set, or itself a command.
+Words positional_choices(const CLI::App& root, const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
-    if (option->get_positional() && !choices_of(*option).empty()) return choices_of(*option);
+    if (!option->get_positional()) continue;
+    if (option->get_name(true) == "COMMAND") return command_names(root);
+    if (!choices_of(*option).empty()) return choices_of(*option);
   }
   return {};
 }
@@ -70,7 +72,7 @@ std::string bash_case(const CLI::App& root, const CLI::App& command) {
   std::string text;
   if (!values.empty()) text += "      case $before in\n" + values + "      esac\n";
   text += "      options='" + joined(names, " ") + "'\n";
-  const Words choices = positional_choices(command);
+  const Words choices = positional_choices(root, command);
   if (!choices.empty()) text += "      words='" + joined(choices, " ") + "'\n";
   return text;
 }
@@ -123,6 +125,8 @@ std::string bash_completion(const CLI::App& root) {
       "() {\n"
       "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command= options= words= i\n"
       "  COMPREPLY=()\n"
+      "  [ \"$word\" != = ] || word=\n"
+      "  [ \"$before\" != = ] || before=${COMP_WORDS[COMP_CWORD - 2]}\n"
       "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
       "    case ${COMP_WORDS[i]} in -*) ;; *) command=${COMP_WORDS[i]} && break ;; esac\n"
       "  done\n"

@@ -81,7 +81,7 @@ bool tool_settings(Viewer& viewer) {
   const double unit = viewer.view().scene ? 1e3 * viewer.view().scene->options.body.length_unit : 1;  // mm
   bool has_changed = false, has_any = false;
   ImGui::PushItemWidth(-1);
-  const app::ToolKind tool = viewer.tools().tool();
+  const unsigned turned = app::row_of(viewer.tools().tool()).settings;
   const auto length = [&](const char* name, const char* format, double& value) {
     has_any = true;
     auto shown = static_cast<float>(value * unit);
@@ -89,12 +89,12 @@ bool tool_settings(Viewer& viewer) {
     value = static_cast<double>(shown) / unit;
     has_changed = true;
   };
-  if (tool == app::ToolKind::kScalpel || tool == app::ToolKind::kScissors || tool == app::ToolKind::kPunch) {
+  if ((turned & app::tool_setting::kDepth) != 0) {
     length("##depth", "Depth %.1f mm", settings.depth);
     hint("Drag, or Ctrl+wheel over the picture");
   }
-  if (tool == app::ToolKind::kPunch) length("##ring", "Ring %.1f mm", settings.punch_radius);
-  if (tool == app::ToolKind::kScalpel) {
+  if ((turned & app::tool_setting::kRing) != 0) length("##ring", "Ring %.1f mm", settings.punch_radius);
+  if ((turned & app::tool_setting::kAngle) != 0) {
     auto angle = static_cast<float>(settings.angle * 180 / std::numbers::pi);
     if (ImGui::DragFloat("##angle", &angle, 0.5F, -68, 68, "Angle %.0f deg")) {
       settings.angle = static_cast<double>(angle) * std::numbers::pi / 180;
@@ -102,9 +102,7 @@ bool tool_settings(Viewer& viewer) {
     }
     hint("Drag, or Shift+wheel over the picture");
   }
-  if (tool == app::ToolKind::kGrasp || tool == app::ToolKind::kHook || tool == app::ToolKind::kRetractor) {
-    length("##radius", "Grip %.1f mm", settings.grasp_radius);
-  }
+  if ((turned & app::tool_setting::kGrip) != 0) length("##radius", "Grip %.1f mm", settings.grasp_radius);
   ImGui::PopItemWidth();
   if (has_changed) viewer.tools().set(settings);
   return has_any;

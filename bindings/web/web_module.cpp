@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/hands/tool_table.h"
+#include "app/scene/tool_table.h"
 #include "app/scene/view_names.h"
 #include "app/view/color_map.h"
 #include "incise/version.h"

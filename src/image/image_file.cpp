@@ -132,7 +132,13 @@ Result<ImageFile> read_labels_bytes(std::string_view bytes, const std::string& n
 
 Result<ImageFile> read_labels(const fs::path& path) {
   const fs::path header = header_of(path);
-  const Result<std::string> bytes = io::load_file(header, kLimits);
+  const Result<std::string> bytes =
+      io::load_file_if(header, kLimits, [&](std::string_view beginning) -> std::optional<Error> {
+        if (is_gzip(beginning)) return std::nullopt;
+        const Result<ImageHeader> begun = read_header(beginning, header.string());
+        if (begun || begun.error().code != ErrorCode::kUnsupported) return std::nullopt;
+        return begun.error();
+      });
   if (!bytes) return bytes.error();
   const io::SiblingLoader sibling = [&](const std::string& name) {
     return io::load_file(present(header.parent_path() / name), kLimits);

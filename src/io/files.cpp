@@ -63,6 +63,17 @@ Status write_all(const fs::path& path, std::string_view bytes, fs::path& tempora
 }  // namespace
 
 Result<std::string> load_file(const fs::path& path, const ReadLimits& limits) {
+  return load_file_if(path, limits, {});
+}
+
+Result<std::string> load_mesh_or_surface(const fs::path& path, const ReadLimits& limits) {
+  return load_file_if(path, limits, [&path](std::string_view beginning) {
+    std::optional<Error> error = check_mesh_beginning(beginning, path.string());
+    return error && check_surface_beginning(beginning, path.string()) ? error : std::nullopt;
+  });
+}
+
+Result<std::string> load_file_if(const fs::path& path, const ReadLimits& limits, const BeginningCheck& check) {
   if (path.empty()) return Error{ErrorCode::kBadFile, "the name of the file is empty; give one"};
   std::error_code code;
   if (fs::is_directory(path, code)) {
@@ -76,11 +87,15 @@ Result<std::string> load_file(const fs::path& path, const ReadLimits& limits) {
     return io_error(ErrorCode::kBadFile, path,
                     std::string("cannot be opened (") + std::strerror(errno) + "); check the name");
   }
+  const bool is_endless = !fs::is_regular_file(path, code);  // or may be
   const auto size = fs::file_size(path, code);
   std::string bytes;
   if (!code && size <= limits.max_inflated_bytes) bytes.reserve(static_cast<std::size_t>(size) + 1);
   std::vector<char> chunk(std::size_t{1} << 18U);
   for (std::size_t got = 0; (got = std::fread(chunk.data(), 1, chunk.size(), file.get())) > 0;) {
+    if (check && is_endless && bytes.empty() && got == chunk.size()) {
+      if (std::optional<Error> error = check({chunk.data(), got})) return *std::move(error);
+    }
     if (bytes.size() + got > limits.max_inflated_bytes) {
       return io_error(ErrorCode::kOutOfMemory, path,
                       "is larger than " + std::to_string(limits.max_inflated_bytes) + " bytes; cut it into parts");
@@ -118,9 +133,8 @@ Status store_files(const std::vector<std::pair<fs::path, std::string_view>>& fil
     status = write_all(files[i].first, files[i].second, temporary[i]);
   }
   for (std::size_t i = 0; i < files.size() && status.ok(); ++i) {
-    std::error_code code;
     if (temporary[i].empty()) continue;  // written in place
-    fs::rename(temporary[i], files[i].first, code);
+    const std::error_code code = put_in_place(temporary[i], files[i].first);
     if (code)
       status = io_error(ErrorCode::kIo, files[i].first, "cannot be replaced (" + code.message() + "); is it a folder?");
   }

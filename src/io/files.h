@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -17,6 +18,10 @@
 namespace incise {
 inline namespace v0 {
 namespace io {
+
+/// The checks of `read_mesh` and of `read_surface`; `name` is for the message.
+[[nodiscard]] std::optional<Error> check_mesh_beginning(std::string_view beginning, const std::string& name);
+[[nodiscard]] std::optional<Error> check_surface_beginning(std::string_view beginning, const std::string& name);
 
 /// The bytes of `path`, or of `path` with ".gz"; gunzipped.
 [[nodiscard]] Result<std::string> load_either(const std::filesystem::path& path, const ReadLimits& limits);

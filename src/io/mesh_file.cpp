@@ -33,7 +33,13 @@ const char* unsupported_kind(std::string_view bytes) {
   if (bytes.starts_with("PK\3\4")) return "a zip archive";
   if (bytes.starts_with("\4\x22M\x18")) return "an LZ4 archive";
   if (bytes.starts_with("solid ") || bytes.starts_with("OFF") || is_binary_stl(bytes)) return kSurface;
-  if (bytes.starts_with("CDF") || bytes.starts_with("NRRD")) return "this kind of file";
+  if (bytes.starts_with("\xFD"
+                        "7zXZ"))
+    return "an xz archive";
+  if (bytes.starts_with("BZh")) return "a bzip2 archive";
+  if (bytes.starts_with("\x28\xB5\x2F\xFD")) return "a Zstandard archive";
+  if (bytes.starts_with("CDF")) return "NetCDF (.nc, .exo)";
+  if (bytes.starts_with("NRRD")) return "a label image (.nrrd; incise mesh makes a mesh of it)";
   return nullptr;
 }
 
@@ -138,22 +144,32 @@ bool run(Job& job, const MeshFormat& format) {
   return finish(job);
 }
 
+void drop_byte_order_mark(std::string_view& bytes) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (bytes.starts_with(kMark)) bytes.remove_prefix(kMark.size());
+}
+
+/// The format of a file that begins so; null, with the job's error, where it is of no use here.
+const FormatRow* format_of(Job& job) {
+  const auto refused = [&job](const char* kind) { return refuse(job, kind), nullptr; };
+  if (const char* kind = unsupported_kind(job.bytes)) return refused(kind);
+  const std::string_view trimmed = trim(job.bytes.substr(0, 64));
+  if (trimmed.starts_with("{") || trimmed.starts_with("[")) return refused("JSON");
+  const FormatRow* format = find_format(job.bytes);
+  if (format == nullptr || format->is_vague) {
+    if (const char* kind = unsupported_text(job.bytes)) return refused(kind);
+  }
+  return format != nullptr ? format : refused("this kind of file");
+}
+
 bool run(Job& job, const std::vector<MeshFormat>& own) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (job.bytes.empty()) return job.fail("the file is empty; export the mesh again");
-  if (job.bytes.starts_with(kByteOrderMark)) job.bytes.remove_prefix(kByteOrderMark.size());
+  drop_byte_order_mark(job.bytes);
   for (const MeshFormat& format : own) {
     if (format.recognises && format.read && format.recognises(job.bytes)) return run(job, format);
   }
-  if (const char* kind = unsupported_kind(job.bytes)) return refuse(job, kind);
-  const std::string_view trimmed = trim(job.bytes.substr(0, 64));
-  if (trimmed.starts_with("{") || trimmed.starts_with("[")) return refuse(job, "JSON");
-  const FormatRow* format = find_format(job.bytes);
-  if (format == nullptr || format->is_vague) {
-    if (const char* kind = unsupported_text(job.bytes)) return refuse(job, kind);
-  }
-  if (format == nullptr) return refuse(job, "this kind of file");
-  return format->read(job) && finish(job);
+  const FormatRow* format = format_of(job);
+  return format != nullptr && format->read(job) && finish(job);
 }
 
 // Messages end with a remedy, as the contract of errors asks.
@@ -180,6 +196,18 @@ Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, con
 
 }  // namespace
 
+// What only a look further on can tell is let through: comments without an end, and what lines with '*' are of.
+std::optional<Error> check_mesh_beginning(std::string_view beginning, const std::string& name) {
+  std::string converted;
+  if (ends_lines_by_return(beginning)) beginning = converted = with_line_feeds(beginning);
+  drop_byte_order_mark(beginning);
+  const std::string_view line = beginning_of(beginning).line;
+  if (is_gzip(beginning) || line.empty() || line.starts_with("*")) return std::nullopt;
+  Job job{name, beginning, {}, {}, {}, {}};
+  if (format_of(job) != nullptr) return std::nullopt;
+  return complete(std::move(job.error));
+}
+
 Result<MeshFile> read_mesh_bytes(std::string_view bytes, const std::string& name, const SiblingLoader& sibling,
                                  const ReadLimits& limits, const std::vector<MeshFormat>& own) {
   return guarded<MeshFile>(name, [&]() -> Result<MeshFile> {
@@ -197,7 +225,10 @@ Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadLimits& 
                            const std::vector<MeshFormat>& own) {
   const std::string name = path.string();
   return guarded<MeshFile>(name, [&]() -> Result<MeshFile> {
-    Result<std::string> bytes = load_file(path, limits);
+    // A format of one's own may be known by anything.
+    const BeginningCheck check =
+        own.empty() ? [&name](std::string_view b) { return check_mesh_beginning(b, name); } : BeginningCheck();
+    Result<std::string> bytes = load_file_if(path, limits, check);
     if (!bytes) return bytes.error();
     const SiblingLoader sibling = [&path, &limits](const std::string& other) {
       // TetGen asks with the whole path; *INCLUDE with one that is relative to the file.

@@ -54,16 +54,38 @@ bool is_stale(const std::string& name, const std::string& beside) {
          !is_running(process);
 }
 
+// What links lead to, whether it is there or not.
+fs::path behind_links(fs::path path) {
+  constexpr unsigned kMostLinks = 40;
+  std::error_code code;
+  for (unsigned i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, code)); ++i) {
+    const fs::path target = fs::read_symlink(path, code);
+    if (code) break;
+    path = target.is_absolute() ? target : path.parent_path() / target;
+  }
+  return path;
+}
+
 }  // namespace
 
 fs::path part_file(const fs::path& path, unsigned number) {
-  fs::path part = path;
+  fs::path part = behind_links(path);
   part += "." + std::to_string(process_number()) + "." + std::to_string(number);
   part += kPart;
   return part;
 }
 
-void remove_stale_parts(const fs::path& path) {
+std::error_code put_in_place(const fs::path& part, const fs::path& place) {
+  const fs::path target = behind_links(place);
+  std::error_code code;
+  const fs::file_status old = fs::status(target, code);
+  if (fs::is_regular_file(old)) fs::permissions(part, old.permissions(), code);  // where that fails, it is ours alone
+  fs::rename(part, target, code);
+  return code;
+}
+
+void remove_stale_parts(const fs::path& place) {
+  const fs::path path = behind_links(place);
   constexpr unsigned kNamesToLookAt = 1000;
   std::error_code code;
   unsigned looked_at = 0;

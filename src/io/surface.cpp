@@ -223,10 +223,12 @@ bool read_surface_as(std::string_view bytes, const std::string& name, Error& err
   return read_obj(in, out);
 }
 
+constexpr const char* kNoTriangles = ": holds no triangles; Incise reads .obj, .stl, .ply and .off surfaces";
+
 bool check(const std::string& name, Error& error, const SurfaceSoup& surface) {
   const auto finite = [](const Vec3& p) { return p.allFinite(); };
   const char* what = nullptr;
-  if (surface.triangles.empty()) what = ": holds no triangles; Incise reads .obj, .stl, .ply and .off surfaces";
+  if (surface.triangles.empty()) what = kNoTriangles;
   if (!std::all_of(surface.points.begin(), surface.points.end(), finite)) {
     what = ": a vertex is not finite; export the surface again";
   }
@@ -349,6 +351,24 @@ bool is_sound(const SurfaceSoup& s) {
 
 }  // namespace
 
+// An .obj has no mark of its own: a line with a vertex, and until one comes nothing but comments, tells it.
+std::optional<Error> check_surface_beginning(std::string_view beginning, const std::string& name) {
+  const std::string_view first = trim(beginning);
+  const bool is_marked = first.starts_with("ply") || first.starts_with("OFF") || same_word(first.substr(0, 5), "solid");
+  if (is_gzip(beginning) || is_marked || may_be_binary_stl(beginning, ReadLimits().max_inflated_bytes))
+    return std::nullopt;
+  bool has_other = false;
+  for (std::size_t at = 0; at < first.size();) {
+    const std::size_t end = std::min(first.find_first_of("\r\n", at), first.size());
+    const std::string_view line = trim(first.substr(at, end - at));
+    if (line.starts_with("v ") || line.starts_with("v\t")) return std::nullopt;
+    has_other = has_other || !(line.empty() || line.starts_with("#"));
+    at = end + 1;
+  }
+  if (!has_other) return std::nullopt;
+  return Error{ErrorCode::kUnsupported, name + kNoTriangles};
+}
+
 Result<SurfaceSoup> read_surface_bytes(std::string_view bytes, const std::string& name, const ReadLimits& limits) {
   return guarded<SurfaceSoup>(name, [&]() -> Result<SurfaceSoup> {
     if (!is_gzip(bytes)) return read_plain(bytes, name);
@@ -362,7 +382,8 @@ Result<SurfaceSoup> read_surface_bytes(std::string_view bytes, const std::string
 Result<SurfaceSoup> read_surface(const std::filesystem::path& path, const ReadLimits& limits) {
   const std::string name = path.string();
   return guarded<SurfaceSoup>(name, [&]() -> Result<SurfaceSoup> {
-    const Result<std::string> bytes = load_file(path, limits);
+    const Result<std::string> bytes =
+        load_file_if(path, limits, [&name](std::string_view b) { return check_surface_beginning(b, name); });
     if (!bytes) return bytes.error();
     return read_surface_bytes(*bytes, name, limits);
   });

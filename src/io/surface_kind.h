@@ -25,6 +25,14 @@ inline constexpr std::size_t kStlTriangle = 50;  ///< normal, three points, two 
          bytes.size() - kStlHeader == std::size_t{load_u32(bytes.data() + kStlHeader - 4)} * kStlTriangle;
 }
 
+/// Whether a file of at most `limit` bytes that begins so may be as long as its count says; it begins with more than a
+/// header.
+[[nodiscard]] inline bool may_be_binary_stl(std::string_view beginning, std::uint64_t limit) {
+  if (beginning.size() < kStlHeader) return false;
+  const std::uint64_t size = kStlHeader + std::uint64_t{load_u32(beginning.data() + kStlHeader - 4)} * kStlTriangle;
+  return size >= beginning.size() && size <= limit;
+}
+
 }  // namespace io
 }  // namespace v0
 }  // namespace incise

@@ -129,7 +129,7 @@ class VtuReader {
                                                       pugi::encoding_utf8);
     if (result) return true;
     return fail(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)),
-                std::string("this is no sound XML: ") + result.description());
+                std::string("the XML is not well formed: ") + result.description());
   }
 
   bool read_root() {

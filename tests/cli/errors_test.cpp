@@ -51,7 +51,7 @@ TEST_F(CliErrors, usage) {
                  "--record does not go with --profile removal");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--threads", "0"}, 2, "threads");
   expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--threads", "257"}, 2, "threads");
-  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--unknown"}, 2, "not expected");
+  expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--unknown"}, 2, "not known here");
   for (const std::string budget : {"0", "-3", "1.5", "fast", "3600000001"}) {
     expect_refused({"cut", cube_, "--plane", "1,0,0,0.5", "--budget-us=" + budget}, 2, "--budget-us");
     expect_refused({"improve", cube_, "--budget-us=" + budget}, 2, "--budget-us");
@@ -105,7 +105,7 @@ TEST_F(CliErrors, pictures_have_names_of_their_own) {
 
 TEST_F(CliErrors, improve_has_no_flags_of_cutting) {
   for (const std::string flag : {"--threads=2", "--seed=1", "--snap=0.1", "--no-merge", "--plane=1,0,0,0.5"}) {
-    expect_refused({"improve", cube_, flag}, 2, "not expected");
+    expect_refused({"improve", cube_, flag}, 2, "not known here");
   }
   expect_refused({"improve", cube_, "--profile", "best"}, 2, "profile");
 }
@@ -162,7 +162,7 @@ TEST_F(CliErrors, meshes_truncated_anywhere) {
 
 TEST_F(CliErrors, blades_that_cannot_be_read) {
   expect_refused({"cut", cube_, "--blade", folder_ / "none.json"}, 3, "none.json: no such file");
-  expect_refused({"cut", cube_, "--blade", folder_ / ""}, 3, "directory");
+  expect_refused({"cut", cube_, "--blade", folder_ / ""}, 3, "is a folder");
   const std::string head = kBladeHead;
   expect_blade_refused("", "blade.json:1: the file is empty");
   expect_blade_refused(head, "blade.json:1:");

@@ -104,6 +104,82 @@ TEST_F(CliHabits, surfaces_come_by_stdin_and_go_by_stdout) {
   EXPECT_NE(other.err.find("writes .stl files"), std::string::npos) << other.err;
 }
 
+TEST_F(CliHabits, a_pipe_that_is_no_mesh_is_refused_by_its_beginning) {
+  const std::string mesh = folder_ / "out.mesh", surface = folder_ / "out.stl";
+  for (const std::string& text :
+       {std::string("y\n"), std::string(64, '\0'), std::string("\xff\x13"), std::string("{\n")}) {
+    for (const std::vector<std::string>& command :
+         std::vector<std::vector<std::string>>{{"info", "-"},
+                                               {"check", "-"},
+                                               {"convert", "-", mesh},
+                                               {"convert", "-", surface},
+                                               {"cut", "-", "--plane", "1,0,0,0.4"},
+                                               {"mesh", "-", "--size", "1", "-o", mesh}}) {
+      const Outcome outcome = run_on_endless(text, command);
+      EXPECT_EQ(outcome.code, 3) << command[0] << ": " << outcome.err;
+      EXPECT_EQ(outcome.err.find("incise: error: stdin:"), 0U) << command[0] << ": " << outcome.err;
+    }
+  }
+}
+
+TEST_F(CliHabits, what_is_replaced_keeps_its_permissions_and_its_links) {
+  namespace fs = std::filesystem;
+  const std::string mesh = folder_.write("real.mesh", ""), link = folder_ / "link.mesh",
+                    report = folder_ / "report.json";
+  fs::permissions(mesh, fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("real.mesh", link);
+  fs::create_symlink("later.json", report);
+  ASSERT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.4", "-o", link, "--report", report, "-q"}).code, 0);
+  EXPECT_TRUE(fs::is_symlink(link) && fs::is_symlink(report));
+  EXPECT_GT(fs::file_size(mesh), 1000U);
+  EXPECT_GT(fs::file_size(folder_ / "later.json"), 1000U);
+  EXPECT_EQ(fs::status(mesh).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(fs::status(folder_ / "later.json").permissions() & fs::perms::group_exec, fs::perms::none);
+}
+
+TEST_F(CliHabits, the_device_of_stdout_is_stdout) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"convert", cube_, "/dev/stdout", "--format", "stl"},
+           {"cut", cube_, "--plane", "1,0,0,0.4", "-o", "/dev/stdout", "--format", "vtu"}}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_GT(outcome.out.size(), 1000U);
+  }
+  EXPECT_TRUE(json::accept(run({"cut", cube_, "--plane", "1,0,0,0.4", "--report", "/dev/stdout"}).out));
+}
+
+TEST_F(CliHabits, a_seed_is_a_whole_number_in_decimal_digits) {
+  const auto cut = [&](const std::string& seed) {
+    return run({"cut", cube_, "--plane", "1,0,0,0.4", "--json", "--seed", seed});
+  };
+  EXPECT_EQ(json::parse(cut("010").out)["options"]["seed"], 10);
+  EXPECT_EQ(json::parse(cut("18446744073709551615").out)["options"]["seed"], 18446744073709551615U);
+  for (const char* seed : {"-1", "1e3", "0x10", "", "18446744073709551616"}) {
+    const Outcome outcome = cut(seed);
+    EXPECT_EQ(outcome.code, 2) << seed;
+    EXPECT_NE(outcome.err.find("--seed"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(CliHabits, errors_of_usage_are_plain) {
+  const auto error = [&](std::vector<std::string> words) { return run(words).err; };
+  EXPECT_EQ(error({}), "incise: error: no command is given; see incise help\n");
+  EXPECT_EQ(error({"-x"}), "incise: error: -x: not known here; see incise help\n");
+  EXPECT_EQ(error({"cut"}), "incise: error: MESH is missing; see incise help cut\n");
+  EXPECT_EQ(error({"cut", cube_, "--plan", "1"}),
+            "incise: error: --plan, 1: not known here (did you mean --plane?); see incise help cut\n");
+  EXPECT_EQ(error({"cut", cube_, "--plane", "1", "--plane", "2"}),
+            "incise: error: --plane is given 2 times; once is enough; see incise help cut\n");
+  EXPECT_EQ(error({"cut", cube_, "--threads", "x"}).find("incise: error: --threads: "), 0U);
+  EXPECT_EQ(error({"completion", "fish"}),
+            "incise: error: SHELL: fish is none of bash, zsh; see incise help completion\n");
+}
+
+TEST_F(CliHabits, words_for_a_shell_and_pages_come_as_json_too) {
+  EXPECT_EQ(json::parse(run({"man", "cut", "--json"}).out)["page"], run({"man", "cut"}).out);
+  EXPECT_EQ(json::parse(run({"completion", "bash", "--json"}).out)["script"], run({"completion", "bash"}).out);
+}
+
 TEST_F(CliHabits, a_recording_comes_by_stdin) {
   const std::string record = folder_ / "r.jsonl";
   ASSERT_EQ(run({"cut", cube_, "--plane", "1,0,0,0.4", "--record", record, "-q"}).code, 0);
@@ -224,7 +300,7 @@ TEST_F(CliHabits, warns_of_a_plane_or_a_blade_that_misses) {
             std::string::npos)
       << plane.err;
   const Outcome beside = run({"cut", cube_, "--plane", "1,0,0,1"});
-  EXPECT_NE(beside.err.find("the plane 1,0,0,1 only touches the mesh: nothing was cut; d has to lie between 0 and 1"),
+  EXPECT_NE(beside.err.find("the plane 1,0,0,1 only touches the mesh: no face came open; d has to lie between 0 and 1"),
             std::string::npos)
       << beside.err;
   EXPECT_EQ(run({"cut", cube_, "--plane", "2,0,0,5", "-q"}).err, "");

@@ -53,7 +53,21 @@ Outcome run(const std::vector<std::string>& arguments) {
   return run_until(arguments, 0, 0);
 }
 
-Outcome run_on(const std::string& input, const std::vector<std::string>& arguments) {
+namespace {
+
+/// Whether the program has taken all.
+bool is_written_to(int pipe, const std::string& input) {
+  for (std::size_t at = 0; at < input.size();) {
+    const ssize_t written = write(pipe, input.data() + at, input.size() - at);
+    if (written <= 0) return false;
+    at += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+/// `feed(pipe)` writes what comes by stdin; the program is stopped where it returns false.
+template <class Feed>
+Outcome run_fed(const std::vector<std::string>& arguments, const Feed& feed) {
   const Folder folder;
   int ends[2] = {-1, -1};
   if (pipe(ends) != 0) return {};
@@ -64,17 +78,35 @@ Outcome run_on(const std::string& input, const std::vector<std::string>& argumen
   }
   close(ends[0]);
   const auto old = std::signal(SIGPIPE, SIG_IGN);  // it may end before it has read all
-  for (std::size_t at = 0; at < input.size();) {
-    const ssize_t written = write(ends[1], input.data() + at, input.size() - at);
-    if (written <= 0) break;
-    at += static_cast<std::size_t>(written);
-  }
+  const bool has_ended = feed(ends[1]);
+  if (!has_ended) kill(child, SIGKILL);
   close(ends[1]);
   std::signal(SIGPIPE, old);
   int status = 0;
   waitpid(child, &status, 0);
+  if (!has_ended) return {-1, "", "the program was still reading"};
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(folder / "stdout"),
           read(folder / "stderr")};
+}
+
+}  // namespace
+
+Outcome run_on(const std::string& input, const std::vector<std::string>& arguments) {
+  return run_fed(arguments, [&](int pipe) {
+    is_written_to(pipe, input);
+    return true;
+  });
+}
+
+Outcome run_on_endless(const std::string& text, const std::vector<std::string>& arguments) {
+  std::string block;
+  while (block.size() < (1U << 20U)) block += text;
+  return run_fed(arguments, [&](int pipe) {
+    for (unsigned mebibytes = 0; mebibytes < 64; ++mebibytes) {
+      if (!is_written_to(pipe, block)) return true;
+    }
+    return false;
+  });
 }
 
 Outcome run_to(const std::string& out, const std::vector<std::string>& arguments) {

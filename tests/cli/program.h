@@ -18,6 +18,8 @@ struct Outcome {
 Outcome run(const std::vector<std::string>& arguments);
 /// The same with `input` on stdin, by a pipe.
 Outcome run_on(const std::string& input, const std::vector<std::string>& arguments);
+/// The same where `text` comes again and again; -1 as the code where the program has taken 64 MiB of it.
+Outcome run_on_endless(const std::string& text, const std::vector<std::string>& arguments);
 /// The same with stdout to a file or device.
 Outcome run_to(const std::string& out, const std::vector<std::string>& arguments);
 /// The same, and sends SIGINT after `seconds`.

@@ -89,6 +89,9 @@ TEST(Completion, of_bash_knows_commands_options_and_values) {
   EXPECT_EQ(completed("incise convert a.vtu b.msh --format msh2"), "msh22\n");
   EXPECT_EQ(completed("incise completion ''"), "bash zsh\n");
   EXPECT_EQ(completed("incise help cu"), "cut\n");
+  EXPECT_EQ(completed("incise man cu"), "cut\n");
+  EXPECT_EQ(completed("incise cut --profile = pap"), "paper\n") << "bash parts --profile=pap at '='";
+  EXPECT_EQ(completed("incise cut --profile ="), "incise paper removal snapping moving adaptive seventeen minimal\n");
 }
 
 TEST(Completion, of_bash_asks_the_window_for_its_options) {

@@ -149,6 +149,24 @@ TEST(ReadMesh, an_empty_file_is_refused) {
   EXPECT_SAYS("", "empty");
 }
 
+TEST(ReadMesh, known_kinds_of_no_use_are_named) {
+  const std::vector<std::pair<std::string, std::string>> kinds = {{std::string("\xFD"
+                                                                               "7zXZ\0",
+                                                                               6),
+                                                                   "xz"},
+                                                                  {"BZh91AY", "bzip2"},
+                                                                  {"\x28\xB5\x2F\xFD.", "Zstandard"},
+                                                                  {"CDF\1", "NetCDF"},
+                                                                  {"NRRD0004\n", "incise mesh"},
+                                                                  {"PK\3\4", "zip"}};
+  for (const auto& [bytes, part] : kinds) {
+    const auto file = read_mesh_bytes(bytes, "a.x");
+    ASSERT_FALSE(file.ok());
+    EXPECT_EQ(file.error().code, ErrorCode::kUnsupported);
+    EXPECT_NE(file.error().message.find(part), std::string::npos) << file.error().message;
+  }
+}
+
 TEST(ReadMesh, unknown_formats_are_refused_with_a_list_of_the_known_ones) {
   for (const std::string& bytes :
        {std::string("{\"verts\":[]}"), std::string("\x89HDF\r\n\x1a\n"), std::string("MATLAB 5.0 MAT-file"),

@@ -3,17 +3,26 @@
 #pragma once
 
 #include <filesystem>
+#include <system_error>
 
 namespace incise {
 inline namespace v0 {
 namespace io {
 
-/// Where a file is written until it is whole: NAME.PROCESS.NUMBER.incise-part, beside its place.
+/// Where a file is written until it is whole: NAME.PROCESS.NUMBER.incise-part, beside its place; beside what links lead
+/// to.
 ///
 /// @param path    its place.
 /// @param number  tells apart what one process writes at the same time; any.
 /// Errors: none. Cost: O(1). Thread-safe.
 [[nodiscard]] std::filesystem::path part_file(const std::filesystem::path& path, unsigned number);
+
+/// Put what is whole into its place: behind links, which stay, and with the permissions of what stood there.
+///
+/// @param part   from `part_file`, on failure still there.
+/// @param place  the path that `part_file` was given.
+/// Errors: those of renaming. Cost: O(1). Thread-safe.
+[[nodiscard]] std::error_code put_in_place(const std::filesystem::path& part, const std::filesystem::path& place);
 
 /// Take away what killed processes left of earlier attempts to write a file.
 ///

@@ -5,7 +5,7 @@
 #include "app/hands/punch.h"
 #include "app/hands/scalpel.h"
 #include "app/hands/scissors.h"
-#include "app/hands/tool_table.h"
+#include "app/scene/tool_table.h"
 #include "app/view/plane_cut.h"
 
 namespace incise {
@@ -67,7 +67,10 @@ class ScalpelTool final : public HandTool {
     scalpel_.end();
     aimed_at_ = {};
   }
-  void add_to(HandState& hands) const override { hands.blade = scalpel_.pose(); }
+  void add_to(HandState& hands) const override {
+    hands.blade = scalpel_.pose();
+    hands.cuts_with = ToolKind::kScalpel;
+  }
   void draw(const Camera& camera, Marks& marks) const override {
     scalpel_.draw(marks);
     if (!scalpel_.pose()) return;

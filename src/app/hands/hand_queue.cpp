@@ -37,6 +37,7 @@ bool passes(const BladePose& from, const BladePose& to, const BladePose& place) 
 
 void HandQueue::push(const HandState& hands) {
   hooks_ = hands.hooks;
+  cuts_with_ = hands.cuts_with;
   const bool was_down = blades_.empty() ? blade_.has_value() : blades_.back().has_value();
   if (!hands.blade) {
     if (was_down) blades_.emplace_back(std::nullopt);
@@ -67,7 +68,7 @@ HandState HandQueue::pop() {
     ++popped_;
     if (blades_.empty()) passed_.clear();
   }
-  return {blade_, hooks_};
+  return {blade_, cuts_with_, hooks_};
 }
 
 void HandQueue::clear() {

@@ -26,7 +26,7 @@ class HandQueue {
   /// What the next frame gets: where nothing new was pushed, the same again.
   [[nodiscard]] HandState pop();
   /// The same for a frame in which something else has the blade: the hand's waits.
-  [[nodiscard]] HandState pop_hooks() const { return {std::nullopt, hooks_}; }
+  [[nodiscard]] HandState pop_hooks() const { return {std::nullopt, cuts_with_, hooks_}; }
   /// Hands off.
   void clear();
   /// Whether every place of the blade has been popped.
@@ -40,6 +40,7 @@ class HandQueue {
 
   std::deque<std::optional<BladePose>> blades_;  // to come
   std::optional<BladePose> blade_;               // of the last frame
+  ToolKind cuts_with_ = ToolKind::kScalpel;      // the tool of the latest
   std::vector<BladePose> passed_;                // left out between the last place but one and the last one
   std::vector<Hook> hooks_;
   std::uint64_t popped_ = 0;  // places of the blade, those that were cleared included

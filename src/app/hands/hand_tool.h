@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/tool_table.h"
 #include "app/view/camera.h"
 #include "app/view/picking.h"
 #include "app/view/picture.h"
@@ -58,8 +59,9 @@ struct ToolContext {
 
 /// What the hands want of the simulation until they want something else.
 struct HandState {
-  std::optional<BladePose> blade;  ///< of the scalpel while it cuts
-  std::vector<Hook> hooks;         ///< what is grasped, and every pin
+  std::optional<BladePose> blade;           ///< while a tool cuts
+  ToolKind cuts_with = ToolKind::kScalpel;  ///< the tool whose the blade is
+  std::vector<Hook> hooks;                  ///< what is grasped, and every pin
 };
 
 /// Where the pointer is at one moment of a drag.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/hands/hand_tool.h"
-#include "app/hands/tool_table.h"
+#include "app/scene/tool_table.h"
 
 namespace incise {
 inline namespace v0 {

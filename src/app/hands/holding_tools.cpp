@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/hands/grip.h"
-#include "app/hands/tool_table.h"
+#include "app/scene/tool_table.h"
 
 namespace incise {
 inline namespace v0 {

@@ -8,10 +8,6 @@ namespace incise {
 inline namespace v0 {
 namespace app {
 
-/// A punch is twisted while it is pressed, else soft tissue gives way below it: its edge moves so much faster along
-/// itself.
-inline constexpr double kPunchTwist = 6;
-
 /// The way of a punch at a place of the surface, in 0.8 s: a ring of `punch_radius` goes straight in, and draws
 /// together on its axis on the last fifth of the depth. What is inside comes off as a piece of its own.
 [[nodiscard]] Stroke punch_stroke(const Vec3& point, const Vec3& normal, const ToolSettings& settings);

@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kRadPerDegree = std::numbers::pi / 180;
 
-static_assert(kHandTools.size() == kToolCount);
-
 double stiffest_material(const Scene& scene) {
   double young = scene.options.materials.fallback.young;
   for (const Materials::Entry& entry : scene.options.materials.by_region) young = std::max(young, entry.material.young);
@@ -38,10 +36,7 @@ ToolSettings settings_for(const Scene& scene, const Box& body) {
 }
 
 std::optional<ToolKind> tool_for(const Scene& scene) {
-  if (scene.hand && !scene.hand->tool.empty()) {
-    const auto found = std::find(kHandTools.begin(), kHandTools.end(), scene.hand->tool);
-    if (found != kHandTools.end()) return static_cast<ToolKind>(found - kHandTools.begin());
-  }
+  if (scene.hand && scene.hand->tool) return scene.hand->tool;
   return scene.exercise ? std::optional(ToolKind::kScalpel) : std::nullopt;
 }
 

@@ -259,8 +259,8 @@ const HandState& ToolMachine::hands() const {
 
 bool ToolMachine::is_pulling() const {
   HandState pulled;
-  for (const ToolKind kind : {ToolKind::kGrasp, ToolKind::kHook, ToolKind::kRetractor}) {
-    state_->tool_of(kind)->add_to(pulled);
+  for (std::size_t i = 0; i < kToolCount; ++i) {
+    if (kTools[i].pulls) state_->tools[i]->add_to(pulled);
   }
   return !pulled.hooks.empty();
 }

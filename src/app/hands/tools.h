@@ -9,7 +9,7 @@
 #include <string>
 
 #include "app/hands/hand_tool.h"
-#include "app/hands/tool_table.h"
+#include "app/scene/tool_table.h"
 
 namespace incise {
 inline namespace v0 {
@@ -56,7 +56,7 @@ class ToolMachine {
   [[nodiscard]] bool is_busy() const;       ///< a drag is under way
   [[nodiscard]] bool is_on_tissue() const;  ///< the pointer is, and nothing is under way
   [[nodiscard]] const HandState& hands() const;
-  /// Whether something pulls at tissue: forceps, hooks, retractors; pins hold it where it is.
+  /// Whether something pulls at tissue, see `ToolRow::pulls`; pins hold it where it is.
   [[nodiscard]] bool is_pulling() const;
   /// A stroke that a tool wants made by itself: a plane cut that was let go (one second from outside the body to
   /// outside), or a punch.

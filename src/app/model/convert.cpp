@@ -65,7 +65,7 @@ bool is_surface_extension(const fs::path& path) {
 
 Result<BoundaryOf> read_boundary(const fs::path& in) {
   Result<std::string> bytes = std::string();
-  if (is_stdin(in)) bytes = io::load_file(in);  // it comes once
+  if (is_stdin(in)) bytes = io::load_mesh_or_surface(in);  // it comes once
   if (!bytes.ok()) return bytes.error();
   Result<io::MeshFile> file = is_stdin(in) ? io::read_mesh_bytes(*bytes, in.string()) : io::read_mesh(in);
   if (file.ok()) return boundary_of(std::move(file).value(), in);

@@ -110,11 +110,10 @@ struct SceneSettle {
 
 /// Regions that a tool under a person's hand does not cut.
 struct SpareRule {
-  std::string tool;                     ///< one of `kCuttingTools`; empty: each of them
+  std::optional<ToolKind> tool;         ///< one that cuts; none: each of them
   std::vector<std::int32_t> stop_at;    ///< regions that its edge is held outside of, see `RegionGuard`
   std::vector<std::string> stop_names;  ///< more of them, until `take_model` knows their numbers
 };
-inline constexpr std::array<std::string_view, 4> kCuttingTools = {"scalpel", "plane cut", "scissors", "punch"};
 
 struct Scene {
   std::string name;

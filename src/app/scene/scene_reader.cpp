@@ -393,6 +393,16 @@ class SceneHandsReader : public SceneOptionsReader {
   }
 
  protected:
+  /// `tool` stays as it is where the value has none.
+  bool read_tool_name(const JsonValue& value, const std::string& path, bool has_to_cut, std::optional<ToolKind>& tool) {
+    std::string name;
+    const JsonValue* given = value.find("tool");
+    if (given == nullptr) return true;
+    if (!read_.optional_text(value, path, "tool", name)) return false;
+    tool = tool_named(name);
+    if (tool && (!has_to_cut || row_of(*tool).cuts)) return true;
+    return read_.fail(*given, under(path, "tool"), "must be one of " + scene_tool_names(has_to_cut));
+  }
   /// A time that is 0 or more, and after the one before it.
   bool read_time(const JsonValue& value, const std::string& path, std::vector<double>& times) {
     double t = 0;
@@ -508,18 +518,14 @@ class SceneHandsReader : public SceneOptionsReader {
   }
   bool read_spare(const JsonValue& value, const std::string& path) {
     SpareRule& rule = scene_.spare.emplace_back();
-    if (!read_.is_object(value, path, {"tool", "stop_at"}) || !read_.optional_text(value, path, "tool", rule.tool) ||
+    if (!read_.is_object(value, path, {"tool", "stop_at"}) || !read_tool_name(value, path, true, rule.tool) ||
         !read_stops(read_, value, path, rule.stop_at, rule.stop_names)) {
       return false;
     }
     if (rule.stop_at.empty() && rule.stop_names.empty()) {
       return read_.fail(value, path, "names no regions; give them as \"stop_at\"");
     }
-    const bool is_known =
-        rule.tool.empty() || std::find(kCuttingTools.begin(), kCuttingTools.end(), rule.tool) != kCuttingTools.end();
-    return is_known || read_.fail(value, path,
-                                  "has no tool that cuts; \"tool\" may be \"scalpel\", \"plane cut\", "
-                                  "\"scissors\" or \"punch\", or be left out for all of them");
+    return true;
   }
   /// How the strokes of one blade lie in time.
   struct Timing {
@@ -766,20 +772,12 @@ class SceneHandReader : public SceneViewReader {
     HandPreset& hand = scene_.hand.emplace();
     constexpr Range kTilt{-HandPreset::kMostTilt, HandPreset::kMostTilt};
     return read_.is_object(*value, "hand", {"tool", "depth", "angle", "ring", "grip"}) &&
-           read_hand_tool(*value, hand.tool) && read_if(*value, "depth", kBoundedAbove0, hand.depth) &&
+           read_tool_name(*value, "hand", false, hand.tool) && read_if(*value, "depth", kBoundedAbove0, hand.depth) &&
            read_if(*value, "angle", kTilt, hand.angle) && read_if(*value, "ring", kBoundedAbove0, hand.ring) &&
            read_if(*value, "grip", kBoundedAbove0, hand.grip);
   }
 
  private:
-  bool read_hand_tool(const JsonValue& hand, std::string& tool) {
-    if (!read_.optional_text(hand, "hand", "tool", tool)) return false;
-    const bool is_known = std::find(kHandTools.begin(), kHandTools.end(), tool) != kHandTools.end();
-    if (is_known || hand.find("tool") == nullptr) return true;
-    std::string all;
-    for (const std::string_view name : kHandTools) all += (all.empty() ? "" : ", ") + std::string(name);
-    return read_.fail(*hand.find("tool"), "hand.tool", "must be one of " + all);
-  }
   bool read_if(const JsonValue& hand, std::string_view key, const Range& range, std::optional<double>& out) {
     const JsonValue* value = hand.find(key);
     return value == nullptr || read_.ranged(*value, under("hand", key), range, out.emplace());

@@ -166,7 +166,7 @@ Json json_of(const SceneStroke& s) {
 
 Json json_of(const SpareRule& rule) {
   Json root = Json::object();
-  if (!rule.tool.empty()) root["tool"] = rule.tool;
+  if (rule.tool) root["tool"] = scene_name_of(*rule.tool);
   for (const std::int32_t region : rule.stop_at) root["stop_at"].push_back(region);
   for (const std::string& name : rule.stop_names) root["stop_at"].push_back(name);
   return root;
@@ -204,7 +204,7 @@ Json json_of(const SceneView& view) {
 
 Json json_of(const HandPreset& hand) {
   Json root = Json::object();
-  if (!hand.tool.empty()) root["tool"] = hand.tool;
+  if (hand.tool) root["tool"] = scene_name_of(*hand.tool);
   add_if(hand.depth, "depth", root);
   add_if(hand.angle, "angle", root);
   add_if(hand.ring, "ring", root);

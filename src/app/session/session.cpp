@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/hands/grip.h"
-#include "app/hands/punch.h"
 #include "app/session/session_state.h"
 #include "app/text/formatted.h"
 #include "app/text/json_write.h"
@@ -85,12 +84,9 @@ namespace {
 
 /// Regions that a tool under a hand is held outside of.
 std::vector<std::int32_t> spared_by(const Scene& scene, ToolKind tool) {
-  std::string name = name_of(tool);
-  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  const bool cuts = std::find(kCuttingTools.begin(), kCuttingTools.end(), name) != kCuttingTools.end();
   std::vector<std::int32_t> regions;
   for (const SpareRule& rule : scene.spare) {
-    if (cuts && (rule.tool.empty() || rule.tool == name)) {
+    if (row_of(tool).cuts && rule.tool.value_or(tool) == tool) {
       regions.insert(regions.end(), rule.stop_at.begin(), rule.stop_at.end());
     }
   }
@@ -138,7 +134,7 @@ void Session::State::choose_blade(const HandState& hands, FrameInput& input) {
   if (hands.blade) {
     source = BladeSource::kHand;
     input.blade = hands.blade;
-    stop_at = spared_by(scene, ToolKind::kScalpel);
+    stop_at = spared_by(scene, hands.cuts_with);
   }
   const bool changes_hands =
       source != blade_source && source != BladeSource::kNone && blade_source != BladeSource::kNone;
@@ -257,7 +253,7 @@ void Session::follow(const Stroke& stroke, std::optional<ToolKind> tool) {
       s.followed->strokes.empty() ? 0 : s.followed->strokes.back().stroke.times.back() + kPauses * frame;
   SceneStroke& added = s.followed->strokes.emplace_back(SceneStroke{stroke, Vec3::Zero()});
   if (tool) added.stop_at = spared_by(s.scene, *tool);
-  if (tool == ToolKind::kPunch) added.slicing = kPunchTwist;
+  if (tool) added.slicing = row_of(*tool).slicing;
   for (double& time : added.stroke.times) time += begin - stroke.times.front();
   s.followed->frames = static_cast<std::uint64_t>(added.stroke.times.back() / frame) + 2;
 }

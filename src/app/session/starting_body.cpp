@@ -137,7 +137,7 @@ Scene organ_scene(StartingBody organ, const fs::path& mesh, const Box& body) {
   scene.has_materials_by_name = false;
   scene.options.body.length_unit = kOrganUnit;
   scene.options.engine.maintain.work_units = 20'000;
-  scene.hand.emplace().tool = "scalpel";
+  scene.hand.emplace().tool = ToolKind::kScalpel;
   SceneView& view = scene.view.emplace();
   Material& material = scene.options.materials.fallback;
   if (organ == StartingBody::kLiver) {
@@ -197,7 +197,7 @@ Scene skin_patch() {
   view.from = Vec3(0.35, -1, 0.9);
   view.has_drapes = true;
   view.is_demonstration = true;
-  scene.hand = HandPreset{"scalpel", kShownDepth, {}, {}, {}};
+  scene.hand = HandPreset{ToolKind::kScalpel, kShownDepth, {}, {}, {}};
   return scene;
 }
 

@@ -80,7 +80,7 @@ Result<Scene> venotomy_scene(const std::filesystem::path& folder) {
                           {kFarWall, "far wall", HalfSpace{Vec3::UnitZ(), 0}}};
   scene->frames = static_cast<std::uint64_t>(kSeconds / scene->options.frame_seconds);
   scene->exercise = venotomy();
-  scene->hand = HandPreset{"scalpel", 4, {}, {}, {}};
+  scene->hand = HandPreset{ToolKind::kScalpel, 4, {}, {}, {}};
   return scene;
 }
 

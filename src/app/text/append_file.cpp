@@ -12,6 +12,7 @@
 
 #include "app/text/part_file.h"
 #include "app/text/write_all.h"
+#include "incise/io/part_file.h"
 
 namespace incise {
 inline namespace v0 {
@@ -52,7 +53,7 @@ Status AppendFile::append(std::string_view text) {
 Status AppendFile::open_and_write(std::string_view text) {
   std::error_code code;
   const fs::file_status status = fs::status(path_, code);
-  if (fs::is_directory(status)) return write_error(path_, "it is a directory; name a file");
+  if (fs::is_directory(status)) return write_error(path_, "it is a folder; give a file in it");
   if (!fs::exists(status) || fs::is_regular_file(status)) return create(text);
   file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
   return file_ < 0 ? write_error(path_) : write_all(file_, text, path_);
@@ -65,7 +66,7 @@ Status AppendFile::create(std::string_view text) {
   if (file_ < 0) return write_error(path_);
   std::error_code code;
   Status status = write_all(file_, text, path_);
-  if (status.ok()) fs::rename(beside, path_, code);
+  if (status.ok()) code = io::put_in_place(beside, path_);
   if (status.ok() && code) status = write_error(path_, code);
   if (!status.ok()) fs::remove(beside, code);
   return status;

@@ -13,6 +13,7 @@
 
 #include "app/text/part_file.h"
 #include "app/text/write_all.h"
+#include "incise/io/part_file.h"
 
 namespace incise {
 inline namespace v0 {
@@ -49,7 +50,7 @@ Status check_readable(const fs::path& path) {
   const fs::file_status status = fs::status(path, code);
   if (path.empty()) return Error{ErrorCode::kBadFile, "the name of the file is empty; give one", {}};
   if (!fs::exists(status)) return bad_file(path, "no such file; check the path");
-  if (fs::is_directory(status)) return bad_file(path, "is a directory; name a file");
+  if (fs::is_directory(status)) return bad_file(path, "is a folder; give a file in it");
   if (::access(path.c_str(), R_OK) == 0) return {};
   return bad_file(path, std::string("cannot be opened: ") + std::strerror(errno));
 }
@@ -72,14 +73,14 @@ Result<std::string> read_text_file(const fs::path& path, std::size_t max_bytes) 
 Status write_text_file(const fs::path& path, std::string_view text) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
-  if (fs::is_directory(status)) return io_error(path, "is a directory; name a file");
+  if (fs::is_directory(status)) return io_error(path, "is a folder; give a file in it");
   if (fs::exists(status) && !fs::is_regular_file(status)) {  // a pipe or a device
     return write_and_close(::open(path.c_str(), O_WRONLY | O_CLOEXEC), text, path);
   }
   fs::path beside;
   const int file = open_part(path, beside);
   Status written = write_and_close(file, text, path);
-  if (written.ok()) fs::rename(beside, path, code);
+  if (written.ok()) code = io::put_in_place(beside, path);
   if (written.ok() && code) written = write_error(path, code);
   if (!written.ok() && file >= 0) fs::remove(beside, code);
   return written;

@@ -43,15 +43,14 @@ bool FirstSteps::speaks_of(ToolKind tool) const {
       return tool == ToolKind::kScalpel;
     case Step::kOpen:
     case Step::kOpenAgain:
-      return tool == ToolKind::kScalpel || tool == ToolKind::kGrasp || tool == ToolKind::kHook ||
-             tool == ToolKind::kRetractor;
+      return tool == ToolKind::kScalpel || row_of(tool).pulls;
     default:
       return true;
   }
 }
 
 std::string_view FirstSteps::text(ToolKind in_hand) const {
-  if (!speaks_of(in_hand)) return kTools[static_cast<std::size_t>(in_hand)].text;
+  if (!speaks_of(in_hand)) return row_of(in_hand).text;
   constexpr std::array<std::string_view, 7> kTexts = {
       "Press on the skin and drag: you hold the scalpel",
       "Press on the skin and drag: you hold the scalpel",

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "app/hands/tool_table.h"
+#include "app/scene/tool_table.h"
 
 namespace incise {
 inline namespace v0 {

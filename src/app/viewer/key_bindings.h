@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/hands/tool_table.h"
+#include "app/scene/tool_table.h"
 
 namespace incise {
 inline namespace v0 {

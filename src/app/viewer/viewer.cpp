@@ -114,7 +114,7 @@ void Viewer::handle(const PointerEvent& event, const Viewport& viewport) {
   if (event.kind != PointerEvent::Kind::kMove && event.kind != PointerEvent::Kind::kRelease) s.end_demonstration();
   PointerEvent seen = event;
   const bool is_press = event.kind == PointerEvent::Kind::kPress && event.button == PointerEvent::Button::kLeft;
-  const bool is_looking = kTools[static_cast<std::size_t>(s.tools.tool())].only_looks;
+  const bool is_looking = row_of(s.tools.tool()).only_looks;
   const bool only_looks = event.alt || (is_looking && !event.shift);  // with Shift every tool grasps
   const bool is_watched = !s.options.mouse_is_hand || s.session.view().is_replay;
   if (is_press && is_watched && !only_looks) {
@@ -143,7 +143,7 @@ void Viewer::State::end_demonstration() {
 void Viewer::State::choose_cursor(const PointerEvent& event) {
   if (event.kind == PointerEvent::Kind::kRelease) return;
   const bool is_watched = !options.mouse_is_hand || session.view().is_replay;
-  const bool only_looks = kTools[static_cast<std::size_t>(tools.tool())].make == nullptr;
+  const bool only_looks = row_of(tools.tool()).make == nullptr;
   if (event.alt || only_looks || is_watched) {
     cursor = Cursor::kHand;
   } else if (tools.is_busy() || tools.is_on_tissue()) {

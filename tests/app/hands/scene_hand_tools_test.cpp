@@ -23,10 +23,12 @@ TEST(SceneHandTools, scenes_call_the_tools_by_their_names_in_small_letters) {
   for (std::size_t i = 0; i < kToolCount; ++i) {
     std::string name = kTools[i].name;
     name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
-    EXPECT_EQ(kHandTools[i], name);
+    const auto tool = static_cast<ToolKind>(i);
+    EXPECT_EQ(scene_name_of(tool), name);
+    EXPECT_EQ(tool_named(name), tool);
     Scene scene;
-    scene.hand.emplace().tool = name;
-    EXPECT_EQ(tool_for(scene), static_cast<ToolKind>(i));
+    scene.hand.emplace().tool = tool;
+    EXPECT_EQ(tool_for(scene), tool);
   }
 }
 
@@ -68,7 +70,7 @@ TEST(SceneHandTools, an_exercise_of_a_flat_angle_tilts_no_further_than_tools_go)
 
 TEST(SceneHandTools, what_the_scene_says_of_the_hand_comes_before_all) {
   Scene scene = scene_with_exercise();
-  scene.hand = HandPreset{"punch", 15, -10, 4, 6};
+  scene.hand = HandPreset{ToolKind::kPunch, 15, -10, 4, 6};
   EXPECT_EQ(tool_for(scene), ToolKind::kPunch);
   const ToolSettings settings = settings_for(scene, kBlock);
   EXPECT_EQ(settings.depth, 15);

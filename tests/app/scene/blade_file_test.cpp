@@ -130,7 +130,7 @@ TEST(BladeFile, names_lines_and_files) {
   EXPECT_NE(missing.error().message.find("no/such/blade.json: no such file"), std::string::npos);
   const auto folder = app::read_blade(INCISE_SCENES);
   ASSERT_FALSE(folder.ok());
-  EXPECT_NE(folder.error().message.find("is a directory"), std::string::npos);
+  EXPECT_NE(folder.error().message.find("is a folder"), std::string::npos);
 }
 
 TEST(BladeFile, strokes_may_stop_at_regions) {

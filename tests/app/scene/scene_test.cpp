@@ -114,7 +114,7 @@ TEST(Scene, reads_the_exercise_and_its_ideal) {
 
 TEST(Scene, reads_what_is_in_hand) {
   const app::HandPreset hand = parsed(full_scene()).hand.value();
-  EXPECT_EQ(hand.tool, "punch");
+  EXPECT_EQ(hand.tool, app::ToolKind::kPunch);
   EXPECT_EQ(hand.depth, 0.4);
   EXPECT_EQ(hand.angle, -20);
   EXPECT_EQ(hand.ring, 0.15);
@@ -122,7 +122,7 @@ TEST(Scene, reads_what_is_in_hand) {
   Json json = least_scene();
   json["hand"] = Json::object();
   const app::HandPreset empty = parsed(json).hand.value();
-  EXPECT_TRUE(empty.tool.empty());
+  EXPECT_FALSE(empty.tool.has_value());
   EXPECT_FALSE(empty.depth || empty.angle || empty.ring || empty.grip);
 }
 
@@ -666,6 +666,24 @@ int compare_defaults(const Json& object, const Json& found, const std::string& p
     }
   }
   return compared;
+}
+
+TEST(SceneSchema, names_the_tools_of_the_table) {
+  std::vector<std::string> all, cutting;
+  for (std::size_t i = 0; i < app::kToolCount; ++i) {
+    all.push_back(app::scene_name_of(static_cast<app::ToolKind>(i)));
+    if (app::kTools[i].cuts) cutting.push_back(all.back());
+  }
+  EXPECT_EQ(schema().at("/properties/hand/properties/tool/enum"_json_pointer), all);
+  EXPECT_EQ(schema().at("/properties/spare/items/properties/tool/enum"_json_pointer), cutting);
+}
+
+TEST(SceneSchema, names_the_kinds_of_what_presses) {
+  std::set<std::string> kinds = {"name", "plane"};
+  for_each_tool_kind([&](const auto& shape) {
+    if (shape.kMoves) kinds.insert(shape.kName);
+  });
+  EXPECT_EQ(keys_of(schema().at("/properties/tools/items"_json_pointer)), kinds);
 }
 
 TEST(SceneSchema, has_the_same_defaults_as_the_reader) {

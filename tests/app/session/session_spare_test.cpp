@@ -116,15 +116,18 @@ TEST(SessionSpare, scenes_are_written_with_it_and_say_what_is_wrong) {
   const Result<Scene> again = parse_scene(to_json(*scene), "again.json");
   ASSERT_TRUE(again.ok()) << again.error().message;
   ASSERT_EQ(again->spare.size(), 2U);
-  EXPECT_EQ(again->spare[0].tool, "plane cut");
+  EXPECT_EQ(again->spare[0].tool, ToolKind::kPlaneCut);
   EXPECT_EQ(again->spare[0].stop_at, std::vector<std::int32_t>{2});
   EXPECT_EQ(again->spare[0].stop_names, std::vector<std::string>{"liver"});
-  EXPECT_EQ(again->spare[1].tool, "");
+  EXPECT_EQ(again->spare[1].tool, std::nullopt);
   const auto message = [](const std::string& wrong) {
     const Result<Scene> read = parse_scene(block(wrong), "block.json");
     return read.ok() ? std::string() : read.error().message;
   };
-  EXPECT_NE(message(R"(, "spare": [{"tool": "hammer", "stop_at": [2]}])").find("\"scissors\""), std::string::npos);
+  EXPECT_NE(message(R"(, "spare": [{"tool": "hammer", "stop_at": [2]}])")
+                .find("must be one of scalpel, plane cut, scissors, punch"),
+            std::string::npos);
+  EXPECT_NE(message(R"(, "spare": [{"tool": "forceps", "stop_at": [2]}])").find("must be one of"), std::string::npos);
   EXPECT_NE(message(R"(, "spare": [{"tool": "scalpel"}])").find("names no regions"), std::string::npos);
   EXPECT_NE(message(R"(, "spare": [{"stop_at": [2], "depth": 1}])").find("depth"), std::string::npos);
   const Result<Session> opened = Session::open(parse_scene(block(spare), "block.json").value());
