@@ -85,20 +85,33 @@ bool is_obj(std::string_view bytes) {
   return has("v ") && (has("f ") || has("vn ") || has("vt ") || has("mtllib ") || has("o ") || has("g "));
 }
 
+/// The numbers of the first two lines that have any, without comments.
+struct FirstNumbers {
+  std::vector<double> first, second;
+};
+FirstNumbers first_numbers(std::string_view bytes) {
+  FirstNumbers found;
+  any_line(bytes, [&](std::string_view line) {
+    line = trim(line.substr(0, line.find('#')));
+    if (line.empty()) return false;
+    const bool is_second = !found.first.empty();
+    (is_second ? found.second : found.first) = numbers_in(line);
+    return is_second || found.first.empty();
+  });
+  return found;
+}
+
+/// Points in space, or tets of four or ten nodes.
+bool may_be_tetgen(const std::vector<double>& first) {
+  return first.size() > 1 && (first[1] == 3 || first[1] == 4 || first[1] == 10);
+}
+
 /// What a text that begins with numbers alone is, where that is known and of no use here.
 const char* unsupported_numbers(std::string_view bytes) {
-  std::vector<double> first, second;
-  any_line(bytes, [&](std::string_view line) {
-    line = trim(line.substr(0, line.find('#')));  // without its comment
-    if (line.empty()) return false;
-    const bool is_second = !first.empty();
-    (is_second ? second : first) = numbers_in(line);
-    return is_second || first.empty();
-  });
+  const auto [first, second] = first_numbers(bytes);
   if (first.size() == 1 && first[0] == -1) return "I-DEAS universal (.unv)";
   if (first.size() == 5) return "AVS UCD (.inp)";
-  const bool is_tetgen = first.size() > 1 && (first[1] == 3 || first[1] == 4 || first[1] == 10);
-  if (first.size() != 3 || is_tetgen) return nullptr;
+  if (first.size() != 3 || may_be_tetgen(first)) return nullptr;
   const bool is_plane = second.size() == 3;  // a vertex and its label
   return is_plane ? "FreeFem (.msh of a plane mesh)" : "FreeFem (.msh of a mesh in space)";
 }
@@ -204,7 +217,12 @@ std::optional<Error> check_mesh_beginning(std::string_view beginning, const std:
   const std::string_view line = beginning_of(beginning).line;
   if (is_gzip(beginning) || line.empty() || line.starts_with("*")) return std::nullopt;
   Job job{name, beginning, {}, {}, {}, {}};
-  if (format_of(job) != nullptr) return std::nullopt;
+  const FormatRow* format = format_of(job);
+  if (format != nullptr && format->is_vague && !may_be_tetgen(first_numbers(beginning).first)) {
+    refuse(job, "this kind of file");
+  } else if (format != nullptr) {
+    return std::nullopt;
+  }
   return complete(std::move(job.error));
 }
 

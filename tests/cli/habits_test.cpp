@@ -106,8 +106,8 @@ TEST_F(CliHabits, surfaces_come_by_stdin_and_go_by_stdout) {
 
 TEST_F(CliHabits, a_pipe_that_is_no_mesh_is_refused_by_its_beginning) {
   const std::string mesh = folder_ / "out.mesh", surface = folder_ / "out.stl";
-  for (const std::string& text :
-       {std::string("y\n"), std::string(64, '\0'), std::string("\xff\x13"), std::string("{\n")}) {
+  for (const std::string& text : {std::string("y\n"), std::string(64, '\0'), std::string("\xff\x13"),
+                                  std::string("{\n"), std::string("1\n"), std::string("1 2 3 4\n")}) {
     for (const std::vector<std::string>& command :
          std::vector<std::vector<std::string>>{{"info", "-"},
                                                {"check", "-"},
