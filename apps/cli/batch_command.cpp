@@ -129,7 +129,9 @@ int run_batch(const BatchArguments& arguments, const Terminal& terminal) {
     return fail(terminal, arguments.folder + ": the folder that it is in does not exist; create it first", kFailure);
   }
   const Result<app::BatchPlan> plan = app::read_batch_plan(arguments.plan);
-  if (!plan.ok()) return fail(terminal, plan.error(), kBadInput);
+  if (!plan.ok()) {
+    return fail(terminal, explain_kind(plan.error(), arguments.plan, FileKind::kPlan), kBadInput);
+  }
   if (!arguments.merge && arguments.verify == 0) return compute(arguments, *plan, terminal);
   const int code = arguments.merge ? merge(arguments, *plan, terminal) : int{kDone};
   return code == kDone && arguments.verify > 0 ? verify(arguments, *plan, terminal) : code;

@@ -321,10 +321,10 @@ Command add_cut(CLI::App& root) {
   add_seed(*cut, arguments->seed, "Seed, repeated in the report");
   add_threads(*cut, arguments->threads);
   cut->add_option("--record", arguments->record, "Record every step as JSON lines, for incise replay")
-      ->check(names_a_file());
+      ->transform(names_a_result());
   add_fine(*cut, arguments->fine);
   cut->add_option("--picture", arguments->picture, "Draw the result to this PNG; needs OpenGL, but no display")
-      ->check(names_a_file());
+      ->transform(names_a_result());
   add_budget(
       *cut, arguments->budget_us,
       "Microseconds for maintenance per stroke, 1 to 3600000000; what is left over may be spent later, what is not "

@@ -53,6 +53,7 @@ Kind kind_of(const std::string& file) {
   if (format == "incise-recording" || format == "incise-simulation") {
     return {FileKind::kRecording, "is a recording; run it again with incise replay"};
   }
+  if (format == "incise-plan") return {FileKind::kPlan, "is the plan of a batch; run it with incise batch"};
   if (format.rfind("incise-", 0) == 0)
     return {FileKind::kReport, "is a report of incise (" + format + "); read it as JSON"};
   const Result<io::MeshFile> mesh = io::read_mesh(file);

@@ -14,7 +14,7 @@ namespace incise_cli {
 [[nodiscard]] std::string name_of_input(const std::string& argument);
 
 /// The kinds of files that commands read.
-enum class FileKind { kUnknown, kMesh, kScene, kBlade, kRecording, kReport };
+enum class FileKind { kUnknown, kMesh, kScene, kBlade, kRecording, kPlan, kReport };
 
 /// Says of a file that could not be read as what the command wants that it is something else, and what to do with it;
 /// the error as it came where it is not, or cannot be told. Cost: reads the file once more.

@@ -155,7 +155,9 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   app::OrganJob job = job_of(arguments);
   Watch watch;
   Result<app::OrganInput> input = app::read_organ(job);
-  if (!input.ok()) return fail(terminal, explained(input.error(), arguments), kBadInput);
+  if (!input.ok())
+    return fail(terminal, explain_kind(explained(input.error(), arguments), arguments.input, FileKind::kUnknown),
+                kBadInput);
   report.input = &*input;
   report.layers = job.layers;
   report.read_ms = watch.lap();
@@ -204,7 +206,8 @@ Command add_mesh(CLI::App& root) {
       ->required();
   mesh->add_option("-o,--output", a.output.file,
                    "Write the mesh, in RAS millimetres; the extension names the format; - for stdout, with --format")
-      ->required();
+      ->required()
+      ->transform(names_a_result());
   add_format(*mesh, a.output.format);
   mesh->add_option("--size", a.size, "Size of the tets where labels meet, mm; finer where a label is thin")->required();
   mesh->add_option("--labels", a.labels, "Mesh these labels alone: 1,3")->delimiter(',')->check(app::problem_of_label);

@@ -30,6 +30,10 @@ std::string problem_of_format(const MeshOutput& output) {
   const std::string extension = extension_of(output.file);
   const bool is_pair = options.extension == ".node";
   if (output.is_stdout()) return is_pair ? "--format node makes two files, and stdout is one; name a file" : "";
+  std::error_code code;
+  const bool is_device =
+      fs::exists(output.file, code) && !fs::is_regular_file(output.file, code) && !fs::is_directory(output.file, code);
+  if (is_device && !is_pair) return "";
   if (extension == options.extension || (is_pair && extension == ".ele")) return "";
   return output.file + ": --format " + output.format + " writes " + options.extension +
          " files; give it that extension";

@@ -267,7 +267,7 @@ Command add_simulate(CLI::App& root) {
   simulate->add_option("--frames", s.frames, "Frames to run, instead of the scene's")
       ->check(CLI::Range(std::uint64_t{1}, incise::app::kMaxSceneFrames));
   simulate->add_option("-o,--output", s.output, "Write the body over time: NAME.pvd with the folder NAME_frames")
-      ->check(names_a_file());
+      ->transform(names_a_result());
   simulate
       ->add_option("--every", s.every,
                    "Frames between two files of -o, or moments of --drawn (default: about 100, or 24)")
@@ -275,7 +275,7 @@ Command add_simulate(CLI::App& root) {
   add_fine(*simulate, s.fine);
   add_report(*simulate, s.report, s.as_json);
   simulate->add_option("--record", s.record, "Record every frame as JSON lines, for incise replay")
-      ->check(names_a_file());
+      ->transform(names_a_result());
   simulate->add_option("--profile", s.profile, "incise, or paper: the published method; instead of the scene's")
       ->check(CLI::IsMember({"incise", "paper"}));
   add_budget(*simulate, s.budget_us,
@@ -283,7 +283,7 @@ Command add_simulate(CLI::App& root) {
   add_seed(*simulate, s.seed, "Seed, instead of the scene's");
   simulate->add_flag("--ideal", s.is_ideal, "Show and score an exercise's ideal strokes, instead of the scene's");
   simulate->add_option("--page", s.page, "Write how an exercise went as one HTML page with drawings")
-      ->check(names_a_file());
+      ->transform(names_a_result());
   simulate->add_option("--device", s.device,
                        "Who has the blade instead of the scene: haply or haply=HOST:PORT, a hand at a haptic device; "
                        "frames then keep the pace of the clock");

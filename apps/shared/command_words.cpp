@@ -95,6 +95,7 @@ std::string in_plain_words(const CLI::ParseError& error, const Words& words) {
       take_apart(text, "", " was not expected: ", first, second)) {
     return left_over(second, words) + ": not known here";
   }
+  if (take_apart(text, "", ": 1 required ", first, second)) return first + ": its value is missing";
   if (take_apart(text, "", " is required", first, second)) return first + " is missing";
   if (take_apart(text, "", ": At Most 1 required but received ", first, second)) {
     return first + " is given " + second + " times; once is enough";

@@ -53,6 +53,12 @@ void action_icon(Viewer& viewer, const PanelContext& context, Action action, Ico
   }
 }
 
+/// A hand for a tool that has no drawing of its own.
+Icon icon_of(app::ToolKind tool) {
+  const auto icon = static_cast<Icon>(tool);
+  return icon <= Icon::kStaple ? icon : Icon::kHand;
+}
+
 void draw_tool_column(Viewer& viewer, const PanelContext& context) {
   if (begin_panel("tool icons", {0, 0}, 0, ImGui::GetMainViewport()->Size.y - 2 * kMargin * em())) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.15F * em(), 0.15F * em()});
@@ -62,7 +68,7 @@ void draw_tool_column(Viewer& viewer, const PanelContext& context) {
     for (unsigned i = 0; i < app::kToolCount; ++i) {
       const auto tool = static_cast<app::ToolKind>(i);
       if (!is_tall && i % 2 == 1) ImGui::SameLine();
-      action_icon(viewer, context, app::action_of(tool), static_cast<Icon>(i), viewer.tools().tool() == tool);
+      action_icon(viewer, context, app::action_of(tool), icon_of(tool), viewer.tools().tool() == tool);
     }
     action_icon(viewer, context, Action::kResearch, Icon::kResearch);
     if (!is_tall) ImGui::SameLine();

@@ -207,7 +207,10 @@ Result<Tool> tool_of(const incise_tool& c) {
   });
   if (!fields.has_edge()) return Error{ErrorCode::kBadArgument, "the edge of a flat is null", {}};
   if (made) return *std::move(made);
-  return Error{ErrorCode::kBadArgument, "there is no tool of kind " + std::to_string(c.kind) + "; 0 to 3", {}};
+  return Error{
+      ErrorCode::kBadArgument,
+      "there is no tool of kind " + std::to_string(c.kind) + "; 0 to " + std::to_string(std::variant_size_v<Tool> - 1),
+      {}};
 }
 
 Result<FrameInput> input_of(const incise_frame_input* given) {

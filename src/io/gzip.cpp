@@ -150,6 +150,15 @@ bool gunzip(std::string_view bytes, std::uint64_t max_bytes, std::string& out, s
   return unpack(again, out.data(), out.size(), filled, why) != Unpacked::kFailed;
 }
 
+std::string gunzip_beginning(std::string_view bytes, std::size_t most) {
+  Inflater inflater(bytes, kGzipWindow);
+  std::string out(most, '\0'), why;
+  std::size_t filled = 0;
+  if (inflater.ready()) static_cast<void>(unpack(inflater, out.data(), out.size(), filled, why));
+  out.resize(filled);
+  return out;
+}
+
 bool inflate_to(std::string_view bytes, char* out, std::size_t size) {
   Inflater inflater(bytes, 15);
   if (!inflater.ready()) return false;
@@ -204,6 +213,9 @@ bool has_gzip() {
 bool gunzip(std::string_view, std::uint64_t, std::string&, std::string& why) {
   why = "is gzipped, which this build cannot read; gunzip it first";
   return false;
+}
+std::string gunzip_beginning(std::string_view, std::size_t) {
+  return {};
 }
 bool inflate_to(std::string_view, char*, std::size_t) {
   return false;

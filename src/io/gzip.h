@@ -20,6 +20,9 @@ inline constexpr std::uint64_t kMaxInflation = 1040;
 /// taken than what comes out, and none for what is refused as too large. On failure returns false and says why.
 [[nodiscard]] bool gunzip(std::string_view bytes, std::uint64_t max_bytes, std::string& out, std::string& why);
 
+/// The first bytes of what `bytes`, of which an end may be missing, gunzips to: at most `most`.
+[[nodiscard]] std::string gunzip_beginning(std::string_view bytes, std::size_t most);
+
 /// Inflate one zlib stream to exactly `size` bytes at `out`.
 [[nodiscard]] bool inflate_to(std::string_view bytes, char* out, std::size_t size);
 

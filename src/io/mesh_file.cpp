@@ -30,17 +30,9 @@ const char* unsupported_kind(std::string_view bytes) {
   if (bytes.starts_with("\x89HDF\r\n")) return "HDF5 (.h5)";
   if (bytes.starts_with("MATLAB 5.0")) return "MATLAB (.mat)";
   if (bytes.starts_with("\1\0\0\0"sv) || bytes.starts_with("\0\0\0\1"sv)) return "binary MEDIT (.meshb)";
-  if (bytes.starts_with("PK\3\4")) return "a zip archive";
-  if (bytes.starts_with("\4\x22M\x18")) return "an LZ4 archive";
   if (bytes.starts_with("solid ") || bytes.starts_with("OFF") || is_binary_stl(bytes)) return kSurface;
-  if (bytes.starts_with("\xFD"
-                        "7zXZ"))
-    return "an xz archive";
-  if (bytes.starts_with("BZh")) return "a bzip2 archive";
-  if (bytes.starts_with("\x28\xB5\x2F\xFD")) return "a Zstandard archive";
-  if (bytes.starts_with("CDF")) return "NetCDF (.nc, .exo)";
-  if (bytes.starts_with("NRRD")) return "a label image (.nrrd; incise mesh makes a mesh of it)";
-  return nullptr;
+  if (bytes.starts_with("NRRD") || is_image(bytes)) return "a label image (incise mesh makes a mesh of it)";
+  return foreign_kind(bytes);
 }
 
 /// How many lines are looked at to tell one kind of text from another.
@@ -209,20 +201,29 @@ Result<MeshFile> read_plain(std::string_view bytes, const std::string& name, con
 
 }  // namespace
 
-// What only a look further on can tell is let through: comments without an end, and what lines with '*' are of.
+// Of a format that is known by little more is asked: what a file of it has at its beginning.
+bool has_what_its_format_begins_with(const Beginning& beginning) {
+  const auto has = [&](std::string_view text) { return beginning.bytes.find(text) != std::string_view::npos; };
+  double number = 0;
+  if (beginning.line.starts_with("<")) return has("VTKFile");
+  if (beginning.line.starts_with("ply")) return has("end_header");
+  if (!parse_double(beginning.line.substr(0, beginning.line.find_first_of(" \t")), number)) return true;
+  return may_be_tetgen(first_numbers(beginning.bytes).first);
+}
+
 std::optional<Error> check_mesh_beginning(std::string_view beginning, const std::string& name) {
+  constexpr std::size_t kEnough = std::size_t{1} << 18U;
   std::string converted;
+  if (is_gzip(beginning)) {
+    converted = gunzip_beginning(beginning, kEnough);
+    return converted.size() < kEnough ? std::nullopt : check_mesh_beginning(converted, name);
+  }
   if (ends_lines_by_return(beginning)) beginning = converted = with_line_feeds(beginning);
   drop_byte_order_mark(beginning);
-  const std::string_view line = beginning_of(beginning).line;
-  if (is_gzip(beginning) || line.empty() || line.starts_with("*")) return std::nullopt;
   Job job{name, beginning, {}, {}, {}, {}};
   const FormatRow* format = format_of(job);
-  if (format != nullptr && format->is_vague && !may_be_tetgen(first_numbers(beginning).first)) {
-    refuse(job, "this kind of file");
-  } else if (format != nullptr) {
-    return std::nullopt;
-  }
+  if (format != nullptr && has_what_its_format_begins_with(beginning_of(beginning))) return std::nullopt;
+  if (format != nullptr) refuse(job, "this kind of file");
   return complete(std::move(job.error));
 }
 

@@ -213,6 +213,11 @@ bool read_surface_as(std::string_view bytes, const std::string& name, Error& err
     return true;
   }
   if (is_binary_stl(bytes)) return read_binary_stl(bytes, out);
+  if (const char* kind = foreign_kind(bytes)) {
+    error = {ErrorCode::kUnsupported,
+             name + ": is " + kind + "; Incise reads .obj, .stl, .ply and .off surfaces, any of them gzipped"};
+    return false;
+  }
   if (is_cut_binary_stl(bytes)) {
     error = {ErrorCode::kBadFile, name + wrong_length(bytes)};
     return false;
@@ -351,21 +356,18 @@ bool is_sound(const SurfaceSoup& s) {
 
 }  // namespace
 
-// An .obj has no mark of its own: a line with a vertex, and until one comes nothing but comments, tells it.
+// An .obj has no mark of its own: a line with a vertex tells it.
 std::optional<Error> check_surface_beginning(std::string_view beginning, const std::string& name) {
   const std::string_view first = trim(beginning);
   const bool is_marked = first.starts_with("ply") || first.starts_with("OFF") || same_word(first.substr(0, 5), "solid");
   if (is_gzip(beginning) || is_marked || may_be_binary_stl(beginning, ReadLimits().max_inflated_bytes))
     return std::nullopt;
-  bool has_other = false;
   for (std::size_t at = 0; at < first.size();) {
     const std::size_t end = std::min(first.find_first_of("\r\n", at), first.size());
     const std::string_view line = trim(first.substr(at, end - at));
     if (line.starts_with("v ") || line.starts_with("v\t")) return std::nullopt;
-    has_other = has_other || !(line.empty() || line.starts_with("#"));
     at = end + 1;
   }
-  if (!has_other) return std::nullopt;
   return Error{ErrorCode::kUnsupported, name + kNoTriangles};
 }
 

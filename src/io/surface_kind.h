@@ -25,6 +25,49 @@ inline constexpr std::size_t kStlTriangle = 50;  ///< normal, three points, two 
          bytes.size() - kStlHeader == std::size_t{load_u32(bytes.data() + kStlHeader - 4)} * kStlTriangle;
 }
 
+/// What archives, pictures and other files are that are neither meshes nor surfaces, by their first bytes; null where
+/// they are none that is known here.
+[[nodiscard]] inline const char* foreign_kind(std::string_view bytes) {
+  using std::string_view_literals::operator""sv;
+  struct Mark {
+    std::size_t at;
+    std::string_view bytes;
+    const char* kind;
+  };
+  constexpr Mark kMarks[] = {{0, "PK\3\4"sv, "a zip archive"},
+                             {0, "\4\x22M\x18"sv, "an LZ4 archive"},
+                             {0,
+                              "\xFD"
+                              "7zXZ"sv,
+                              "an xz archive"},
+                             {0, "BZh"sv, "a bzip2 archive"},
+                             {0, "\x28\xB5\x2F\xFD"sv, "a Zstandard archive"},
+                             {0, "7z\xBC\xAF"sv, "a 7z archive"},
+                             {0, "Rar!"sv, "a RAR archive"},
+                             {0, "\x1F\x9D"sv, "a file packed by compress (.Z)"},
+                             {0, "LZIP"sv, "an lzip archive"},
+                             {257, "ustar"sv, "a tar archive"},
+                             {0, "glTF"sv, "glTF (.glb)"},
+                             {0, "\x89PNG"sv, "a PNG picture"},
+                             {0, "\xFF\xD8\xFF"sv, "a JPEG picture"},
+                             {0, "%PDF"sv, "PDF"},
+                             {0, "ISO-10303-21"sv, "STEP"},
+                             {0, "CDF"sv, "NetCDF (.nc, .exo)"},
+                             {0, "\xFF\xFE"sv, "text in UTF-16 (save it as UTF-8)"},
+                             {0, "\xFE\xFF"sv, "text in UTF-16 (save it as UTF-8)"},
+                             {0, "version https://git-lfs"sv, "a pointer of Git LFS (git lfs pull fetches the file)"}};
+  for (const Mark& mark : kMarks) {
+    if (bytes.size() >= mark.at && bytes.substr(mark.at).starts_with(mark.bytes)) return mark.kind;
+  }
+  return nullptr;
+}
+
+/// Whether it begins as NIfTI or MetaImage does.
+[[nodiscard]] inline bool is_image(std::string_view bytes) {
+  const bool is_nifti = bytes.size() >= 348 && (bytes.substr(344, 3) == "n+1" || bytes.substr(344, 3) == "ni1");
+  return is_nifti || bytes.starts_with("ObjectType") || bytes.starts_with("NDims");
+}
+
 /// Whether a file of at most `limit` bytes that begins so may be as long as its count says; it begins with more than a
 /// header.
 [[nodiscard]] inline bool may_be_binary_stl(std::string_view beginning, std::uint64_t limit) {

@@ -106,8 +106,9 @@ TEST_F(CliHabits, surfaces_come_by_stdin_and_go_by_stdout) {
 
 TEST_F(CliHabits, a_pipe_that_is_no_mesh_is_refused_by_its_beginning) {
   const std::string mesh = folder_ / "out.mesh", surface = folder_ / "out.stl";
-  for (const std::string& text : {std::string("y\n"), std::string(64, '\0'), std::string("\xff\x13"),
-                                  std::string("{\n"), std::string("1\n"), std::string("1 2 3 4\n")}) {
+  for (const std::string& text :
+       {std::string("y\n"), std::string(64, '\0'), std::string("\xff\x13"), std::string("{\n"), std::string("1\n"),
+        std::string("1 2 3 4\n"), std::string("\n"), std::string("# x\n"), std::string("*\n"), std::string("<a>\n")}) {
     for (const std::vector<std::string>& command :
          std::vector<std::vector<std::string>>{{"info", "-"},
                                                {"check", "-"},
@@ -119,6 +120,17 @@ TEST_F(CliHabits, a_pipe_that_is_no_mesh_is_refused_by_its_beginning) {
       EXPECT_EQ(outcome.code, 3) << command[0] << ": " << outcome.err;
       EXPECT_EQ(outcome.err.find("incise: error: stdin:"), 0U) << command[0] << ": " << outcome.err;
     }
+  }
+}
+
+TEST_F(CliHabits, large_files_of_every_format_come_by_a_pipe) {
+  const std::string large = folder_.write("large.mesh", cube_mesh(18, 0.1));
+  for (const char* format : {"mesh", "msh41", "msh41-binary", "msh22", "vtk", "vtu", "veg", "inp"}) {
+    const std::string bytes = run({"convert", large, "-", "--format", format}).out;
+    EXPECT_GT(bytes.size(), 1U << 18U) << format;
+    const Outcome info = run_on(bytes, {"info", "-", "--json"});
+    ASSERT_EQ(info.code, 0) << format << ": " << info.err;
+    EXPECT_EQ(json::parse(info.out)["tets"], 6 * 18 * 18 * 18) << format;
   }
 }
 

@@ -382,6 +382,11 @@ test('an engine that lacks SIMD, or exceptions of its own, is given the build th
   }
 });
 
+test('index.d.mts names the tools of the module', () => {
+  const union = read('build/npm/index.d.mts').toString().match(/export type ToolName = (.*);/)[1];
+  assert.deepEqual(union.split(' | '), module.tools.map((tool) => `'${tool}'`));
+});
+
 test('index.d.mts declares what the module has, and no more', () => {
   const typescript = createRequire(at('web/package.json'))('typescript');
   const source = typescript.createSourceFile('index.d.mts', read('build/npm/index.d.mts').toString(), typescript.ScriptTarget.Latest);

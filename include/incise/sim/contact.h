@@ -30,6 +30,9 @@ struct BallTool {
 
   static constexpr const char* kName = "ball";  ///< in recordings and scenes
   static constexpr bool kMoves = true;          ///< a scene may move it along a path, its points from key to key
+  static constexpr bool kHasSides = false;  ///< tissue stays on the side where it is: its shape asks what lies behind
+  /// How far it has moved as a whole, length unit.
+  static Vec3 way(const BallTool& before, const BallTool& now) { return now.centre - before.centre; }
   /// Calls `visit(name, field)` for each field: points, lists of points, and numbers.
   template <class Self, class Visit>
   static void for_each_field(Self& tool, Visit&& visit) {
@@ -45,6 +48,11 @@ struct RodTool {
 
   static constexpr const char* kName = "rod";  ///< in recordings and scenes
   static constexpr bool kMoves = true;         ///< a scene may move it along a path, its points from key to key
+  static constexpr bool kHasSides = false;  ///< tissue stays on the side where it is: its shape asks what lies behind
+  /// How far it has moved as a whole, length unit.
+  static Vec3 way(const RodTool& before, const RodTool& now) {
+    return 0.5 * (now.from + now.to - before.from - before.to);
+  }
   /// Calls `visit(name, field)` for each field: points, lists of points, and numbers.
   template <class Self, class Visit>
   static void for_each_field(Self& tool, Visit&& visit) {
@@ -61,6 +69,9 @@ struct PlaneTool {
 
   static constexpr const char* kName = "plane";  ///< in recordings and scenes
   static constexpr bool kMoves = false;          ///< a scene may move it along a path, its points from key to key
+  static constexpr bool kHasSides = false;  ///< tissue stays on the side where it is: its shape asks what lies behind
+  /// How far it has moved as a whole, length unit.
+  static Vec3 way(const PlaneTool& /*before*/, const PlaneTool& /*now*/) { return Vec3::Zero(); }
   /// Calls `visit(name, field)` for each field: points, lists of points, and numbers.
   template <class Self, class Visit>
   static void for_each_field(Self& tool, Visit&& visit) {
@@ -77,6 +88,9 @@ struct FlatTool {
 
   static constexpr const char* kName = "flat";  ///< in recordings and scenes
   static constexpr bool kMoves = false;         ///< a scene may move it along a path, its points from key to key
+  static constexpr bool kHasSides = true;  ///< tissue stays on the side where it is: its shape asks what lies behind
+  /// How far it has moved as a whole, length unit.
+  static Vec3 way(const FlatTool& before, const FlatTool& now) { return now.edge.front() - before.edge.front(); }
   /// Calls `visit(name, field)` for each field: points, lists of points, and numbers.
   template <class Self, class Visit>
   static void for_each_field(Self& tool, Visit&& visit) {

@@ -78,15 +78,9 @@ namespace {
 
 /// How far a tool of the same kind has moved as a whole.
 Vec3 way_of(const Tool& before, const Tool& now) {
-  if (const auto* ball = std::get_if<BallTool>(&now)) return ball->centre - std::get<BallTool>(before).centre;
-  if (const auto* flat = std::get_if<FlatTool>(&now)) {
-    return flat->edge.front() - std::get<FlatTool>(before).edge.front();
-  }
-  if (const auto* rod = std::get_if<RodTool>(&now)) {
-    const auto& old = std::get<RodTool>(before);
-    return 0.5 * (rod->from + rod->to - old.from - old.to);
-  }
-  return Vec3::Zero();
+  return std::visit(
+      [&before](const auto& tool) -> Vec3 { return tool.way(std::get<std::decay_t<decltype(tool)>>(before), tool); },
+      now);
 }
 
 }  // namespace
@@ -94,15 +88,15 @@ Vec3 way_of(const Tool& before, const Tool& now) {
 std::size_t ToolContacts::find(const TetMesh& mesh, std::span<const Vec3> positions, std::span<const Tool> tools,
                                const ToolContactOptions& options, const std::function<Vec3(std::size_t)>& force_of,
                                std::vector<Pull>& pulls) {
-  const bool has_flat =
-      std::any_of(tools.begin(), tools.end(), [](const Tool& tool) { return std::holds_alternative<FlatTool>(tool); });
+  const auto has_sides = [](const Tool& tool) { return std::visit([](const auto& t) { return t.kHasSides; }, tool); };
+  const bool asks_what_is_behind = std::any_of(tools.begin(), tools.end(), has_sides);
   std::size_t next = 0, touched = 0;
   fresh_.clear();
   for (std::uint32_t slot = 0; slot < mesh.vertex_slots() && !tools.empty(); ++slot) {
     const VertexId v(slot);
     if (!is_surface(mesh.shape_of(v)) || !mesh.tet_of(v).is_valid()) continue;
     const Vec3& x = positions[slot];
-    const Vec3 inner = has_flat ? tissue_behind(mesh, positions, v) : x;  // flats alone ask for it
+    const Vec3 inner = asks_what_is_behind ? tissue_behind(mesh, positions, v) : x;
     const auto [touch, tool] = deepest_of(tools, x, inner);
     if (!(touch.distance < std::numeric_limits<double>::infinity())) continue;
     const Vec3 way = slot < positions_.size() ? Vec3(x - positions_[slot] + options.speed_up) : options.speed_up;
