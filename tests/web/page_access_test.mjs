@@ -122,6 +122,28 @@ describe('the page for everyone', { skip }, () => {
     await chooser;
   });
 
+  test('what Escape gives up is given up for keys too, and a slider keeps no key from the page', async () => {
+    await openPage();
+    await visit.page.focus('#picture');
+    for (let i = 0; i < 8; ++i) await press('ArrowLeft');
+    await press('Space');
+    await press('ArrowRight');
+    await press('Escape');
+    assert.equal(await visit.page.evaluate(() => document.getElementById('cross').classList.contains('down')), false);
+    await press('Space');
+    for (let i = 0; i < 16; ++i) {
+      await press('ArrowRight');
+      await visit.page.waitForTimeout(16);
+    }
+    await press('Space');
+    await until(() => window.incise.figures.strokes > 0);
+    await visit.page.focus('#depth');
+    await press('Control+z');
+    await until(() => window.incise.figures.strokes === 0);
+    await press('h');
+    assert.equal(await visit.page.evaluate(() => document.getElementById('help').hidden), false);
+  });
+
   test('who bears no motion sees no animation, and a recording at its end', async () => {
     await openPage();
     await drag([0.4, 0.45], [0.6, 0.5]);

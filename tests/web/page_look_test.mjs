@@ -82,6 +82,22 @@ describe('the look of the page', { skip }, () => {
     }
   });
 
+  /** What can be pressed or read and is not all in sight. */
+  const outside = () => visit.page.evaluate(() => [...document.querySelectorAll('button, select, input:not([hidden]), h1')]
+    .filter((each) => {
+      const box = each.getBoundingClientRect();
+      return box.width > 0 && (box.left < 0 || box.right > innerWidth || box.top < 0 || box.bottom > innerHeight);
+    }).map((each) => each.id || each.textContent));
+
+  test('nothing is out of sight at widths between', async () => {
+    await openPage();
+    for (const [width, height] of [[320, 568], [500, 320], [521, 600], [568, 320], [600, 800], [667, 375], [700, 500], [740, 360], [761, 600], [800, 600]]) {
+      await visit.page.setViewportSize({ width, height });
+      assert.deepEqual(await outside(), [], `${width} px`);
+    }
+    await visit.end();
+  });
+
   test('nothing overflows from 360 to 2560 pixels, dark and light', async () => {
     for (const [width, height] of [[360, 740], [1280, 800], [2560, 1440]]) {
       for (const colorScheme of ['dark', 'light']) {
@@ -90,12 +106,7 @@ describe('the look of the page', { skip }, () => {
         await until(() => window.incise.figures.strokes === 1);
         await isAtRest();
         await visit.page.screenshot({ path: `${pictures}/${width}-${colorScheme}.png` });
-        const outside = await visit.page.evaluate(() => [...document.querySelectorAll('button, select, input:not([hidden]), h1')]
-          .filter((each) => {
-            const box = each.getBoundingClientRect();
-            return box.width > 0 && (box.left < 0 || box.right > innerWidth || box.top < 0 || box.bottom > innerHeight);
-          }).map((each) => each.id || each.textContent));
-        assert.deepEqual(outside, [], `${width} px`);
+        assert.deepEqual(await outside(), [], `${width} px`);
         await press('f');
         await until(() => document.getElementById('f-pieces').textContent === '1');
         await visit.page.screenshot({ path: `${pictures}/${width}-${colorScheme}-figures.png` });

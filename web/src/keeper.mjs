@@ -43,7 +43,9 @@ export class Keeper extends EventTarget {
 
   async #resume() {
     const { files, bytes, name, up } = this.#opened, kept = this.#kept;
-    const end = kept && { bytes: kept.recording, name: 'kept.jsonl', files: { ...files, [name]: bytes }, up, resumes: true, isAtRest: kept.isAtRest };
+    let keptName = 'kept.jsonl';
+    while (keptName === name || files?.[keptName]) keptName = `again-${keptName}`; // what was opened may have this name
+    const end = kept && { bytes: kept.recording, name: keptName, files: { ...files, [name]: bytes }, up, resumes: true, isAtRest: kept.isAtRest };
     const info = await this.engine.ask('open', end ?? this.#opened);
     this.#tell('resumed', { info, isWhole: kept !== null });
   }

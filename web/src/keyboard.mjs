@@ -59,6 +59,12 @@ export class KeyHand {
     this.hands.put(this.#isDown ? 'press' : 'release', this.#x, this.#y, { button: 'left' });
   }
 
+  /** The drag has been given up. */
+  letGo() {
+    this.#isDown = false;
+    this.cross.classList.remove('down');
+  }
+
   #turn([x, y]) {
     const [left, top] = this.#middle();
     this.hands.put('press', left, top, { button: 'right' });

@@ -204,9 +204,11 @@ function choose(name) {
 }
 
 const turns = inTurn();
+let keyHand = null;
 
 async function act(what, isRepeat) {
   if (!isReady) return;
+  if (what !== 'frameBody') keyHand.letGo(); // what is under way is given up
   const turn = turns(() => ask(what), isRepeat);
   const done = await turn?.catch(failed);
   if (done === false && what !== 'cancel') say(what === 'undo' ? 'Nothing to take back.' : 'Nothing to make again.', 3);
@@ -259,8 +261,8 @@ const KEYS = {
 };
 
 function onKey(event) {
-  if (event.target.matches('select, input')) return;
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  if (event.target.matches('select, input:not([type=range])') || (key === 'Home' && event.target.matches('input'))) return;
   if (event.ctrlKey || event.metaKey) {
     const what = key === 'z' ? (event.shiftKey ? 'redo' : 'undo') : key === 'y' ? 'redo' : null;
     if (!what) return;
@@ -453,7 +455,7 @@ function begin() {
     measured.mostWaiting = Math.max(measured.mostWaiting, keeper.engine?.waiting ?? 0);
     sendEvents();
   });
-  new KeyHand($('picture'), $('cross'), hands);
+  keyHand = new KeyHand($('picture'), $('cross'), hands);
   watchBlocks();
   startEngine();
   addEventListener('resize', fit);
