@@ -64,7 +64,8 @@ inline constexpr std::size_t kStlTriangle = 50;  ///< normal, three points, two 
 
 /// Whether it begins as NIfTI or MetaImage does.
 [[nodiscard]] inline bool is_image(std::string_view bytes) {
-  const bool is_nifti = bytes.size() >= 348 && (bytes.substr(344, 3) == "n+1" || bytes.substr(344, 3) == "ni1");
+  using std::string_view_literals::operator""sv;
+  const bool is_nifti = bytes.size() >= 348 && (bytes.substr(344, 4) == "n+1\0"sv || bytes.substr(344, 4) == "ni1\0"sv);
   return is_nifti || bytes.starts_with("ObjectType") || bytes.starts_with("NDims");
 }
 

@@ -68,8 +68,10 @@ class ScalpelTool final : public HandTool {
     aimed_at_ = {};
   }
   void add_to(HandState& hands) const override {
-    hands.blade = scalpel_.pose();
-    hands.cuts_with = ToolKind::kScalpel;
+    if (std::optional<BladePose> pose = scalpel_.pose()) {
+      hands.blade = *std::move(pose);
+      hands.cuts_with = ToolKind::kScalpel;
+    }
   }
   void draw(const Camera& camera, Marks& marks) const override {
     scalpel_.draw(marks);
