@@ -176,9 +176,7 @@ app::CutJob job_of(const CutArguments& a, std::vector<Stroke> strokes, const Ter
   if (job.by_steps || job.method) {
     job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
   } else {
-    job.stage = [&bar](std::string_view name, std::size_t done, std::size_t total) {
-      bar.show_stage(name, done, total);
-    };
+    job.stage = [&bar](std::string_view name, unsigned percent) { bar.show_stage(name, percent); };
   }
   return job;
 }

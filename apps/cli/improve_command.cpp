@@ -33,14 +33,12 @@ int run_improve(const ImproveArguments& arguments, const Terminal& terminal) {
   if (arguments.profile == "paper" && arguments.budget_us > 0) terminal.note(kNoBudgetAsPaper);
   Result<io::LoadedMesh> loaded = load(arguments.mesh, terminal);
   if (!loaded.ok()) return fail(terminal, loaded.error(), kBadInput);
-  std::optional<ProgressBar> bar(std::in_place, terminal, "stages");
+  std::optional<ProgressBar> bar(std::in_place, terminal);
   app::ImproveJob job;
   job.engine.cut.profile = profile_of(arguments.profile);
   job.engine.log = terminal.log_sink();
   job.budget_us = arguments.budget_us;
-  job.stage = [&bar](std::string_view name, std::size_t done, std::size_t total) {
-    bar->show_stage(name, done, total);
-  };
+  job.stage = [&bar](std::string_view name, unsigned percent) { bar->show_stage(name, percent); };
   const Result<app::JobResult> result = app::run_improve(std::move(loaded).value(), job, arguments.output.is_wanted());
   bar.reset();
   if (!result.ok()) return fail(terminal, result.error(), kFailure);

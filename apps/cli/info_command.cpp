@@ -16,16 +16,19 @@ namespace {
 
 using namespace incise;
 
+/// Percent of the time of a million tets in a binary file that has gone by when it is read.
+constexpr unsigned kRead = 20;
+
 struct InfoArguments {
   std::string mesh;
   bool as_json = false;
 };
 
 int run_info(const InfoArguments& arguments, const Terminal& terminal) {
-  std::optional<ProgressBar> bar(std::in_place, terminal, "stages");
-  bar->show_stage("reading", 0, 2);
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("reading", 0);
   const Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
-  if (file.ok()) bar->show_stage("measuring", 1, 2);
+  if (file.ok()) bar->show_stage("measuring", kRead);
   if (!file.ok()) bar.reset();
   if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
   const app::MeshInfo info = app::inspect(*file, name_of_input(arguments.mesh));
@@ -34,10 +37,15 @@ int run_info(const InfoArguments& arguments, const Terminal& terminal) {
 }
 
 int run_check(const InfoArguments& arguments, const Terminal& terminal) {
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("reading", 0);
   Result<io::MeshFile> file = io::read_mesh(input_of(arguments.mesh));
+  bar.reset();
   if (!file.ok()) return fail(terminal, explain_kind(file.error(), arguments.mesh, FileKind::kMesh), kBadInput);
-  std::optional<ProgressBar> bar(std::in_place, terminal, "%");
-  const auto progress = [&bar](std::size_t done, std::size_t total) { bar->show(done, total); };
+  bar.emplace(terminal);
+  const auto progress = [&bar](std::size_t done, std::size_t total) {
+    bar->show_stage("checking", static_cast<unsigned>(100 * done / total));
+  };
   const Result<app::MeshCheck> check =
       app::check_mesh(std::move(file).value(), name_of_input(arguments.mesh), progress);
   bar.reset();

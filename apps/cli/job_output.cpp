@@ -77,7 +77,10 @@ std::optional<ExitCode> refuse_outputs(const MeshOutput& mesh, bool has_json_on_
 }
 
 Result<io::LoadedMesh> load(const std::string& mesh, const Terminal& terminal) {
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("reading", 0);
   Result<io::LoadedMesh> loaded = io::load_mesh(input_of(mesh));
+  bar.reset();
   if (!loaded.ok()) return explain_kind(loaded.error(), mesh, FileKind::kMesh);
   loaded->source.file = name_of_input(mesh);
   print_notes(loaded->source.notes, mesh, terminal);

@@ -34,7 +34,7 @@ std::vector<Command> add_commands(CLI::App& root) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App root("incise cuts tetrahedral meshes", "incise");
+  CLI::App root("Cut tetrahedral meshes, and keep them fit to simulate", "incise");
   Terminal terminal;
   root.set_version_flag("--version", "incise " INCISE_VERSION);
   root.add_flag("-q,--quiet", terminal.is_quiet, "Print errors and asked-for data only");

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -19,6 +20,9 @@ namespace {
 
 volatile std::sig_atomic_t is_writing = 0;
 volatile std::sig_atomic_t pending_signal = 0;
+
+constexpr const char* kClearLine = "\r\033[K";
+std::atomic<bool> is_bar_drawn = false;
 
 [[noreturn]] void end_by(int signal_number) {
   _exit(128 + signal_number);
@@ -56,7 +60,8 @@ std::string with_stdin_named(std::string_view text) {
 }
 
 void print_line(std::string_view label, std::string_view colour, std::string_view text) {
-  std::string line = "incise: ";
+  std::string line = is_bar_drawn ? kClearLine : "";
+  line += "incise: ";
   if (!label.empty()) {
     const bool is_coloured = wants_colour();
     if (is_coloured) line += colour;
@@ -110,29 +115,49 @@ incise::LogSink Terminal::log_sink() const {
   };
 }
 
-ProgressBar::ProgressBar(const Terminal& terminal, std::string unit)
-    : is_on_(!terminal.is_quiet && is_terminal(stderr)), unit_(std::move(unit)), began_(Clock::now()) {}
+ProgressBar::ProgressBar(const Terminal& terminal, std::string unit) : unit_(std::move(unit)) {
+  if (terminal.is_quiet || !is_terminal(stderr)) return;
+  drawing_ = std::jthread([this](const std::stop_token& stop) { draw_until(stop); });
+}
 
-ProgressBar::~ProgressBar() {
-  if (is_drawn_) print(stderr, "\r\033[K");
+ProgressBar::~ProgressBar() = default;
+
+double ProgressBar::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - began_).count();
 }
 
 void ProgressBar::show(std::size_t done, std::size_t total) {
-  if (total == 0) return;
-  draw([&](double seconds) { return incise_apps::progress_text(std::min(done, total), total, unit_, seconds); });
+  if (!drawing_.joinable() || total == 0) return;
+  tell([this, done = std::min(done, total), total](double seconds) {
+    return incise_apps::progress_text(done, total, unit_, seconds);
+  });
 }
 
-void ProgressBar::show_stage(std::string_view name, std::size_t done, std::size_t total) {
-  const bool is_new = std::exchange(stage_, done) != done;
-  draw([&](double seconds) { return incise_apps::stage_text(name, done, total, seconds); }, is_new);
+void ProgressBar::show_stage(std::string_view name, unsigned percent) {
+  if (!drawing_.joinable() || std::exchange(percent_, percent) == percent) return;
+  tell([name = std::string(name), percent, begun = seconds()](double now) {
+    return incise_apps::stage_text({name, percent, begun, now});
+  });
 }
 
-void ProgressBar::draw(const std::function<std::string(double seconds)>& text, bool at_once) {
-  const Clock::time_point now = Clock::now();
-  if (!is_on_ || (is_drawn_ && !at_once && now - drawn_ < std::chrono::milliseconds(100))) return;
-  drawn_ = now;
-  is_drawn_ = true;
-  print(stderr, "\r\033[K" + text(std::chrono::duration<double>(now - began_).count()));
+void ProgressBar::tell(Text text) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    text_ = std::move(text);
+  }
+  is_told_.notify_all();
+}
+
+void ProgressBar::draw_until(const std::stop_token& stop) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!is_told_.wait(lock, stop, [this] { return text_ != nullptr; })) return;
+  is_bar_drawn = true;
+  while (!stop.stop_requested()) {
+    print(stderr, kClearLine + text_(seconds()));
+    is_told_.wait_for(lock, stop, std::chrono::milliseconds(250), [] { return false; });
+  }
+  is_bar_drawn = false;
+  print(stderr, kClearLine);
 }
 
 void catch_interrupts() {

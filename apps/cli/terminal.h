@@ -3,10 +3,14 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "incise/core/log.h"
 #include "incise/core/result.h"
@@ -43,29 +47,36 @@ class Terminal {
 };
 
 /// A bar on stderr with the time that is left, or, where nobody can tell it, that has gone by; where that is a terminal
-/// and nobody asked for quiet. It goes with its work.
+/// and nobody asked for quiet. A thread of its own draws it four times a second. It goes with its work.
 class ProgressBar {
  public:
-  ProgressBar(const Terminal& terminal, std::string unit);
+  explicit ProgressBar(const Terminal& terminal, std::string unit = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `done` of `total`; drawn ten times a second at most.
+  /// `done` of `total`.
   void show(std::size_t done, std::size_t total);
-  /// Of work in stages of which nobody knows how long they take: which one it is at, and for how long it has been going
-  /// on. `done` of `total` came before.
-  void show_stage(std::string_view name, std::size_t done, std::size_t total);
+  /// Of work in stages: which one it is at, and what percent of the work's time has gone by before it, as a rule.
+  void show_stage(std::string_view name, unsigned percent);
 
  private:
-  void draw(const std::function<std::string(double seconds)>& text, bool at_once = false);
+  using Text = std::function<std::string(double seconds)>;
+
+  void tell(Text text);
+  void draw_until(const std::stop_token& stop);
+  [[nodiscard]] double seconds() const;
 
   using Clock = std::chrono::steady_clock;
 
-  bool is_on_, is_drawn_ = false;
   std::string unit_;
-  Clock::time_point began_, drawn_;
-  std::size_t stage_ = 0;
+  Clock::time_point began_ = Clock::now();
+  std::optional<unsigned> percent_;
+  double stage_begun_ = 0;
+  std::mutex mutex_;  ///< of `text_`
+  std::condition_variable_any is_told_;
+  Text text_;             ///< what is drawn, after so many seconds; empty: nothing yet
+  std::jthread drawing_;  ///< last: it ends first
 };
 
 /// From now on Ctrl-C and SIGTERM end the program with 130 or 143: at once while nothing is being written, else after

@@ -68,12 +68,16 @@ std::string left_over(const std::string& listed, const Words& words) {
   return text;
 }
 
-/// The first word that begins as an option and is none of the program's; empty where there is none.
-std::string unknown_option(const CLI::App& root, const Words& words) {
-  const Words known = options_of(root);
+/// The first word that begins as an option and is none of these programs and commands; empty where there is none.
+std::string unknown_option(std::initializer_list<const CLI::App*> apps, const Words& words) {
+  Words known;
   std::string letters;
-  for (const CLI::Option* option : root.get_options()) {
-    for (const std::string& name : option->get_snames()) letters += name;
+  for (const CLI::App* app : apps) {
+    const Words names = options_of(*app);
+    known.insert(known.end(), names.begin(), names.end());
+    for (const CLI::Option* option : app->get_options()) {
+      for (const std::string& name : option->get_snames()) letters += name;
+    }
   }
   for (const std::string& word : words) {
     if (word.size() < 2 || word[0] != '-') continue;
@@ -144,7 +148,11 @@ const CLI::App* command_named(const CLI::App& root, const std::string& name) {
 std::string unknown_command(const CLI::App& root, const Words& words) {
   const auto word = command_word(words);
   if (word == words.end() || command_named(root, *word) != nullptr) return "";
-  return "'" + *word + "' is no command" + suggestion(*word, commands_of(root)) + "; see " + root.get_name() + " help";
+  const Words options = options_of(root);
+  const bool is_option = std::find(options.begin(), options.end(), "--" + *word) != options.end();
+  return "'" + *word + "' is no command" +
+         (is_option ? " (did you mean --" + *word + "?)" : suggestion(*word, commands_of(root))) + "; see " +
+         root.get_name() + " help";
 }
 
 std::string explain(const CLI::App& root, const Words& words, const CLI::ParseError& error) {
@@ -152,13 +160,19 @@ std::string explain(const CLI::App& root, const Words& words, const CLI::ParseEr
   std::string text = in_plain_words(error, words),
               see = "; see " + root.get_name() + (has_commands(root) ? " help" : " --help");
   const auto command = has_commands(root) ? command_word(words) : words.end();
+  std::string unknown;
   if (command != words.end()) {
-    const Words more = options_of(*command_named(root, *command));
+    const CLI::App* named = command_named(root, *command);
+    const Words more = options_of(*named);
     known.insert(known.end(), more.begin(), more.end());
     see += " " + *command;
-  } else if (const std::string unknown = unknown_option(root, words); !unknown.empty()) {
-    text = unknown + ": not known here";
+    if (text.ends_with(" is missing") && !text.ends_with("value is missing")) {
+      unknown = unknown_option({&root, named}, words);
+    }
+  } else {
+    unknown = unknown_option({&root}, words);
   }
+  if (!unknown.empty()) text = unknown + ": not known here";
   for (const std::string& word : words) {
     const std::string name = word.substr(0, word.find('='));
     const bool is_unknown = name.rfind("--", 0) == 0 && std::find(known.begin(), known.end(), name) == known.end();

@@ -42,9 +42,11 @@ std::string progress_text(std::size_t done, std::size_t total, std::string_view 
   return text;
 }
 
-std::string stage_text(std::string_view name, std::size_t done, std::size_t total, double seconds) {
-  return bar_text(static_cast<double>(done) / static_cast<double>(total)) + "stage " + std::to_string(done + 1) +
-         " of " + std::to_string(total) + ": " + std::string(name) + ", " + clock_text(seconds);
+std::string stage_text(const StageProgress& stage) {
+  const double share = stage.percent / 100.0;
+  const std::string text = bar_text(share) + std::to_string(stage.percent) + " %: " + std::string(stage.name) + ", ";
+  const double left = stage.percent > 0 ? stage.begun / share - stage.now : 0;
+  return left > 0 ? text + clock_text(left) + " left" : text + clock_text(stage.now);
 }
 
 }  // namespace incise_apps

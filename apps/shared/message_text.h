@@ -18,8 +18,16 @@ namespace incise_apps {
 /// time that is left is told once it can be: after a second, and where something is done.
 [[nodiscard]] std::string progress_text(std::size_t done, std::size_t total, std::string_view unit, double seconds);
 
-/// "[######      ] stage 2 of 5: cutting, 0:07" of work whose stages take times that nobody knows before: for how long
-/// it has been going on. `done` stages came before this one.
-[[nodiscard]] std::string stage_text(std::string_view name, std::size_t done, std::size_t total, double seconds);
+/// A stage of work as it goes on. Times in s.
+struct StageProgress {
+  std::string_view name;
+  unsigned percent = 0;  ///< of the work's time that had gone by when it began, as a rule; at most 100
+  double begun = 0;      ///< after this long it began
+  double now = 0;        ///< so long the work takes by now, at least `begun`
+};
+
+/// "[######      ] 47 %: cutting, 0:12 left"; in the first stage, of which nobody knows how long it takes, and in one
+/// that takes longer than it should, "[      ] 0 %: reading, 0:07" with the time that has gone by.
+[[nodiscard]] std::string stage_text(const StageProgress& stage);
 
 }  // namespace incise_apps

@@ -170,8 +170,8 @@ incise_status create(incise_simulation** out, const Call& call) {
 }
 
 static_assert(INCISE_TOOL_BALL == 0 && INCISE_TOOL_ROD == 1 && INCISE_TOOL_PLANE == 2 && INCISE_TOOL_FLAT == 3 &&
-                  std::variant_size_v<Tool> == 4,
-              "the kinds of tools are those of Tool, in order");
+                  std::variant_size_v<Tool> >= 4,
+              "the kinds of tools are those of Tool, in order; one without a name in the header goes by its place");
 
 /// Points are `a` and `b`, in the order of the tool's fields; its number is `offset` where it is called so, else
 /// `radius`.

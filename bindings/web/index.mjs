@@ -37,7 +37,11 @@ const PLAIN = {
 };
 
 async function compile(build, { locateFile, wasmBinary }) {
-  if (wasmBinary) return WebAssembly.compile(wasmBinary);
+  if (wasmBinary) {
+    return WebAssembly.compile(bytesOf(wasmBinary)).catch((error) => {
+      throw new InciseError(`wasmBinary is no WebAssembly module: ${error.message}`, 'BadArgument');
+    });
+  }
   const where = locateFile ? new URL(locateFile(build.file), globalThis.location?.href ?? import.meta.url) : build.url();
   if (where.protocol === 'file:') {
     const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ 'node:fs/promises');
@@ -74,6 +78,25 @@ function bytesOf(data) {
   if (data instanceof ArrayBuffer) return new Uint8Array(data);
   if (ArrayBuffer.isView(data)) return new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
   throw new InciseError('the bytes of a file have to be a string, an ArrayBuffer or a view of one', 'BadArgument');
+}
+
+/** The name that a file goes by; its end says the format. */
+function nameOf(name) {
+  if (typeof name === 'string' && name !== '') return name;
+  throw new InciseError('name has to be a text, such as "liver.mesh": its end says the format', 'BadArgument');
+}
+
+/** A blade's path as JSON. */
+function pathOf(blade) {
+  if (typeof blade === 'string') return blade;
+  if (typeof blade === 'object' && blade !== null) return JSON.stringify(blade);
+  throw new InciseError('blade has to be a path of format incise-blade, or its JSON', 'BadArgument');
+}
+
+/** Three finite numbers. */
+function vectorOf(value, what) {
+  if (value?.length === 3) return Array.from(value, (number) => numberOf(number, what));
+  throw new InciseError(`${what} has to be three finite numbers`, 'BadArgument');
 }
 
 const numberOf = (value, what) => {
@@ -119,7 +142,7 @@ function makeEngine(module) {
       this.#held = new Held(core);
     }
     static open(bytes, name) {
-      return new Engine(checked(module.Engine.open(bytesOf(bytes), String(name))));
+      return new Engine(checked(module.Engine.open(bytesOf(bytes), nameOf(name))));
     }
     get #core() {
       return this.#held.core;
@@ -137,10 +160,10 @@ function makeEngine(module) {
       return this.#core.hash;
     }
     cut(blade) {
-      return checked(this.#core.cut(typeof blade === 'string' ? blade : JSON.stringify(blade)));
+      return checked(this.#core.cut(pathOf(blade)));
     }
     cutPlane(normal, offset) {
-      return checked(this.#core.cutPlane(normal, numberOf(offset, 'offset')));
+      return checked(this.#core.cutPlane(vectorOf(normal, 'normal'), numberOf(offset, 'offset')));
     }
     improve() {
       checked(this.#core.improve());
@@ -178,9 +201,10 @@ function makeSession(module, tools, colors) {
     constructor(core) {
       this.#held = new Held(core);
     }
-    static open(bytes, name, { files, up } = {}) {
+    static open(bytes, name, options) {
+      const { files, up } = options ?? {};
       const beside = files && Object.fromEntries(Object.entries(files).map(([key, data]) => [key, bytesOf(data)]));
-      return new Session(checked(module.Session.open(bytesOf(bytes), String(name), beside, up)));
+      return new Session(checked(module.Session.open(bytesOf(bytes), nameOf(name), beside, up && vectorOf(up, 'up'))));
     }
     get #core() {
       return this.#held.core;
@@ -224,7 +248,8 @@ function makeSession(module, tools, colors) {
     resize(width, height, freeHeight = height) {
       this.#core.resize(numberOf(width, 'width'), numberOf(height, 'height'), numberOf(freeHeight, 'freeHeight'));
     }
-    pointer(kind, x, y, { button = 'left', shift = false, control = false, alt = false, wheel = 0, pressure = 1 } = {}) {
+    pointer(kind, x, y, options) {
+      const { button = 'left', shift = false, control = false, alt = false, wheel = 0, pressure = 1 } = options ?? {};
       const keys = (shift ? 1 : 0) | (control ? 2 : 0) | (alt ? 4 : 0);
       this.#core.pointer(placeIn(KINDS, kind, 'kind'), numberOf(x, 'x'), numberOf(y, 'y'),
         placeIn(BUTTONS, button, 'button'), keys, numberOf(wheel, 'wheel'), numberOf(pressure, 'pressure'));
@@ -293,8 +318,8 @@ function makeSession(module, tools, colors) {
 }
 
 /** Loads the module. Each call makes one of its own, with memory of its own. */
-export async function load(options = {}) {
-  const module = await instantiate(options);
+export async function load(options) {
+  const module = await instantiate(options ?? {});
   const tools = Object.freeze(module.tools()), colors = Object.freeze(module.colors());
   return Object.freeze({
     version: module.version,

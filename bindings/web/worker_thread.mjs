@@ -246,6 +246,14 @@ function choose(what) {
   hasMoved = true;
 }
 
+/** What needs no body that is open. */
+const ALWAYS = ['open', 'look', 'memory', 'isKept', 'events', 'resize'];
+
+function answer({ what, with: given }) {
+  if (!session && !ALWAYS.includes(what)) throw Object.assign(new Error('no body is open yet'), { code: 'BadArgument' });
+  return answers[what](given ?? {});
+}
+
 onmessage = ({ data }) => {
   if (data.type === 'want') {
     isWanted = true;
@@ -255,7 +263,7 @@ onmessage = ({ data }) => {
     isShown = data.isShown;
   } else if (data.type === 'ask') {
     try {
-      say('answer', { id: data.id, value: answers[data.what](data.with ?? {}) });
+      say('answer', { id: data.id, value: answer(data) });
     } catch (error) {
       if (isFatal(error)) say('broken', { error: errorOf(error) });
       else say('answer', { id: data.id, error: errorOf(error) });

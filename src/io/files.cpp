@@ -83,6 +83,7 @@ Result<std::string> load_file_if(const fs::path& path, const ReadLimits& limits,
     return io_error(ErrorCode::kBadFile, path, "is a device, which may have no end; give a file, or a pipe");
   }
   const File file(std::fopen(path.string().c_str(), "rb"));
+  if (!file && errno == ENOENT) return io_error(ErrorCode::kBadFile, path, "no such file; check the path");
   if (!file) {
     return io_error(ErrorCode::kBadFile, path,
                     std::string("cannot be opened (") + std::strerror(errno) + "); check the name");

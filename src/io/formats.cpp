@@ -27,6 +27,7 @@ std::string write_vtu(const MeshData& data, MshVariant variant);
 #else
 constexpr std::string (*write_vtu)(const MeshData&, MshVariant) = nullptr;
 #endif
+constexpr std::string_view kVtuTitle = INCISE_WITH_VTU ? ".vtu" : "";  // a build without says so of such a file
 std::string write_node(const MeshData& data, MshVariant variant);
 std::string write_ele(const MeshData& data, MshVariant variant);
 std::string write_vega(const MeshData& data, MshVariant variant);
@@ -85,7 +86,7 @@ constexpr std::array kFormats = {
     FormatRow{"", nullptr, nullptr, false, ".msh", write_msh, "msh22", MshVariant::k22},
     FormatRow{"", nullptr, nullptr, false, ".msh2", write_msh, "", MshVariant::k22},
     FormatRow{"legacy .vtk", is_vtk, read_vtk, false, ".vtk", write_vtk, "vtk"},
-    FormatRow{".vtu", is_vtu, read_vtu, false, ".vtu", write_vtu, "vtu"},
+    FormatRow{kVtuTitle, is_vtu, read_vtu, false, ".vtu", write_vtu, "vtu"},
     FormatRow{"TetGen .node/.ele", is_tetgen, read_tetgen, true, ".node", write_node, "node", MshVariant::k41, ".ele"},
     FormatRow{"", nullptr, nullptr, false, ".ele", write_ele, "", MshVariant::k41, ".node"},
     FormatRow{"Vega .veg", is_vega, read_vega, false, ".veg", write_vega, "veg"},
@@ -121,7 +122,7 @@ std::vector<std::string> written_extensions() {
   std::vector<std::string> extensions;
   for (const FormatRow& row : kFormats) {
     const bool is_new = std::find(extensions.begin(), extensions.end(), row.extension) == extensions.end();
-    if (!row.extension.empty() && is_new) extensions.emplace_back(row.extension);
+    if (row.write != nullptr && is_new) extensions.emplace_back(row.extension);
   }
   return extensions;
 }

@@ -44,9 +44,11 @@ TEST(MessageText, tells_how_far_work_is_and_how_long_it_takes_yet) {
   EXPECT_EQ(left(1300), ", 1:05:00 left");
 }
 
-TEST(MessageText, tells_which_stage_work_is_at_and_for_how_long_it_has_gone_on) {
-  EXPECT_EQ(incise_apps::stage_text("cutting", 1, 4, 75),
-            "[" + std::string(7, '#') + std::string(23, ' ') + "] stage 2 of 4: cutting, 1:15");
+TEST(MessageText, tells_which_stage_work_is_at_and_how_long_it_takes_yet) {
+  const std::string bar = "[" + std::string(7, '#') + std::string(23, ' ') + "] 25 %: cutting, ";
+  EXPECT_EQ(incise_apps::stage_text({"cutting", 25, 30, 75}), bar + "0:45 left");
+  EXPECT_EQ(incise_apps::stage_text({"cutting", 25, 30, 125}), bar + "2:05") << "it takes longer than it should";
+  EXPECT_EQ(incise_apps::stage_text({"reading", 0, 0, 7}), "[" + std::string(30, ' ') + "] 0 %: reading, 0:07");
 }
 
 TEST(CommandWords, suggest_the_nearest_word_or_none) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as they looked when somebody last looked at them. INCISE_UPDATE_GOLDEN=1 takes them as they are now.
+// Pictures as they looked when somebody last looked at them. INCISE_UPDATE_GOLDENS=1 takes them as they are now.
 #include "render/render_picture.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ constexpr int kThreshold = 24;           // of 255, above which a pixel differs
 constexpr app::Viewport kMedium{240, 180}, kTiny{192, 144};
 
 bool updates() {
-  const char* wish = std::getenv("INCISE_UPDATE_GOLDEN");
+  const char* wish = std::getenv("INCISE_UPDATE_GOLDENS");
   return wish != nullptr && std::string(wish) == "1";
 }
 
@@ -37,7 +37,7 @@ void keep_for_a_look(const Image& image, const Image& golden, const std::string&
   EXPECT_TRUE(write_png(image, drawn).ok());
   EXPECT_TRUE(write_png(incise::render::difference_image(image, golden), difference).ok());
   ADD_FAILURE() << "look at " << drawn << " and " << difference
-                << "; where it is right, run with INCISE_UPDATE_GOLDEN=1";
+                << "; where it is right, run with INCISE_UPDATE_GOLDENS=1";
 }
 
 void expect_golden(const app::Picture& picture, const std::string& name,

@@ -315,11 +315,27 @@ test('errors are InciseErrors that name file and remedy, and nothing of the insi
   assert.equal(thrown(() => engine.cut({ format: 'incise-blade', version: 1, strokes: [] })).code, 'BadFile');
   assert.equal(thrown(() => engine.write('.xyz')).code, 'BadArgument');
   assert.deepEqual(thrown(() => engine.write('.xyz')).ids, []);
+  assert.match(thrown(() => engine.cut(undefined)).message, /^blade has to be/);
+  assert.match(thrown(() => engine.cut(3)).message, /^blade has to be/);
+  assert.match(thrown(() => engine.cutPlane(undefined, 1)).message, /^normal has to be three/);
+  assert.match(thrown(() => Engine.open(bunny)).message, /^name has to be a text/);
+  assert.match(thrown(() => Engine.open(null, 'x.mesh')).message, /^the bytes of a file/);
+  assert.match(thrown(() => Session.open(bunny, 'bunny.mesh', { up: 'z' })).message, /^up has to be three/);
+  assert.doesNotMatch(thrown(() => Engine.open('nonsense', 'x.mesh')).message, /vtu/); // this build has no XML
+  assert.doesNotMatch(thrown(() => engine.write('.xyz')).message, /vtu/);
   const session = Session.open(patch, 'patch.json');
   assert.throws(() => (session.tool = 'Chainsaw'), { code: 'BadArgument' });
   assert.throws(() => session.pointer('press', NaN, 0), { code: 'BadArgument' });
+  session.pointer('move', 1, 1, null);
   session.dispose();
   assert.throws(() => session.frame(), { code: 'BadArgument' });
+  Session.open(patch, 'patch.json', null).dispose();
+});
+
+test('a wasmBinary that is none is an InciseError', async () => {
+  await assert.rejects(load({ wasmBinary: Uint8Array.of(1, 2, 3) }), (error) => error instanceof InciseError && /^wasmBinary is no/.test(error.message));
+  await assert.rejects(load({ wasmBinary: 'x' }), InciseError);
+  await assert.rejects(load({ wasmBinary: 7 }), InciseError);
 });
 
 test('what is disposed of gives its memory back', () => {

@@ -123,6 +123,8 @@ describe('the page lives on', { skip }, () => {
       globalThis.lost.loseContext();
     });
     await until(() => /lost/.test(document.getElementById('hint').textContent));
+    await visit.page.click('#shot');
+    await until(() => /no picture now/.test(document.getElementById('hint').textContent));
     await workerOf('drawing_thread').evaluate(() => globalThis.lost.restoreContext());
     await until(() => /back/.test(document.getElementById('hint').textContent));
     await isDrawnAgain(before);

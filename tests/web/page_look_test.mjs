@@ -94,6 +94,14 @@ describe('the look of the page', { skip }, () => {
     for (const [width, height] of [[320, 568], [500, 320], [521, 600], [568, 320], [600, 800], [667, 375], [700, 500], [740, 360], [761, 600], [800, 600]]) {
       await visit.page.setViewportSize({ width, height });
       assert.deepEqual(await outside(), [], `${width} px`);
+      for (const [key, id] of [['f', 'figures'], ['h', 'help']]) {
+        await press(key);
+        const [panel, bar] = await Promise.all([`#${id}`, '#bar'].map((what) => visit.page.locator(what).boundingBox()));
+        assert.ok(panel.height >= 120 && (panel.y + panel.height <= bar.y || height < 400), `${id} at ${width} px: ${JSON.stringify([panel, bar])}`);
+        if (width === 320) await visit.page.screenshot({ path: `${pictures}/320-${id}.png` });
+        await press('Escape'); // closes it
+        assert.equal(await visit.page.locator(`#${id}`).isVisible(), false);
+      }
     }
     await visit.end();
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page in headless Chromium, with mouse and touch events as a person makes them. Pictures go to build/web-pictures.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { describe, test } from 'node:test';
 import { Visit, pictures, skip } from './page_support.mjs';
 import { launch, read } from './support.mjs';
@@ -174,8 +175,47 @@ describe('the page', { skip }, () => {
     await until(() => /letter\.txt/.test(document.getElementById('hint').textContent));
     await drag([0.45, 0.5], [0.6, 0.55]);
     await until(() => window.incise.figures.strokes === 1);
+    await isAtRest();
+    const hash = await ask('hash');
     const [download] = await Promise.all([visit.page.waitForEvent('download'), visit.page.click('#share')]);
     assert.equal(download.suggestedFilename(), 'incise-recording.jsonl');
+    const saved = { name: 'saved.jsonl', mimeType: 'text/plain', buffer: readFileSync(await download.path()) };
+    // While its mesh is open it is known; on a page that has another body it is asked for, and taken with the recording.
+    await visit.page.setInputFiles('#file', saved);
+    await until((end) => window.incise.replayed?.hash === end, hash);
+    await visit.page.selectOption('#body', 'skin');
+    await until(() => window.incise.body === 'skin' && window.incise.state === 'ready');
+    visit.failures = 3;
+    await visit.page.setInputFiles('#file', saved);
+    await until(() => /saved\.jsonl names mine\.mesh: choose these files together/.test(document.getElementById('hint').textContent));
+    assert.equal((await figures()).tetsAtStart, await visit.page.evaluate(() => window.incise.tets)); // the skin is there still
+    await visit.page.evaluate(() => (window.incise.replayed = undefined));
+    await visit.page.setInputFiles('#file', [{ name: 'mine.mesh', mimeType: 'text/plain', buffer: read('models/bunny.mesh') }, saved]);
+    await until((end) => window.incise.replayed?.hash === end, hash);
+    assert.match(await visit.page.locator('#body option:checked').textContent(), /saved\.jsonl/);
+  });
+
+  test('a recording of a body of the page needs nothing but itself, and a link is not made of a part', async () => {
+    await openPage({ path: '?body=bunny' });
+    await drag([0.45, 0.5], [0.6, 0.55]);
+    await until(() => window.incise.figures.strokes === 1);
+    await isAtRest();
+    const hash = await ask('hash'), recording = await visit.page.evaluate(async () => [...(await window.incise.engine.ask('recording'))]);
+    await openPage();
+    await visit.page.setInputFiles('#file', { name: 'bunny.jsonl', mimeType: 'text/plain', buffer: Buffer.from(recording) });
+    await until(() => window.incise.isReplay);
+    await visit.page.click('#share');
+    assert.match(await hint(), /a link of now would hold a part|bit for bit/);
+    await until((end) => window.incise.replayed?.hash === end, hash);
+  });
+
+  test('what is asked of the page while it loads is answered in words', async () => {
+    await openPage({ path: '?body=nothing', waits: false });
+    await visit.page.click('#share');
+    await visit.page.click('#shot');
+    await press('f');
+    await visit.isReady();
+    assert.match(await hint(), /No body here is called nothing/);
   });
 
   test('a dropped file is opened', async () => {

@@ -115,6 +115,7 @@ export class Drawer {
   }
 
   async #shoot() {
+    if (this.#picture.renderer.getContext().isContextLost()) return this.#tell({ type: 'shot', blob: null });
     this.#drawAt(this.#detail.still); // what was drawn before may be gone
     const blob = this.#canvas.convertToBlob ? await this.#canvas.convertToBlob() : await new Promise((resolve) => this.#canvas.toBlob(resolve));
     this.#tell({ type: 'shot', blob });

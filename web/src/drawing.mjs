@@ -53,6 +53,7 @@ export class Drawing extends EventTarget {
     this.#worker.terminate();
     if (++this.#deaths > MOST_DEATHS) return this.dispatchEvent(new CustomEvent('unable', { detail: { why } }));
     this.isBusy = false;
+    this.#endShots(null);
     this.#start();
     this.dispatchEvent(new CustomEvent('replaced'));
   }
@@ -61,8 +62,12 @@ export class Drawing extends EventTarget {
     if (type === 'alive') this.#endWatch = watchLife(data.lock, () => this.#replace());
     if (type === 'drawn') this.isBusy = false;
     if (type === 'drawn') this.#holder.classList.add('drawn');
-    if (type === 'shot') for (const tell of this.#shots.splice(0)) tell(data.blob);
+    if (type === 'shot') this.#endShots(data.blob);
     this.dispatchEvent(new CustomEvent(type, { detail: data }));
+  }
+
+  #endShots(blob) {
+    for (const tell of this.#shots.splice(0)) tell(blob);
   }
 
   #send(message, transfer = []) {
@@ -88,7 +93,7 @@ export class Drawing extends EventTarget {
     this.#send({ type: 'resize', size });
   }
 
-  /** The picture as a PNG. */
+  /** The picture as a PNG; null while its context is lost, or where its worker died. */
   shoot() {
     return new Promise((resolve) => {
       this.#shots.push(resolve);

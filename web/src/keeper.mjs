@@ -35,6 +35,12 @@ export class Keeper extends EventTarget {
     return info;
   }
 
+  /** Name to bytes, of what is open and what lies beside it. */
+  get files() {
+    const { files, bytes, name } = this.#opened ?? {};
+    return name ? { ...files, [name]: bytes } : {};
+  }
+
   #begin() {
     this.#wasWarm = true;
     if (!this.#opened) return this.#tell('warm');

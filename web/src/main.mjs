@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: controls, files and links around a session that runs in a worker.
 import { Drawing } from './drawing.mjs';
+import { gather } from './files.mjs';
 import { Hands } from './hands.mjs';
 import { icon } from './icons.mjs';
 import { Keeper } from './keeper.mjs';
@@ -22,7 +23,6 @@ const TOOLS = [
   { name: 'Pin', label: 'Pin', hint: 'Click on tissue to hold it there; click the pin to let go.' },
 ];
 const REST_MS = 20; // between two pictures of a processor, which has frames to compute as well
-const LARGEST_FILE = 200e6; // bytes; a mesh of some two million tets
 
 /** For tests and the curious: what the page measured of itself. */
 const measured = (window.incise = {
@@ -32,7 +32,7 @@ const measured = (window.incise = {
   },
 });
 
-const keeper = new Keeper(), panel = new Panel((what) => ask(what));
+const keeper = new Keeper(), panel = new Panel((what) => (isReady ? ask(what) : null));
 const ask = (what, data) => keeper.engine.ask(what, data);
 const hintOf = (name) => TOOLS.find((each) => each.name === name).hint;
 
@@ -133,18 +133,33 @@ const want = (isWhole = false) => keeper.engine.send({ type: 'want', isWhole });
 
 async function openBody(id) {
   const body = bodies.find((each) => each.id === id) ?? bodies[0];
-  const files = body.model ? await fetchParts(body) : undefined;
-  await open({ bytes: await fetchBytes(body.file), name: body.file, files, up: body.up }, body.id);
-  $('body').value = body.id;
+  const shown = $('body').dataset.shown ?? bodies[0].id;
+  try {
+    const files = body.model ? await fetchParts(body) : undefined;
+    await open({ bytes: await fetchBytes(body.file), name: body.file, files, up: body.up }, body.id);
+    showBody(body.id);
+  } catch (error) {
+    showBody(shown); // which is there still
+    throw error;
+  }
 }
 
-async function openFile(file) {
-  if (file.size > LARGEST_FILE) throw new Error(`${file.name} is larger than ${LARGEST_FILE / 1e6} MB; use the window or the command`);
-  const bytes = new Uint8Array(await file.arrayBuffer());
-  const body = bodies.find((each) => each.id === opened.id);
-  const files = body ? await fetchParts(body) : {};
-  delete files[file.name];
-  await open({ bytes, name: file.name, files }, '', file.name);
+/** Opens what was chosen or dropped: one file, or several that belong together. */
+async function openFiles(chosen) {
+  if (chosen.length === 0) return;
+  const page = bodies.flatMap(({ file, model, surface }) => [file, model, surface]).filter(Boolean);
+  const { what, missing } = await gather(chosen, keeper.files, page, fetchBytes);
+  try {
+    await open(what, '', what.name);
+  } catch (error) {
+    if (missing.length === 0) throw error;
+    throw new Error(`${what.name} names ${missing.join(' and ')}: choose these files together, or drop them together`);
+  }
+}
+
+/** Says in the list which body is shown; '' is one that is no row of it. */
+function showBody(id) {
+  $('body').value = $('body').dataset.shown = id;
 }
 
 /** Shows a body that is no row of the list. */
@@ -152,17 +167,19 @@ function own(name) {
   const option = $('body').querySelector('option[value=""]') ?? new Option('', '');
   option.textContent = name;
   $('body').append(option);
-  $('body').value = '';
+  showBody('');
 }
 
 async function openLink(found) {
   const body = bodies.find((each) => each.id === found.body);
   const files = body ? await fetchParts(body) : undefined;
   await open({ bytes: found.recording, name: 'link.jsonl', files }, body?.id ?? '');
-  if (body) $('body').value = body.id;
+  if (body) showBody(body.id);
+  else own('Of a link');
 }
 
 async function share() {
+  if (opened.isReplay) return say('Once the recording is played, or you go on by hand: a link of now would hold a part of it.', 8);
   const recording = await ask('recording');
   const fragment = await toFragment(opened.id, recording);
   if (opened.id === '' || fragment.length > LONGEST_LINK) {
@@ -185,7 +202,9 @@ function save(blob, name) {
 }
 
 async function screenshot() {
-  save(await drawing.shoot(), 'incise.png');
+  const picture = await drawing.shoot();
+  if (picture) save(picture, 'incise.png');
+  else say('There is no picture now; try again in a moment.', 8);
 }
 
 // --- tools and acts
@@ -239,11 +258,19 @@ function makeTools() {
 
 function toggle(id) {
   const isShown = $(id).hidden;
+  for (const what of ['header', 'footer']) document.documentElement.style.setProperty(`--${what}`, `${heightOf(what)}px`);
   for (const other of ['figures', 'help']) {
     $(other).hidden = other !== id || !isShown;
     $(`${other}-button`).setAttribute('aria-expanded', !$(other).hidden);
   }
   panel.refresh().catch(failed);
+}
+
+/** Closes what lies over the body. Returns whether something did. */
+function closePanels() {
+  const shown = ['figures', 'help'].find((id) => !$(id).hidden);
+  if (shown) toggle(shown);
+  return shown !== undefined;
 }
 
 function changeDepth(by) {
@@ -255,7 +282,7 @@ const sendDepth = newest((share) => ask('depth', { share }).catch(failed));
 
 const KEYS = {
   ...Object.fromEntries(TOOLS.map(({ name }, i) => [i + 1, () => choose(name)])),
-  r: () => act('reset'), Home: () => act('frameBody'), Escape: () => act('cancel'),
+  r: () => act('reset'), Home: () => act('frameBody'), Escape: () => (closePanels() ? undefined : act('cancel')),
   f: () => toggle('figures'), h: () => toggle('help'), '?': () => toggle('help'),
   t: () => setTheme(theme === 'dark' ? 'light' : 'dark'), '[': () => changeDepth(-0.04), ']': () => changeDepth(0.04),
 };
@@ -276,9 +303,10 @@ function onKey(event) {
 
 function hearControls() {
   const hear = (id, what) => ($(id).onclick = () => Promise.resolve(what()).catch(failed));
+  const hearReady = (id, what) => hear(id, () => (isReady && drawing ? what() : say('It is still loading; a moment.')));
   for (const what of ['undo', 'redo', 'reset']) hear(what, () => act(what));
-  hear('share', share);
-  hear('shot', screenshot);
+  hearReady('share', share);
+  hearReady('shot', screenshot);
   hear('theme', () => setTheme(theme === 'dark' ? 'light' : 'dark'));
   hear('figures-button', () => toggle('figures'));
   hear('help-button', () => toggle('help'));
@@ -291,8 +319,7 @@ function hearControls() {
   $('body').onchange = () => $('body').value && openBody($('body').value).catch(failed);
   hear('open', () => $('file').click());
   $('file').onchange = () => {
-    const [file] = $('file').files;
-    if (file) openFile(file).catch(failed);
+    openFiles([...$('file').files]).catch(failed);
     $('file').value = ''; // the same file may be opened again
   };
   addEventListener('keydown', onKey);
@@ -301,8 +328,7 @@ function hearControls() {
   addEventListener('drop', (event) => {
     event.preventDefault();
     document.body.classList.remove('dropping');
-    const [file] = event.dataTransfer.files;
-    if (file) openFile(file).catch(failed);
+    openFiles([...event.dataTransfer.files]).catch(failed);
   });
   document.addEventListener('visibilitychange', () => keeper.engine?.send({ type: 'shown', isShown: !document.hidden }));
 }
@@ -340,9 +366,10 @@ function onReplayed({ detail }) {
   say(isSame ? 'Played: the same state as was recorded, bit for bit. Go on by hand.' : `Played. ${detail.verdict}`, 10);
 }
 
+const heightOf = (what) => document.querySelector(what).offsetHeight;
 const sizeOfView = () => {
   const { innerWidth: width, innerHeight: height } = window;
-  const controls = 2 * Math.max(document.querySelector('header').offsetHeight, document.querySelector('footer').offsetHeight);
+  const controls = 2 * Math.max(heightOf('header'), heightOf('footer'));
   return [width, height, Math.max(height / 3, height - controls)];
 };
 const sendSize = newest((size) => ask('resize', size).catch(failed));
@@ -438,7 +465,9 @@ async function openFirst() {
   } catch {
     isDamaged = true;
   }
-  await openBody(new URLSearchParams(location.search).get('body') ?? bodies[0].id);
+  const id = new URLSearchParams(location.search).get('body') ?? bodies[0].id;
+  await openBody(id);
+  if (!bodies.some((each) => each.id === id)) say(`No body here is called ${id}: this is the first of the list.`, 12);
   if (isDamaged) say('The link is damaged: it may have been cut off. Here is a fresh body.', 12);
 }
 
@@ -460,7 +489,7 @@ function begin() {
   startEngine();
   addEventListener('resize', fit);
   addEventListener('hashchange', () => openFirst().catch(failed));
-  setInterval(() => isReady && panel.refresh().catch(failed), 1000);
+  setInterval(() => panel.refresh().catch(failed), 1000);
 }
 
 begin();

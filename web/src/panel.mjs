@@ -12,7 +12,7 @@ export class Panel {
   #figures = null;
   #isAsking = false;
 
-  /** @param ask  of the engine; null while there is none */
+  /** @param ask  of the engine; what it returns is null while there is none */
   constructor(ask) {
     this.ask = ask;
   }
@@ -43,7 +43,9 @@ export class Panel {
     this.#show(); // at rest no frames come
     this.#isAsking = true;
     try {
-      const { now, before, pieces } = await this.ask('quality');
+      const quality = await this.ask('quality');
+      if (!quality) return;
+      const { now, before, pieces } = quality;
       show('f-pieces', pieces);
       show('f-mean', `${before.lrMean.toFixed(2)} → ${now.lrMean.toFixed(2)}`);
       show('f-worst', `${before.lrMax.toFixed(1)} → ${now.lrMax.toFixed(1)}`);

@@ -21,8 +21,9 @@ namespace app {
 /// The greatest budget of time for maintenance, in microseconds: an hour.
 inline constexpr std::uint64_t kMaxBudgetUs = 3'600'000'000;
 
-/// What is told of a job in stages: the name of the one that it is at, how many came before it, and how many there are.
-using StageSink = std::function<void(std::string_view name, std::size_t done, std::size_t total)>;
+/// What is told of a job in stages: the name of the one that it is at, and what percent of the job's time the ones
+/// before it take of a large mesh.
+using StageSink = std::function<void(std::string_view name, unsigned percent)>;
 
 struct CutJob {
   std::vector<Stroke> strokes;

@@ -51,13 +51,13 @@ struct RecordedEngineOf {
 /// What a job tells of its stages, each once.
 struct ToldStages {
   std::vector<std::string> names;
-  std::size_t total = 0;
+  unsigned percent = 0;
 
   app::StageSink sink() {
-    return [this](std::string_view name, std::size_t done, std::size_t of) {
-      if (done == names.size()) names.emplace_back(name);
-      EXPECT_EQ(done + 1, names.size()) << name;  // one after the other, and none left out
-      total = of;
+    return [this](std::string_view name, unsigned gone) {
+      if (names.empty() || name != names.back()) names.emplace_back(name);
+      EXPECT_TRUE(names.size() == 1 ? gone == 0 : gone >= percent && gone < 100) << name << " " << gone;
+      percent = gone;
     };
   }
 };
@@ -71,15 +71,13 @@ TEST(Stages, of_a_plane_cut_and_of_improvement_are_told_one_after_the_other) {
   ASSERT_TRUE(app::run_cut(std::move(loaded).value(), job, false).ok());
   EXPECT_EQ(cut.names, (std::vector<std::string>{"measuring", "cutting", "improving the mesh at the cut",
                                                  "measuring the result"}));
-  EXPECT_EQ(cut.total, 4U);
   app::ImproveJob improve;
   improve.stage = improved.sink();
   io::MeshFile file = cube_file();
   file.data.soup.points[file.data.soup.tets[300][2]] += Vec3(0.05, 0.03, 0.04);
   ASSERT_TRUE(app::run_improve(io::build_mesh(file, "cube").value(), improve, false).ok());
-  EXPECT_EQ(improved.names.front(), "measuring");
-  EXPECT_EQ(improved.names.back(), "measuring the result");
-  EXPECT_EQ(improved.total, 4U);
+  EXPECT_EQ(improved.names,
+            (std::vector<std::string>{"measuring", "finding bad tets", "improving", "measuring the result"}));
 }
 
 TEST(Stages, of_a_check_go_up_to_the_whole) {

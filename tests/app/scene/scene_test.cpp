@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -668,22 +670,91 @@ int compare_defaults(const Json& object, const Json& found, const std::string& p
   return compared;
 }
 
-TEST(SceneSchema, names_the_tools_of_the_table) {
-  std::vector<std::string> all, cutting;
+/// A kind of tool as the schema tells it: at a place, or along a path; its points move, its numbers do not.
+class SchemaOfTool {
+ public:
+  void operator()(const char* name, const Vec3& /*point*/) { points_.emplace_back(name); }
+  void operator()(const char* name, double /*number*/) { numbers_.emplace_back(name); }
+  void operator()(const char* name, const std::vector<Vec3>& /*points*/) {
+    ADD_FAILURE() << name << ": a scene has no word for a list of points that moves";
+  }
+
+  [[nodiscard]] Json made() const {
+    Json properties, key = {{"t", {{"type", "number"}, {"description", "s, rising"}, {"minimum", 0}}}};
+    Json at_each_time = Json::array({"t"});
+    for (const std::string& name : numbers_) {
+      properties[name] = {{"type", "number"}, {"description", "length units"}, {"exclusiveMinimum", 0}};
+    }
+    for (const std::string& name : points_) {
+      properties[name] = key[name] = {{"$ref", "#/$defs/vec3"}};
+      at_each_time.push_back(name);
+    }
+    properties["path"] = {{"type", "array"},
+                          {"items", object_of(key, at_each_time)},
+                          {"minItems", 2},
+                          {"description", "where it is at each time"},
+                          {"maxItems", kMaxPathKeys}};
+    Json tool = object_of(properties, numbers_);
+    tool["oneOf"] = {{{"required", points_}}, {{"required", {"path"}}}};
+    return tool;
+  }
+
+ private:
+  static constexpr int kMaxPathKeys = 1048576;
+
+  static Json object_of(const Json& properties, const Json& required) {
+    return {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}, {"required", required}};
+  }
+
+  std::vector<std::string> points_, numbers_;
+};
+
+/// The schema with those tools that are registered; the rest as it stands.
+std::string schema_of_tools(const std::string& text) {
+  Json root = Json::parse(text);
+  Json all = Json::array(), cutting = all;
   for (std::size_t i = 0; i < app::kToolCount; ++i) {
     all.push_back(app::scene_name_of(static_cast<app::ToolKind>(i)));
     if (app::kTools[i].cuts) cutting.push_back(all.back());
   }
-  EXPECT_EQ(schema().at("/properties/hand/properties/tool/enum"_json_pointer), all);
-  EXPECT_EQ(schema().at("/properties/spare/items/properties/tool/enum"_json_pointer), cutting);
+  root["/properties/hand/properties/tool/enum"_json_pointer] = all;
+  root["/properties/spare/items/properties/tool/enum"_json_pointer] = cutting;
+  Json& pressing = root["/properties/tools/items"_json_pointer];
+  Json kinds = {{"name", pressing["properties"]["name"]}, {"plane", pressing["properties"]["plane"]}};
+  Json one_of = Json::array({{{"required", {"plane"}}}});
+  for_each_tool_kind([&](const auto& shape) {
+    if (!shape.kMoves) return;
+    SchemaOfTool schema_of_tool;
+    shape.for_each_field(shape, schema_of_tool);
+    kinds[shape.kName] = schema_of_tool.made();
+    one_of.push_back({{"required", {shape.kName}}});
+  });
+  pressing["properties"] = kinds;
+  pressing["oneOf"] = one_of;
+  return root.dump(1) + "\n";
 }
 
-TEST(SceneSchema, names_the_kinds_of_what_presses) {
-  std::set<std::string> kinds = {"name", "plane"};
-  for_each_tool_kind([&](const auto& shape) {
-    if (shape.kMoves) kinds.insert(shape.kName);
-  });
-  EXPECT_EQ(keys_of(schema().at("/properties/tools/items"_json_pointer)), kinds);
+/// The types of the npm package with those tools of the window that are registered.
+std::string types_of_tools(const std::string& text) {
+  std::string names;
+  for (const app::ToolRow& row : app::kTools) names += (names.empty() ? "'" : " | '") + std::string(row.name) + "'";
+  return std::regex_replace(text, std::regex("export type ToolName = [^;]*;"), "export type ToolName = " + names + ";");
+}
+
+/// Expects that a file of the project is what it would be made now; writes it where that is asked for.
+void expect_made(const std::string& file, std::string (*make)(const std::string& text)) {
+  const std::string text = app::read_text_file(file, 1U << 20U).value();
+  const std::string made = make(text);
+  if (std::getenv("INCISE_UPDATE_GOLDENS") != nullptr) {
+    ASSERT_TRUE(app::write_text_file(file, made).ok());
+  } else {
+    EXPECT_EQ(text, made) << file << " lacks a tool; INCISE_UPDATE_GOLDENS=1 writes it anew";
+  }
+}
+
+TEST(SceneSchema, and_the_types_of_the_web_name_the_tools_that_are_registered) {
+  expect_made(INCISE_DOCS "/scene.schema.json", schema_of_tools);
+  expect_made(INCISE_DOCS "/../bindings/web/index.d.mts", types_of_tools);
 }
 
 TEST(SceneSchema, has_the_same_defaults_as_the_reader) {
