@@ -63,11 +63,11 @@ void FloorKernel::write(const Journal& journal, std::size_t from, std::size_t to
   for (std::size_t i = from; i < to; ++i) {
     const Step& s = journal.step(i);
     keep(s.born, s.moved, s.copied, s.consumed, s.produced, s.rewired, s.opened, s.closed, s.died, s.edits,
-         s.edit_consumed, s.edit_produced, s.new_tets, s.new_vertices, s.before.tets, s.before.vertices,
-         s.before.free_tets, s.before.free_vertices);
-    for (const TetImage& tet : s.before.tets) set_tet(mesh, tet.id);
+         s.edit_consumed, s.edit_produced, s.new_tets, s.new_vertices, s.gone, s.kept, s.before.sides,
+         s.before.vertices, s.before.ties, s.before.free_tets, s.before.free_vertices);
+    s.for_each_tet_before([&](TetId tet) { set_tet(mesh, tet); });
     for (const TetId tet : s.new_tets) set_tet(mesh, tet);
-    for (const VertexImage& vertex : s.before.vertices) set_vertex(mesh, vertex.id);
+    s.for_each_vertex_before([&](VertexId vertex) { set_vertex(mesh, vertex); });
     for (const VertexId vertex : s.new_vertices) set_vertex(mesh, vertex);
   }
 }

@@ -323,7 +323,7 @@ std::uint32_t Cutter::pieces_at(const TetMesh& mesh, const Journal& journal, std
     if (mesh.is_live(tet)) seeds.push_back(tet);
   };
   for (std::size_t i = first; i < last; ++i) {
-    for (const TetImage& image : journal.step(i).before.tets) add(image.id);
+    journal.step(i).for_each_tet_before([&](TetId tet) { add(tet); });
     for (const TetId tet : journal.step(i).new_tets) add(tet);
   }
   return finder_.find(mesh, seeds);

@@ -16,7 +16,7 @@ void KeptApart::look_after(const TetMesh& mesh, const Journal& journal, std::siz
   touched_.clear();
   beside_.clear();
   for (std::size_t i = first; i < journal.position(); ++i) {
-    for (const TetImage& image : journal.step(i).before.tets) touched_.push_back(image.id);
+    journal.step(i).for_each_tet_before([&](TetId tet) { touched_.push_back(tet); });
     for (const TetId tet : journal.step(i).new_tets) touched_.push_back(tet);
   }
   std::sort(touched_.begin(), touched_.end());

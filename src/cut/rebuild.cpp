@@ -81,9 +81,7 @@ class Rebuild::Run {
 RebuildStatistics Rebuild::run(Transaction& transaction, ClosedComplex& complex, const OwnSheet& sheet,
                                const Settings& settings) {
   std::vector<std::uint32_t>& dirty = complex.dirty();
-  if (sizes_.new_tets <= SplitTemplate::kMostChildren * dirty.size()) transaction.reserve(sizes_);  // alike steps
   const RebuildStatistics done = Run(templates_, memory_, transaction, complex, sheet, settings).run();
-  sizes_ = transaction.sizes();
   for (const std::uint32_t index : dirty) complex[index].is_dirty = false;
   dirty.clear();
   return done;

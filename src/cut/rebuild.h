@@ -61,7 +61,6 @@ class Rebuild {
 
   SplitTemplates& templates_;
   Memory memory_;
-  Transaction::Sizes sizes_;  // of the last run
 };
 
 }  // namespace v0

@@ -18,7 +18,18 @@ namespace {
 
 class Reversal {
  public:
-  Reversal(TetMesh& mesh, const Step& step) : mesh_(mesh), step_(step) {}
+  Reversal(TetMesh& mesh, const Step& step) : mesh_(mesh), step_(step) {
+    for (std::size_t i = 0; i < step.consumed.size(); ++i) tets_.push_back(step.consumed_image(i));
+    for (const TetId tet : step.kept) tets_.push_back({tet, mesh.vertices(tet), mesh.links(tet), mesh.region(tet)});
+    std::vector<TetImage*> by_id;
+    for (TetImage& image : tets_) by_id.push_back(&image);
+    std::sort(by_id.begin(), by_id.end(), [](const TetImage* a, const TetImage* b) { return a->id < b->id; });
+    const auto at = [&](TetId tet) -> TetImage& {
+      return **std::lower_bound(by_id.begin(), by_id.end(), tet, [](const TetImage* a, TetId b) { return a->id < b; });
+    };
+    for (const RewiredTet& tet : step.rewired) at(tet.id).vertices = tet.old_vertices;
+    for (const SideImage& image : step.before.sides) at(image.side.tet()).links[image.side.side()] = image.link;
+  }
 
   void run(Journal& journal) {
     find_tets();
@@ -50,7 +61,7 @@ class Reversal {
   /// The tets that come back, and those that stand in their place: first those that give way.
   void find_tets() {
     bool is_rewired = false;
-    for (const TetImage& image : step_.before.tets) {
+    for (const TetImage& image : tets_) {
       ids_.push_back(image.id);
       const bool is_back = !mesh_.is_live(image.id);
       is_rewired |= !is_back && mesh_.vertices(image.id) != image.vertices;
@@ -61,13 +72,13 @@ class Reversal {
     for (const TetId tet : step_.new_tets) {
       if (mesh_.is_live(tet)) present_.add(mesh_, tet);
     }
-    for (const TetImage& image : step_.before.tets) {
+    for (const TetImage& image : tets_) {
       if (!waits_ || !mesh_.is_live(image.id) || mesh_.vertices(image.id) == image.vertices) continue;
       present_.add(mesh_, image.id);
       coming_.push_back(&image);
     }
     given_way_ = present_.size();
-    for (const TetImage& image : step_.before.tets) {
+    for (const TetImage& image : tets_) {
       if (mesh_.is_live(image.id) && (!waits_ || mesh_.vertices(image.id) == image.vertices))
         present_.add(mesh_, image.id);
     }
@@ -79,7 +90,7 @@ class Reversal {
       if (!mesh_.is_live(image.id) || mesh_.rest(image.id) != image.rest) backs_.push_back({&image});
     }
     std::sort(images_.begin(), images_.end(), [](const VertexImage* a, const VertexImage* b) { return a->id < b->id; });
-    for (const TetImage& image : step_.before.tets) note_middle(image);
+    for (const TetImage& image : tets_) note_middle(image);
     for (Back& back : backs_) {
       if (mesh_.is_live(back.image->id)) keep_star(back);
     }
@@ -145,15 +156,17 @@ class Reversal {
     for (std::size_t i = 0; i < coming_.size(); ++i) {
       transaction.revive_tet(*coming_[i], waits_ ? aside_[i] : parent_of(*coming_[i]));
     }
-    for (const TetImage& image : step_.before.tets) restore(transaction, image);
+    for (const TetImage& image : tets_) restore(transaction, image);
     for (const OpenedFace& face : step_.closed) transaction.open(face.a, face.b, face.tag);
     for (const VertexId vertex : step_.new_vertices) {
       if (mesh_.is_live(vertex)) transaction.remove_vertex(vertex);
     }
-    for (const VertexImage& image : step_.before.vertices) {
+    const auto tie = [&](const auto& image) {
       if (mesh_.tet_of(image.id) != image.tet) transaction.set_tet_of(image.id, image.tet);
       if (mesh_.shape_of(image.id) != image.shape) transaction.set_shape(image.id, image.shape);
-    }
+    };
+    for (const VertexImage& image : step_.before.vertices) tie(image);
+    for (const TiedVertex& image : step_.before.ties) tie(image);
     journal.append(transaction.commit());
   }
   void restore(Transaction& transaction, const TetImage& image) {
@@ -170,6 +183,7 @@ class Reversal {
   OldChildren present_, stars_;
   std::uint32_t given_way_ = 0;  // of the present ones: so many give way
   bool waits_ = false;           // tets come back in two steps
+  std::vector<TetImage> tets_;   // before the step, of all that it changed
   std::vector<const TetImage*> coming_;
   std::vector<TetId> ids_, aside_;  // ascending, of all images; of those that wait, beside `coming_`
   std::vector<Back> backs_;

@@ -38,7 +38,7 @@ void SurfaceIndex::go_back(const TetMesh& mesh, const Journal& journal) {
 }
 
 void SurfaceIndex::add_restored(const TetMesh& mesh, const Step& step) {
-  for (const TetImage& tet : step.before.tets) add(mesh, tet.id);
+  step.for_each_tet_before([&](TetId tet) { add(mesh, tet); });
   add_around(mesh, step.moved);
 }
 
@@ -58,7 +58,7 @@ void SurfaceIndex::add_changed(const TetMesh& mesh, const Step& step) {
   }
   add_around(mesh, step.moved);
   if (step.edits.empty()) return;  // maintenance lays sides bare, and gives tets other vertices
-  for (const TetImage& tet : step.before.tets) add(mesh, tet.id);
+  step.for_each_tet_before([&](TetId tet) { add(mesh, tet); });
 }
 
 void SurfaceIndex::build(const TetMesh& mesh) {

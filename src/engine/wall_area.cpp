@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Area of walls now less area before, over the tets that the steps touched: a tet counts as it was before the first of
-// them.
+// them. Steps are walked back from what there is now.
 #include "engine/wall_area.h"
 
 #include <algorithm>
@@ -28,38 +28,63 @@ double wall_share(const TetMesh& mesh, const TetVertices& vertices, const TetLin
 
 }  // namespace
 
-double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh& mesh) {
-  std::vector<const TetImage*> before;  // as they were before the first step that touched them
-  std::vector<TetId> touched, made;     // by the steps themselves: these had no wall before them
-  for (std::size_t i = first_step; i < journal.position(); ++i) {
-    for (const TetImage& image : journal.step(i).before.tets) {
-      before.push_back(&image);
-      touched.push_back(image.id);
-    }
-    const std::vector<TetId>& news = journal.step(i).new_tets;
-    made.insert(made.end(), news.begin(), news.end());
-  }
-  touched.insert(touched.end(), made.begin(), made.end());
-  const auto has_lower_id = [](const TetImage* a, const TetImage* b) { return a->id.value < b->id.value; };
-  std::stable_sort(before.begin(), before.end(), has_lower_id);
-  const auto has_same_id = [](const TetImage* a, const TetImage* b) { return a->id == b->id; };
-  before.erase(std::unique(before.begin(), before.end(), has_same_id), before.end());
-  const auto is_lower = [](TetId a, TetId b) { return a.value < b.value; };
-  std::sort(touched.begin(), touched.end(), is_lower);
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+namespace {
 
-  double growth = 0;
-  for (const TetId id : touched) {
-    if (mesh.is_live(id)) growth += wall_share(mesh, mesh.vertices(id), mesh.links(id));
-  }
-  std::sort(made.begin(), made.end(), is_lower);
-  const auto was_new = [&](TetId id) { return std::binary_search(made.begin(), made.end(), id, is_lower); };
-  for (const TetImage* image : before) {
-    if (image->vertices[0].is_valid() && !was_new(image->id)) {
-      growth -= wall_share(mesh, image->vertices, image->links);
+/// Tets that steps touched, first as they are and then, step by step, as they were.
+class TouchedTets {
+ public:
+  TouchedTets(const Journal& journal, std::size_t first_step, const TetMesh& mesh) {
+    for (std::size_t i = first_step; i < journal.position(); ++i) {
+      const Step& step = journal.step(i);
+      step.for_each_tet_before([this](TetId tet) { ids_.push_back(tet); });
+      made_.insert(made_.end(), step.new_tets.begin(), step.new_tets.end());
+    }
+    ids_.insert(ids_.end(), made_.begin(), made_.end());
+    std::sort(ids_.begin(), ids_.end());
+    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+    for (const TetId tet : ids_) {
+      const bool is_live = mesh.is_live(tet);
+      images_.push_back(is_live ? TetImage{tet, mesh.vertices(tet), mesh.links(tet), mesh.region(tet)} : TetImage{});
     }
   }
-  return growth;
+
+  void go_back(const Step& step) {
+    for (const TetId tet : step.new_tets) at(tet) = {};
+    for (std::size_t i = 0; i < step.consumed.size(); ++i) at(step.consumed[i].id) = step.consumed_image(i);
+    for (const RewiredTet& tet : step.rewired) at(tet.id).vertices = tet.old_vertices;
+    for (const SideImage& image : step.before.sides) at(image.side.tet()).links[image.side.side()] = image.link;
+  }
+  /// Those in whose slots the steps put others do not count: their vertices' slots may be others' as well.
+  void leave_out_made() {
+    for (const TetId tet : made_) at(tet) = {};
+  }
+
+  [[nodiscard]] double wall_share(const TetMesh& mesh) const {
+    double area = 0;
+    for (const TetImage& image : images_) {
+      if (image.id.is_valid()) area += detail::wall_share(mesh, image.vertices, image.links);
+    }
+    return area;
+  }
+
+ private:
+  TetImage& at(TetId tet) {
+    return images_[static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), tet) - ids_.begin())];
+  }
+
+  std::vector<TetId> ids_;        // ascending
+  std::vector<TetId> made_;       // by the steps
+  std::vector<TetImage> images_;  // beside them; without an id where no tet was
+};
+
+}  // namespace
+
+double wall_growth(const Journal& journal, std::size_t first_step, const TetMesh& mesh) {
+  TouchedTets tets(journal, first_step, mesh);
+  const double now = tets.wall_share(mesh);
+  for (std::size_t i = journal.position(); i-- > first_step;) tets.go_back(journal.step(i));
+  tets.leave_out_made();
+  return now - tets.wall_share(mesh);
 }
 
 }  // namespace detail

@@ -43,7 +43,7 @@ std::size_t bytes_of(const Lists&... lists) {
 }
 
 std::size_t bytes_of_image(const StepImage& image) {
-  return bytes_of(image.tets, image.vertices, image.free_tets, image.free_vertices);
+  return bytes_of(image.tets, image.sides, image.vertices, image.ties, image.free_tets, image.free_vertices);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ std::size_t Journal::memory_bytes() const {
   for (const Step& s : steps_) {
     bytes += sizeof(Step) + bytes_of_image(s.before) + bytes_of_image(s.after);
     bytes += bytes_of(s.born, s.moved, s.copied, s.consumed, s.produced, s.rewired, s.opened, s.closed, s.died);
-    bytes += bytes_of(s.edits, s.edit_consumed, s.edit_produced, s.new_tets, s.new_vertices);
+    bytes += bytes_of(s.edits, s.edit_consumed, s.edit_produced, s.new_tets, s.new_vertices, s.gone, s.kept);
   }
   return bytes;
 }
@@ -75,10 +75,15 @@ StepImage image_of(const TetMesh& mesh, const Step& step, const GrowArray<std::u
     image.vertices.push_back(
         {id, mesh.rest(id), mesh.current(id), mesh.tet_of(id), mesh.origin(id), mesh.shape_of(id)});
   };
-  for (const TetImage& old : step.before.tets) keep_tet(old.id);
+  for (const ConsumedTet& old : step.consumed) keep_tet(old.id);
+  for (const RewiredTet& tet : step.rewired) keep_tet(tet.id);
+  for (const SideImage& old : step.before.sides) image.sides.push_back({old.side, mesh.link(old.side)});
   for (const TetId id : step.new_tets) keep_tet(id);
   for (const VertexImage& old : step.before.vertices) keep_vertex(old.id);
   for (const VertexId id : step.new_vertices) keep_vertex(id);
+  for (const TiedVertex& old : step.before.ties) {
+    image.ties.push_back({old.id, mesh.tet_of(old.id), mesh.origin(old.id), mesh.shape_of(old.id)});
+  }
   image.free_tets = tail(free_tets, step.free_tets_common);
   image.free_vertices = tail(free_vertices, step.free_vertices_common);
   image.tet_slots = mesh.tet_slots();
@@ -124,6 +129,23 @@ void Journal::revert(TetMesh& mesh, const Step& step) noexcept {
     }
   }
   restore(mesh, step, step.before);
+  give_back_taken(mesh, step);
+  for (const RewiredTet& tet : step.rewired) mesh.tet_vertices_[tet.id] = tet.old_vertices;
+  for (std::size_t i = 0; i < step.gone.size(); ++i) put(mesh, step.consumed_image(i));
+}
+
+/// To the free lists, the last taken first.
+void Journal::give_back_taken(TetMesh& mesh, const Step& step) {
+  for (std::size_t i = step.free_tets_taken; i-- > 0;) mesh.free_tets_.push_back(step.new_tets[i].value);
+  for (std::size_t i = step.free_vertices_taken; i-- > 0;) mesh.free_vertices_.push_back(step.new_vertices[i].value);
+}
+
+void Journal::put(TetMesh& mesh, const TetImage& image) {
+  const bool was_live = mesh.is_live(image.id);
+  mesh.tet_vertices_[image.id] = image.vertices;
+  mesh.tet_links_[image.id] = image.links;
+  mesh.tet_region_[image.id] = image.region;
+  count_change(was_live, mesh.is_live(image.id), mesh.live_tets_, mesh.tet_generation_[image.id]);
 }
 
 bool Journal::redo(TetMesh& mesh) {
@@ -144,13 +166,8 @@ void Journal::restore(TetMesh& mesh, const Step& step, const StepImage& image) {
   mesh.vertex_tet_.resize(image.vertex_slots);
   mesh.vertex_origin_.resize(image.vertex_slots);
   mesh.vertex_shape_.resize(image.vertex_slots, shape::kDead);
-  for (const TetImage& old : image.tets) {
-    const bool was_live = mesh.is_live(old.id);
-    mesh.tet_vertices_[old.id] = old.vertices;
-    mesh.tet_links_[old.id] = old.links;
-    mesh.tet_region_[old.id] = old.region;
-    count_change(was_live, mesh.is_live(old.id), mesh.live_tets_, mesh.tet_generation_[old.id]);
-  }
+  for (const TetImage& old : image.tets) put(mesh, old);
+  for (const SideImage& old : image.sides) mesh.tet_links_[old.side.tet()][old.side.side()] = old.link;
   for (const VertexImage& old : image.vertices) {
     const bool was_live = mesh.is_live(old.id);
     mesh.rest_[old.id] = old.rest;
@@ -159,6 +176,11 @@ void Journal::restore(TetMesh& mesh, const Step& step, const StepImage& image) {
     mesh.vertex_origin_[old.id] = old.origin;
     mesh.vertex_shape_[old.id] = old.shape;
     count_change(was_live, mesh.is_live(old.id), mesh.live_vertices_, mesh.vertex_generation_[old.id]);
+  }
+  for (const TiedVertex& old : image.ties) {
+    mesh.vertex_tet_[old.id] = old.tet;
+    mesh.vertex_origin_[old.id] = old.origin;
+    mesh.vertex_shape_[old.id] = old.shape;
   }
   restore_free_list(mesh.free_tets_, step.free_tets_common, image.free_tets);
   restore_free_list(mesh.free_vertices_, step.free_vertices_common, image.free_vertices);

@@ -225,7 +225,7 @@ JournalMirror::Image JournalMirror::image_before(const Step& step) {
   const auto keep_vertex = [&](VertexId id) { image.vertices.emplace_back(id, vertices_[id.value]); };
   const auto keep_tet = [&](TetId id) { image.tets.emplace_back(id, tets_[id.value]); };
   for (const VertexImage& touched : step.before.vertices) keep_vertex(touched.id);
-  for (const TetImage& touched : step.before.tets) keep_tet(touched.id);
+  step.for_each_tet_before([&](TetId tet) { keep_tet(tet); });
   for (const VertexId id : step.new_vertices) keep_vertex(id);
   for (const TetId id : step.new_tets) keep_tet(id);
   return image;

@@ -78,18 +78,18 @@ void TouchedCheck::collect(const TetMesh& mesh, const Journal& journal, std::siz
   has_vertex_.ensure(mesh.vertex_slots());
   for (std::size_t i = first_step; i < journal.position(); ++i) {
     const Step& step = journal.step(i);
-    for (const TetImage& old : step.before.tets) {
-      add(mesh, old.id);
-      if (!mesh.is_live(old.id)) add_neighbours(mesh, old);
+    step.for_each_tet_before([&](TetId tet) { add(mesh, tet); });
+    for (std::size_t k = 0; k < step.consumed.size(); ++k) {
+      if (!mesh.is_live(step.consumed[k].id)) add_neighbours(mesh, step.gone[k]);
     }
     for (const TetId tet : step.new_tets) add(mesh, tet);
-    for (const VertexImage& old : step.before.vertices) add(mesh, old.id);
+    step.for_each_vertex_before([&](VertexId vertex) { add(mesh, vertex); });
     for (const VertexId vertex : step.new_vertices) add(mesh, vertex);
   }
 }
 
 /// Those of a tet that is gone name others now.
-void TouchedCheck::add_neighbours(const TetMesh& mesh, const TetImage& gone) {
+void TouchedCheck::add_neighbours(const TetMesh& mesh, const GoneTet& gone) {
   for (const Link link : gone.links) {
     if (!link.is_boundary()) add(mesh, link.side().tet());
   }

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
+#include <memory>
+#include <type_traits>
 
 namespace incise {
 inline namespace v0 {
@@ -13,11 +16,60 @@ namespace {
 
 constexpr std::uint32_t kTouched = 1;
 constexpr std::uint32_t kFirstNew = 2;
+constexpr std::size_t kMostKept = std::size_t{1} << 16U;  // records of a list that keeps its memory
+
+template <class Records, class Holds>
+std::size_t count_of(const Records& records, const Holds& holds) {
+  return static_cast<std::size_t>(std::count_if(records.begin(), records.end(), holds));
+}
+
+/// Notes what a free list lacks, given highest first: as a rule that is what was taken first, and told by its count.
+template <class Id>
+std::size_t record_free(const std::vector<std::uint32_t>& lacking, const std::vector<Id>& taken,
+                        std::vector<std::uint32_t>& above) {
+  const bool is_taken_first =
+      lacking.size() <= taken.size() && std::equal(lacking.begin(), lacking.end(), taken.begin(),
+                                                   [](std::uint32_t slot, Id id) { return slot == id.value; });
+  if (is_taken_first) return lacking.size();
+  above.assign(lacking.rbegin(), lacking.rend());
+  return 0;
+}
+
+/// Bit for bit: zeros differ by their sign.
+bool is_same(const Vec3& a, const Vec3& b) {
+  return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
+}
 
 }  // namespace
 
+namespace detail {
+
+void TransactionLists::clear() noexcept {
+  const auto clear = [](auto& list) {
+    if (list.capacity() > kMostKept) std::remove_reference_t<decltype(list)>().swap(list);
+    list.clear();
+  };
+  const auto empty = [&](auto&... lists) { (clear(lists), ...); };
+  empty(parents, removed_tets, removed_vertices, opened);
+  empty(step.born, step.moved, step.copied, step.edits, step.edit_consumed, step.edit_produced);
+  empty(step.before.tets, step.before.vertices, step.before.free_tets, step.before.free_vertices);
+  empty(step.new_tets, step.new_vertices);
+}
+
+TransactionLists& OwnLists::get() {
+  if (!lists_) lists_ = std::make_shared<TransactionLists>();
+  return *lists_;
+}
+
+}  // namespace detail
+
 Transaction::Transaction(TetMesh& mesh, bool keeps_edits)
-    : mesh_(mesh), tet_mark_(mesh.edit_tet_marks_), vertex_mark_(mesh.edit_vertex_marks_), keeps_edits_(keeps_edits) {
+    : mesh_(mesh),
+      lists_(mesh.edit_lists_.get()),
+      step_(lists_.step),
+      tet_mark_(mesh.edit_tet_marks_),
+      vertex_mark_(mesh.edit_vertex_marks_),
+      keeps_edits_(keeps_edits) {
   tet_mark_.ensure(mesh.tet_slots());
   vertex_mark_.ensure(mesh.vertex_slots());
   step_.before.tet_slots = mesh.tet_slots();
@@ -126,7 +178,7 @@ void Transaction::take_free_slot(std::uint32_t slot, GrowArray<std::uint32_t>& f
 void Transaction::revive_tet(const TetImage& image, TetId parent) {
   take_free_slot(image.id.value, mesh_.free_tets_, step_.free_tets_common, step_.before.free_tets);
   note_taken(image.id);
-  parents_.push_back(parent);
+  lists_.parents.push_back(parent);
   mesh_.tet_vertices_[image.id] = image.vertices;
   mesh_.tet_links_[image.id] = {};
   mesh_.tet_region_[image.id] = image.region;
@@ -203,7 +255,7 @@ TetId Transaction::add_tet_beside(const TetVertices& vertices, TetId parent, std
 }
 
 void Transaction::fill_tet(TetId id, const TetVertices& vertices, TetId parent) {
-  parents_.push_back(parent);
+  lists_.parents.push_back(parent);
   mesh_.tet_vertices_[id] = vertices;
   mesh_.tet_links_[id] = {};
   mesh_.tet_region_[id] = mesh_.tet_region_[parent];
@@ -212,7 +264,7 @@ void Transaction::fill_tet(TetId id, const TetVertices& vertices, TetId parent) 
 
 void Transaction::remove_tet(TetId tet) {
   touch(tet);
-  removed_tets_.push_back(tet);
+  lists_.removed_tets.push_back(tet);
   mesh_.tet_vertices_[tet] = kNoVertices;
   ++mesh_.tet_generation_[tet];
   --mesh_.live_tets_;
@@ -220,7 +272,7 @@ void Transaction::remove_tet(TetId tet) {
 
 void Transaction::remove_vertex(VertexId vertex) {
   touch(vertex);
-  removed_vertices_.push_back(vertex);
+  lists_.removed_vertices.push_back(vertex);
   mesh_.vertex_shape_[vertex] = shape::kDead;
   mesh_.vertex_tet_[vertex] = TetId();
   ++mesh_.vertex_generation_[vertex];
@@ -240,7 +292,7 @@ void Transaction::join(Side a, Side b) {
 void Transaction::open(Side a, Side b, std::uint32_t tag) {
   set_link(a, Link::boundary(tag));
   set_link(b, Link::boundary(tag));
-  opened_.push_back({a, b, tag});
+  lists_.opened.push_back({a, b, tag});
 }
 
 void Transaction::set_corner(TetId tet, unsigned corner, VertexId vertex) {
@@ -308,78 +360,129 @@ void Transaction::note_produced(std::span<const TetId> tets, std::span<const Tet
             born.is_valid() ? static_cast<std::uint32_t>(step_.born.size() - 1) : std::uint32_t{kInvalidIndex});
 }
 
-Transaction::Sizes Transaction::sizes() const {
-  return {step_.before.tets.size(),  step_.new_tets.size(), removed_tets_.size(), step_.before.vertices.size(),
-          step_.new_vertices.size(), step_.born.size(),     opened_.size()};
-}
-
-void Transaction::reserve(const Sizes& sizes) {
-  step_.before.tets.reserve(sizes.old_tets);
-  step_.new_tets.reserve(sizes.new_tets);
-  parents_.reserve(sizes.new_tets);
-  removed_tets_.reserve(sizes.removed_tets);
-  step_.consumed.reserve(sizes.removed_tets);
-  step_.before.vertices.reserve(sizes.old_vertices);
-  step_.new_vertices.reserve(sizes.new_vertices);
-  step_.born.reserve(sizes.born);
-  opened_.reserve(sizes.opened);
-  step_.opened.reserve(sizes.opened);
-}
-
 TetId Transaction::root_parent(TetId tet) const {
   while (tet_mark_[tet.value] >= kFirstNew) {
-    tet = parents_[tet_mark_[tet.value] - kFirstNew];
+    tet = lists_.parents[tet_mark_[tet.value] - kFirstNew];
   }
   return tet;
 }
 
-void Transaction::record_tets() {
+/// Calls `visit(side)` for each side of a tet that lives on which has another neighbour now.
+template <class Visit>
+void Transaction::for_each_new_link(const TetImage& old, Visit&& visit) const {
+  const TetLinks& now = mesh_.tet_links_[old.id];
+  for (unsigned s = 0; s < 4; ++s) {
+    if (now[s] != old.links[s]) visit(Side(old.id, s));
+  }
+}
+
+void Transaction::record_kept(Step& made) const {
+  const auto lives_on = [this](const TetImage& old) { return mesh_.is_live(old.id); };
+  std::size_t sides = 0;
   for (const TetImage& old : step_.before.tets) {
-    if (!mesh_.is_live(old.id)) {
-      step_.consumed.push_back({old.id, old.vertices});
-    } else if (mesh_.tet_vertices_[old.id] != old.vertices) {
-      step_.rewired.push_back({old.id, old.vertices, mesh_.tet_vertices_[old.id]});
-    }
+    if (lives_on(old)) for_each_new_link(old, [&](Side) { ++sides; });
   }
-  step_.produced.reserve(step_.new_tets.size());
+  made.kept.reserve(count_of(step_.before.tets, lives_on));
+  made.before.sides.reserve(sides);
+  made.rewired.reserve(count_of(step_.before.tets, [&](const TetImage& old) {
+    return lives_on(old) && mesh_.tet_vertices_[old.id] != old.vertices;
+  }));
+  for (const TetImage& old : step_.before.tets) {
+    if (!lives_on(old)) continue;
+    made.kept.push_back(old.id);
+    for_each_new_link(old, [&](Side side) { made.before.sides.push_back({side, old.links[side.side()]}); });
+    const TetVertices& now = mesh_.tet_vertices_[old.id];
+    if (now != old.vertices) made.rewired.push_back({old.id, old.vertices, now});
+  }
+}
+
+void Transaction::record_consumed(Step& made) const {
+  const auto is_gone = [this](const TetImage& old) { return !mesh_.is_live(old.id); };
+  const std::size_t count = count_of(step_.before.tets, is_gone);
+  made.consumed.reserve(count);
+  made.gone.reserve(count);
+  for (const TetImage& old : step_.before.tets) {
+    if (!is_gone(old)) continue;
+    made.consumed.push_back({old.id, old.vertices});
+    made.gone.push_back({old.links, old.region});
+  }
+}
+
+void Transaction::record_produced(Step& made) const {
+  const auto is_made = [this](TetId id) { return mesh_.is_live(id); };
+  made.produced.reserve(count_of(step_.new_tets, is_made));
   for (const TetId id : step_.new_tets) {
-    if (mesh_.is_live(id)) {
-      step_.produced.push_back({id, root_parent(id), mesh_.tet_vertices_[id], mesh_.tet_region_[id]});
-    }
+    if (is_made(id)) made.produced.push_back({id, root_parent(id), mesh_.tet_vertices_[id], mesh_.tet_region_[id]});
   }
 }
 
-void Transaction::record_vertices() {
-  step_.died = removed_vertices_;  // those born in the step too: other births may name them as parents
+void Transaction::record_vertices(Step& made) const {
+  const auto is_tied = [this](const VertexImage& old) {
+    return mesh_.is_live(old.id) && is_same(old.rest, mesh_.rest_[old.id]) &&
+           is_same(old.current, mesh_.current_[old.id]);
+  };
+  const std::size_t ties = count_of(step_.before.vertices, is_tied);
+  made.before.ties.reserve(ties);
+  made.before.vertices.reserve(step_.before.vertices.size() - ties);
+  for (const VertexImage& old : step_.before.vertices) {
+    if (is_tied(old)) {
+      made.before.ties.push_back({old.id, old.tet, old.origin, old.shape});
+    } else {
+      made.before.vertices.push_back(old);
+    }
+  }
+  made.died = lists_.removed_vertices;  // those born in the step too: other births may name them as parents
 }
 
-void Transaction::record_opened() {
-  for (const OpenedFace& face : opened_) {
-    const auto is_wall = [&](Side side) {
+void Transaction::record_opened(Step& made) const {
+  const auto is_wall = [this](const OpenedFace& face) {
+    const auto has_tag = [&](Side side) {
       return mesh_.is_live(side.tet()) && mesh_.link(side) == Link::boundary(face.tag);
     };
-    if (is_wall(face.a) && is_wall(face.b)) step_.opened.push_back(face);
+    return has_tag(face.a) && has_tag(face.b);
+  };
+  made.opened.reserve(count_of(lists_.opened, is_wall));
+  for (const OpenedFace& face : lists_.opened) {
+    if (is_wall(face)) made.opened.push_back(face);
   }
 }
 
 /// Walls of tets that live on which have a neighbour now.
-void Transaction::record_closed() {
+void Transaction::record_closed(Step& made) const {
   for (const TetImage& old : step_.before.tets) {
     if (!mesh_.is_live(old.id)) continue;
     for (unsigned s = 0; s < 4; ++s) {
       const Link before = old.links[s], now = mesh_.links(old.id)[s];
       if (before.is_boundary() && before.tag() != 0 && !now.is_boundary()) {
-        step_.closed.push_back({Side(old.id, s), now.side(), before.tag()});
+        made.closed.push_back({Side(old.id, s), now.side(), before.tag()});
       }
     }
   }
 }
 
+/// What is kept as it was noted.
+void Transaction::record_notes(Step& made) const {
+  made.born = step_.born;
+  made.moved = step_.moved;
+  made.copied = step_.copied;
+  made.edits = step_.edits;
+  made.edit_consumed = step_.edit_consumed;
+  made.edit_produced = step_.edit_produced;
+  made.new_tets = step_.new_tets;
+  made.new_vertices = step_.new_vertices;
+  made.free_tets_common = step_.free_tets_common;
+  made.free_vertices_common = step_.free_vertices_common;
+  made.before.tet_slots = step_.before.tet_slots;
+  made.before.vertex_slots = step_.before.vertex_slots;
+  made.free_tets_taken = record_free(step_.before.free_tets, step_.new_tets, made.before.free_tets);
+  made.free_vertices_taken = record_free(step_.before.free_vertices, step_.new_vertices, made.before.free_vertices);
+}
+
 void Transaction::release_slots() {
-  for (const TetId tet : removed_tets_) {
+  for (const TetId tet : lists_.removed_tets) {
     mesh_.free_tets_.push_back(tet.value);
   }
-  for (const VertexId vertex : removed_vertices_) {
+  for (const VertexId vertex : lists_.removed_vertices) {
     mesh_.free_vertices_.push_back(vertex.value);
   }
 }
@@ -393,29 +496,34 @@ void Transaction::clear_marks() {
 
 Step Transaction::commit() {
   assert(is_open_);
-  record_tets();
-  record_vertices();
-  record_opened();
-  record_closed();
+  Step made;
+  record_consumed(made);
+  record_kept(made);
+  record_produced(made);
+  record_vertices(made);
+  record_opened(made);
+  record_closed(made);
+  record_notes(made);
   release_slots();
   close();
-  return std::move(step_);
+  return made;
 }
 
 void Transaction::rollback() noexcept {
   if (!is_open_) {
     return;
   }
-  close();
+  std::reverse(step_.before.free_tets.begin(), step_.before.free_tets.end());
+  std::reverse(step_.before.free_vertices.begin(), step_.before.free_vertices.end());
   Journal::revert(mesh_, step_);
+  close();
 }
 
 /// From here on nothing can fail.
 void Transaction::close() noexcept {
   is_open_ = false;
-  std::reverse(step_.before.free_tets.begin(), step_.before.free_tets.end());
-  std::reverse(step_.before.free_vertices.begin(), step_.before.free_vertices.end());
   clear_marks();
+  lists_.clear();
 }
 
 }  // namespace v0

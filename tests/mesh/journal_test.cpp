@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <vector>
+
 #include "mesh/random_step.h"
 #include "support/bodies.h"
 #include "support/engines.h"
@@ -111,6 +114,52 @@ TEST(Journal, takes_back_and_drops_what_has_failed) {
   journal.append(random_step(mesh, random));
   EXPECT_EQ(journal.step(1).serial, 4U);
   expect_valid(mesh, 1.0);
+}
+
+TEST(Journal, names_all_that_a_step_touched_and_keeps_no_room_that_it_does_not_need) {
+  Random random(7);
+  TetMesh mesh = build(kuhn_cube(2));
+  for (unsigned i = 0; i < 10; ++i) {
+    const TetMesh before = mesh;
+    const Step step = random_step(mesh, random);
+    std::set<TetId> touched(step.new_tets.begin(), step.new_tets.end());
+    step.for_each_tet_before([&](TetId tet) { EXPECT_TRUE(touched.insert(tet).second) << tet.value << " twice"; });
+    before.for_each_tet([&](TetId tet) {
+      const bool is_same =
+          mesh.is_live(tet) && mesh.vertices(tet) == before.vertices(tet) && mesh.links(tet) == before.links(tet);
+      EXPECT_TRUE(is_same || touched.contains(tet)) << tet.value;
+    });
+    for (std::size_t k = 0; k < step.consumed.size(); ++k) {
+      const TetImage image = step.consumed_image(k);
+      EXPECT_EQ(image.links, before.links(image.id));
+      EXPECT_EQ(image.region, before.region(image.id));
+    }
+    EXPECT_EQ(step.consumed.capacity(), step.consumed.size());
+    EXPECT_EQ(step.produced.capacity(), step.produced.size());
+    EXPECT_EQ(step.kept.capacity(), step.kept.size());
+    EXPECT_EQ(step.before.sides.capacity(), step.before.sides.size());
+    EXPECT_EQ(step.before.vertices.capacity(), step.before.vertices.size());
+    EXPECT_EQ(step.before.ties.capacity(), step.before.ties.size());
+  }
+}
+
+TEST(Journal, undo_in_a_moving_body_leaves_vertices_where_the_step_had_left_them) {
+  Random random(8);
+  TetMesh mesh = build(kuhn_cube(2));
+  Journal journal;
+  journal.append(random_step(mesh, random));
+  ASSERT_FALSE(journal.step(0).before.ties.empty());
+  std::vector<Vec3> moved;
+  for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) moved.push_back(mesh.current(VertexId(v)) + Vec3(0, 0, 0.1));
+  mesh.set_current(moved);
+  journal.undo(mesh);
+  for (const TiedVertex& tie : journal.step(0).before.ties) {
+    EXPECT_EQ(mesh.current(tie.id), moved[tie.id.value]);
+    EXPECT_EQ(mesh.tet_of(tie.id), tie.tet);
+  }
+  for (const VertexImage& image : journal.step(0).before.vertices) EXPECT_EQ(mesh.current(image.id), image.current);
+  journal.redo(mesh);
+  for (const TiedVertex& tie : journal.step(0).before.ties) EXPECT_EQ(mesh.current(tie.id), moved[tie.id.value]);
 }
 
 TEST(Journal, trims_steps_and_gives_their_memory_back) {

@@ -87,6 +87,26 @@ struct TetImage {
   std::int32_t region;   ///< label
 };
 
+/// A side of a tet as it was, of a tet that lives on with the same vertices.
+struct SideImage {
+  Side side;  ///< the side
+  Link link;  ///< what lay behind it
+};
+
+/// What else a tet was that is gone, besides what `ConsumedTet` says.
+struct GoneTet {
+  TetLinks links;       ///< what lay behind its sides
+  std::int32_t region;  ///< label
+};
+
+/// A vertex slot as it was, of a vertex that stands where it stood and lives on.
+struct TiedVertex {
+  VertexId id;         ///< the slot
+  TetId tet;           ///< one of its tets
+  VertexId origin;     ///< as `TetMesh::origin`
+  std::uint8_t shape;  ///< bits of `shape`
+};
+
 /// A vertex slot as it was.
 struct VertexImage {
   VertexId id;         ///< the slot
@@ -98,8 +118,10 @@ struct VertexImage {
 
 /// All slots that a step touched, as they stand on one side of it, with the free lists above their common part.
 struct StepImage {
-  std::vector<TetImage> tets;                           ///< touched slots
-  std::vector<VertexImage> vertices;                    ///< touched slots
+  std::vector<TetImage> tets;                           ///< after the step: touched slots but those of `kept`
+  std::vector<SideImage> sides;                         ///< of `kept` tets: those with another neighbour
+  std::vector<VertexImage> vertices;                    ///< touched slots but those of `ties`
+  std::vector<TiedVertex> ties;                         ///< touched slots of vertices that the step left in their place
   std::vector<std::uint32_t> free_tets, free_vertices;  ///< the free lists above their common part
   std::uint32_t tet_slots = 0, vertex_slots = 0;        ///< one past the highest slot in use
 };
@@ -125,12 +147,33 @@ struct Step {
   std::vector<ProducedTet> edit_produced;  ///< `parent` is a tet consumed by the same edit
 
   StepImage before, after;                                     ///< `after` is filled by the first undo
+  std::vector<GoneTet> gone;                                   ///< one for each of `consumed`
+  std::vector<TetId> kept;                                     ///< touched tets that live on; see `rewired` as well
   std::size_t free_tets_common = 0, free_vertices_common = 0;  ///< length of what the free lists share before and after
+  std::size_t free_tets_taken = 0, free_vertices_taken = 0;    ///< so many of the new ones were the top of a free list
   std::vector<TetId> new_tets;                                 ///< slots taken by the step
   std::vector<VertexId> new_vertices;                          ///< slots taken by the step
 
   /// Whether the step changed nothing.
-  [[nodiscard]] bool is_empty() const { return before.tets.empty() && before.vertices.empty() && new_tets.empty(); }
+  [[nodiscard]] bool is_empty() const {
+    return kept.empty() && consumed.empty() && before.vertices.empty() && before.ties.empty() && new_tets.empty();
+  }
+  /// The tet `consumed[index]` as it was.
+  [[nodiscard]] TetImage consumed_image(std::size_t index) const {
+    return {consumed[index].id, consumed[index].vertices, gone[index].links, gone[index].region};
+  }
+  /// Calls `visit(id)` for each tet slot that the step changed and that was taken before. Cost: O(slots).
+  template <class Visit>
+  void for_each_tet_before(Visit&& visit) const {
+    for (const ConsumedTet& tet : consumed) visit(tet.id);
+    for (const TetId tet : kept) visit(tet);
+  }
+  /// Calls `visit(id)` for each vertex slot that the step changed and that was taken before. Cost: O(slots).
+  template <class Visit>
+  void for_each_vertex_before(Visit&& visit) const {
+    for (const VertexImage& image : before.vertices) visit(image.id);
+    for (const TiedVertex& tie : before.ties) visit(tie.id);
+  }
 };
 
 /// The committed steps of one mesh, in order, with a position that undo and redo move.
@@ -157,7 +200,8 @@ class Journal {
   }
   /// The highest serial given so far; 0 where none was.
   [[nodiscard]] std::uint64_t newest_serial() const { return newest_serial_; }
-  /// Takes the last applied step back: the mesh, its slots and its free lists are bit for bit as before it.
+  /// Takes the last applied step back: the mesh, its slots and its free lists are bit for bit as before it, but for the
+  /// current positions of vertices that it left in their place.
   /// Returns false where none is kept. Cost: O(step).
   bool undo(TetMesh& mesh);
   /// Applies the next undone step again. Returns false where there is none. Cost: O(step).
@@ -175,6 +219,8 @@ class Journal {
  private:
   friend class Transaction;
 
+  static void put(TetMesh& mesh, const TetImage& image);
+  static void give_back_taken(TetMesh& mesh, const Step& step);
   static void revert(TetMesh& mesh, const Step& step) noexcept;
   static void restore(TetMesh& mesh, const Step& step, const StepImage& image);
   static void count_change(bool was_live, bool is_live, std::size_t& live, std::uint32_t& generation);

@@ -39,7 +39,7 @@ class TouchedCheck {
  private:
   void collect(const TetMesh& mesh, const Journal& journal, std::size_t first_step);
   void add(const TetMesh& mesh, TetId tet);
-  void add_neighbours(const TetMesh& mesh, const TetImage& gone);
+  void add_neighbours(const TetMesh& mesh, const GoneTet& gone);
   void add(const TetMesh& mesh, VertexId vertex);
   void forget();
   [[nodiscard]] static Status check_tet(const TetMesh& mesh, TetId tet);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -61,6 +62,28 @@ using TetVertices = std::array<VertexId, 4>;
 inline constexpr TetVertices kNoVertices{};
 /// What lies behind the sides of a tet; side s is opposite corner s.
 using TetLinks = std::array<Link, 4>;
+
+namespace detail {
+
+struct TransactionLists;
+
+/// The lists of a mesh's transactions, made when they are first asked for. A copy has none yet.
+class OwnLists {
+ public:
+  OwnLists() = default;
+  OwnLists(const OwnLists& /*other*/) noexcept {}
+  OwnLists(OwnLists&&) = default;
+  OwnLists& operator=(const OwnLists& /*other*/) noexcept { return *this; }
+  OwnLists& operator=(OwnLists&&) = default;
+  ~OwnLists() = default;
+
+  TransactionLists& get();
+
+ private:
+  std::shared_ptr<TransactionLists> lists_;
+};
+
+}  // namespace detail
 
 /// What a vertex is part of: one bit mask that snapping, collapse, flips and smoothing read alike.
 /// No bit: an interior vertex.
@@ -275,6 +298,7 @@ class TetMesh {
   GrowArray<std::uint32_t> free_vertices_;
   ZeroedArray<std::uint32_t> edit_tet_marks_;     // scratch of the open transaction; all zero between transactions
   ZeroedArray<std::uint32_t> edit_vertex_marks_;  // likewise
+  detail::OwnLists edit_lists_;                   // likewise; a copy of the mesh has its own
   std::vector<TetId> flat_at_load_;
   std::vector<std::uint64_t> overshared_edges_;  // ascending; lower slot · 2^32 + higher slot
   bool touched_itself_at_load_ = false;

@@ -9,6 +9,22 @@
 namespace incise {
 inline namespace v0 {
 
+namespace detail {
+
+/// The lists of an open transaction, empty between transactions; they keep their memory, so that a step asks for that
+/// which it will hold and no more.
+struct TransactionLists {
+  Step step;
+  std::vector<TetId> parents;  ///< of `step.new_tets`
+  std::vector<TetId> removed_tets;
+  std::vector<VertexId> removed_vertices;
+  std::vector<OpenedFace> opened;
+
+  void clear() noexcept;
+};
+
+}  // namespace detail
+
 /// Where a vertex stands once it is moved to the rest place with the coordinates `weights` in `basis`: there where all
 /// of them are at rest, else at the sampled current place. Cost: O(1).
 [[nodiscard]] Vec3 current_after_move(const TetMesh& mesh, VertexId vertex, const Vec3& rest, const TetVertices& basis,
@@ -80,17 +96,6 @@ class Transaction {
   /// The second half: `parents`, one per produced tet, are among the consumed ones.
   void note_produced(std::span<const TetId> tets, std::span<const TetId> parents, VertexId born = {});
 
-  /// How much a transaction has changed so far.
-  struct Sizes {
-    std::size_t old_tets = 0, new_tets = 0, removed_tets = 0;  ///< tets touched, made, freed
-    std::size_t old_vertices = 0, new_vertices = 0;            ///< vertices touched, made
-    std::size_t born = 0, opened = 0;                          ///< records of births, and of opened faces
-  };
-  /// What it has changed so far.
-  [[nodiscard]] Sizes sizes() const;
-  /// Allocates at once what a transaction of these sizes will need.
-  void reserve(const Sizes& sizes);
-
   /// Slots taken so far.
   [[nodiscard]] const std::vector<TetId>& new_tets() const { return step_.new_tets; }
   /// The same of vertices.
@@ -108,10 +113,15 @@ class Transaction {
   void touch(TetId tet);
   void touch(VertexId vertex);
   void note_edit(Edit::Kind kind, std::uint32_t vertex);
-  void record_tets();
-  void record_vertices();
-  void record_opened();
-  void record_closed();
+  template <class Visit>
+  void for_each_new_link(const TetImage& old, Visit&& visit) const;
+  void record_consumed(Step& made) const;
+  void record_kept(Step& made) const;
+  void record_produced(Step& made) const;
+  void record_vertices(Step& made) const;
+  void record_opened(Step& made) const;
+  void record_closed(Step& made) const;
+  void record_notes(Step& made) const;
   void release_slots();
   void clear_marks();
   void close() noexcept;
@@ -128,13 +138,10 @@ class Transaction {
   void record_born(VertexId id, std::span<const VertexId> parents, std::span<const double> weights);
 
   TetMesh& mesh_;
-  Step step_;
+  detail::TransactionLists& lists_;
+  Step& step_;  // of the lists: images of all slots touched, in the order of their first change
   ZeroedArray<std::uint32_t>& tet_mark_;     // 0 untouched, 1 touched, 2 + index where the transaction took the slot
   ZeroedArray<std::uint32_t>& vertex_mark_;  // likewise
-  std::vector<TetId> parents_;               // of new_tets
-  std::vector<TetId> removed_tets_;
-  std::vector<VertexId> removed_vertices_;
-  std::vector<OpenedFace> opened_;
   bool keeps_edits_ = false;
   bool is_open_ = true;
 };

@@ -339,7 +339,7 @@ class StepFollower final : private JournalVisitor {
   explicit StepFollower(DeformableBody::State& state) : s_(state) {}
 
   void follow(const Step& step) {
-    for (const TetImage& tet : step.before.tets) s_.note_tet(tet.id);
+    step.for_each_tet_before([&](TetId tet) { s_.note_tet(tet); });
     for (const TetId tet : step.new_tets) s_.note_tet(tet);
     visit(step, *this, StepReading::kNet);
     // The tets around a moved vertex have other rest shapes, even where the step does not name them.
