@@ -26,6 +26,10 @@ inline constexpr std::size_t kMostTurns = 4;
 /// that the front stands in is seldom longer.
 inline constexpr double kStripsReach = 2.0;
 
+/// A blade that has travelled so many spacings and comes within so many of where its incision began closes a ring.
+inline constexpr double kRingTravel = 4.0;
+inline constexpr double kClosesWithin = 0.25;
+
 /// A stroke goes on with an incision where a collision point at that one's front lies in the plane of its sheet within
 /// so many of its vertex's mean edges (`kJoinOffset`), and within so many of the longest ones of the sheet itself
 /// (`kJoinReach`), and the two sheets enclose less than 45° there (`kJoinCosine`: √½). Two strokes of one hand meet

@@ -9,6 +9,7 @@
 #include "cut/blade_motion.h"
 #include "cut/strip.h"
 #include "cut/twist.h"
+#include "paper/ring.h"
 
 namespace incise {
 inline namespace v0 {
@@ -19,6 +20,7 @@ struct EndedStroke {
   EdgeDivision edge = EdgeDivision();
   std::vector<Vec3> row;                             ///< where its blade stood, divided
   std::vector<std::shared_ptr<const Strip>> strips;  ///< the last that it laid, oldest first
+  Ring ring = {};                                    ///< that its incision may become
   bool is_gone_on_from = false;                      ///< by another stroke: no tissue waits at its end any more
 };
 

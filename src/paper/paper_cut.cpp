@@ -172,6 +172,7 @@ Status PaperCutter::end_whole(const CutContext& context, EndedStroke ended) {
   find_surface(context);
   stroke_.may_go_on = lies_in_body(context.mesh, surface_, row);
   if (stroke_.may_go_on) return end_at_rest(context, std::move(ended));
+  if (Status status = close_ring(context); !status) return status;
   ended_.add({});
   return {};
 }
@@ -205,6 +206,7 @@ void PaperCutter::begin(const TetMesh& mesh, const Journal& journal, std::span<c
     stroke_.goes_over = !goes_on;
   } else {
     stroke_.first_row = row;
+    stroke_.ring = Ring(row);
     stroke_.motion.begin(row, spacing);
   }
 }
@@ -214,6 +216,7 @@ void PaperCutter::go_on_from(const EndedStroke& ended) {
   stroke_.edge = ended.edge;
   stroke_.last_row = ended.row;
   stroke_.gone_on_from = ended.strips;
+  stroke_.ring = ended.ring;
   stroke_.motion = ended.motion;
   stroke_.motion.go_on(ended.motion.front(), stroke_.spacing);
 }
@@ -281,6 +284,8 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
 
 /// Goes over the last strips of a stroke that has ended where this one does, if others have cut in between.
 Status PaperCutter::end_at_rest(const CutContext& context, EndedStroke ended) {
+  if (Status status = close_ring(context); !status) return status;
+  ended.ring = stroke_.ring;
   const EndedStroke* met = ended_.find(ended.row, kStandsWithin * stroke_.spacing);
   Status status;
   if (met != nullptr && !ended_.is_last(*met)) status = go_over(context, met->strips);
@@ -484,7 +489,21 @@ Status PaperCutter::follow(const CutContext& context, BladeMotion::Move move) {
   stroke_.has_cut = stroke_.has_cut || sheet_cut_.divided_tets() > 0;
   const Strip& strip = stroke_.sheet.add(std::move(move.strip));
   const std::vector<Vec3> first_row = std::exchange(stroke_.first_row, {});
+  if (!stroke_.is_in_material) stroke_.ring.note(stroke_.sheet.strips().back(), stroke_.last_row, stroke_.spacing);
   return status ? cut_at_row(context, first_row, strip) : status;
+}
+
+/// Where a blade that passes all through the body has come back to where its incision began, a ring is full. Tets at
+/// the joint were cut when the wall on its other side was not known: where tissue is left, the ring is cut once more as
+/// one sheet.
+Status PaperCutter::close_ring(const CutContext& context) {
+  if (!stroke_.ring.is_full()) return {};
+  const Ring ring = std::exchange(stroke_.ring, {});
+  find_surface(context);
+  if (!ring.passes_through(context.mesh, surface_)) return {};
+  const Strip sheet = ring.sheet();
+  if (!is_joined_around(context.mesh, sheet.sheet, front_, finder_)) return {};
+  return sheet_cut_.cut(context, SheetSoFar(sheet), stroke_.tag, front_, Crumbs::kStay);
 }
 
 Result<CutStatistics> cut_as_paper(TetMesh& mesh, Journal& journal, const Stroke& stroke, std::uint32_t tag,

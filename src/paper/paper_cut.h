@@ -9,6 +9,7 @@
 #include "cut/blade_motion.h"
 #include "cut/closed_complex.h"
 #include "cut/material_blade.h"
+#include "cut/piece_finder.h"
 #include "cut/surface_index.h"
 #include "cut/twist.h"
 #include "incise/core/profile.h"
@@ -18,6 +19,7 @@
 #include "incise/mesh/journal.h"
 #include "paper/ended_strokes.h"
 #include "paper/incision_front.h"
+#include "paper/ring.h"
 #include "paper/sheet_cut.h"
 
 namespace incise {
@@ -74,6 +76,7 @@ class PaperCutter {
     std::vector<std::shared_ptr<const Strip>> gone_on_from;  // the last of the stroke before, if this one goes on
     EdgeDivision edge;
     std::vector<Vec3> first_row;  // of a stroke at rest that goes on from none
+    Ring ring;                    // of the incision that it is of
     std::vector<Vec3> last_row;   // divided
     double spacing = 1.0;
     Vec3 direction = Vec3::Zero();  // of the last frame in a body that moves
@@ -103,6 +106,7 @@ class PaperCutter {
   [[nodiscard]] bool meets_other_walls(const TetMesh& mesh, const Sheet& sheet) const;
   Status cut_at_row(const CutContext& context, std::span<const Vec3> row, const Strip& strip);
   Status go_over(const CutContext& context, std::span<const std::shared_ptr<const Strip>> strips);
+  Status close_ring(const CutContext& context);
   void enter_material(const TetMesh& mesh);
   Status step_in_material(const CutContext& context, const std::vector<Vec3>& before);
   void put_in_place(const TetMesh& mesh, const std::vector<Vec3>& row);
@@ -125,6 +129,7 @@ class PaperCutter {
   ClosedComplex complex_;  // of whole tets: those that hold the blade's front
   SurfaceIndex surface_;
   StarWalker walker_;
+  PieceFinder finder_;
 };
 
 /// Cuts a mesh along one whole stroke, at rest, with no incision to go on from: `PaperCutter::cut`.

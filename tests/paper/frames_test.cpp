@@ -84,6 +84,16 @@ Blade ring(unsigned corners, double radius, double turned) {
   };
 }
 
+/// A straight edge that is led once round an axis through the middle of the cube.
+Blade round(const Vec3& axis, double radius) {
+  return [=](double t) {
+    const Vec3 n = axis.normalized(), a = n.cross(Vec3::UnitX()).normalized(), b = n.cross(a);
+    const double angle = t < 1 ? 2 * std::numbers::pi * t : 0;
+    const Vec3 middle = Vec3(0.5, 0.5, 0.5) + radius * (std::cos(angle) * a + std::sin(angle) * b);
+    return std::vector<Vec3>{Vec3(middle - 2 * n), Vec3(middle + 2 * n)};
+  };
+}
+
 /// Cuts in `frames` frames of as many strokes as `strokes`, through the body as it stands.
 Engine cut_in_frames(TetSoup soup, const Blade& blade, const Place& place, unsigned frames, unsigned strokes,
                      bool maintains) {
@@ -289,6 +299,17 @@ TEST(PaperFrames, give_the_same_pieces_along_a_curve) {
     if (pieces.empty()) pieces = piece_volumes(engine.mesh());
     ASSERT_EQ(pieces.size(), 2U);
     expect_pieces(engine.mesh(), pieces, 2e-3);
+  }
+}
+
+TEST(PaperFrames, take_the_core_out_where_an_edge_is_led_round_it) {
+  constexpr std::pair<unsigned, unsigned> kWays[] = {{28, 1}, {70, 1}, {7, 4}, {1, 28}};
+  for (const auto& [frames, strokes] : kWays) {
+    for (const bool maintains : {false, true}) {
+      SCOPED_TRACE(testing::Message() << frames << " frames, " << strokes << " strokes, " << maintains);
+      const Engine engine = cut_in_frames(kuhn_cube(5), round({1, 2, 3}, 0.31), at_rest, frames, strokes, maintains);
+      EXPECT_EQ(piece_volumes(engine.mesh()).size(), 2U);
+    }
   }
 }
 
