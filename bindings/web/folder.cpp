@@ -32,10 +32,16 @@ fs::path Folder::place_of(const std::string& name) const {
 }
 
 Error Folder::named(Error error) const {
-  const std::string own = path_.string() + "/";
-  for (std::size_t at = 0; (at = error.message.find(own, at)) != std::string::npos;)
-    error.message.erase(at, own.size());
+  const std::string own = path_.string();
+  for (std::size_t at = 0; (at = error.message.find(own, at)) != std::string::npos;) {
+    const bool leads = error.message.compare(at + own.size(), 1, "/") == 0;  // to a file in it
+    error.message.replace(at, own.size() + (leads ? 1 : 0), leads ? "" : ".");
+  }
   return error;
+}
+
+Status Folder::named(const Status& status) const {
+  return status.ok() ? status : named(status.error());
 }
 
 Status Folder::write(const std::string& name, std::string_view bytes) const {

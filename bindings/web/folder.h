@@ -21,6 +21,7 @@ class Folder {
   [[nodiscard]] std::filesystem::path place_of(const std::string& name) const;
   /// The error with names instead of places in this folder, which nobody outside knows.
   [[nodiscard]] incise::Error named(incise::Error error) const;
+  [[nodiscard]] incise::Status named(const incise::Status& status) const;
   /// Writes a file. Errors: kIo where memory is out.
   [[nodiscard]] incise::Status write(const std::string& name, std::string_view bytes) const;
   /// Reads one. Errors: kIo where it is not there.

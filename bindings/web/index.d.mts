@@ -2,16 +2,23 @@
 // Types of the package `incise`. Lengths are in the mesh's own unit, forces in N, times in s unless they say
 // otherwise. Every call but `load` is synchronous and may take long on large meshes: run it in a Worker.
 
+/// <reference lib="esnext.disposable" />
+
 /** A kind of failure; see `InciseError.code`. */
 export type ErrorCode = 'BadArgument' | 'BadFile' | 'Unsupported' | 'OutOfMemory' | 'Io' | 'Internal';
 
-/** What a call throws that cannot do what is asked. What it was called on stays as it was and usable. */
+/**
+ * What a call throws that cannot do what is asked. What it was called on stays as it was and usable, unless there is a
+ * `cause`: memory was out, and the module has to be loaded anew.
+ */
 export declare class InciseError extends Error {
   constructor(message: string, code: ErrorCode, ids?: number[]);
   readonly name: 'InciseError';
   readonly code: ErrorCode;
   /** Offending elements, at most a few; the message says what they are. */
   readonly ids: number[];
+  /** Where memory was out: what was thrown inside. */
+  readonly cause?: unknown;
 }
 
 export type Vec3 = readonly [number, number, number];
@@ -168,8 +175,8 @@ export interface QualityFigures {
 }
 
 export interface SessionOptions {
-  /** Files that a scene or a recording names, by name. */
-  files?: Record<string, Bytes>;
+  /** Files that a scene or a recording names, by name; those that it names in a folder go by the last part of their names. */
+  files?: Record<string, Bytes> | null;
   /** Which way is up in a mesh without a scene; by default z. */
   up?: Vec3;
 }

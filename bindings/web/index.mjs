@@ -36,36 +36,87 @@ const PLAIN = {
   core: () => import('./incise_plain.mjs'),
 };
 
-async function compile(build, { locateFile, wasmBinary }) {
-  if (wasmBinary) {
-    return WebAssembly.compile(bytesOf(wasmBinary)).catch((error) => {
-      throw new InciseError(`wasmBinary is no WebAssembly module: ${error.message}`, 'BadArgument');
-    });
+/** Words about any value: some have none of their own. */
+function shown(value) {
+  try {
+    return String(value);
+  } catch {
+    return 'of another type';
   }
-  const where = locateFile ? new URL(locateFile(build.file), globalThis.location?.href ?? import.meta.url) : build.url();
+}
+
+function whereOf(build, locateFile) {
+  if (!locateFile) return build.url();
+  try {
+    return new URL(locateFile(build.file), globalThis.location?.href ?? import.meta.url);
+  } catch (error) {
+    throw new InciseError(`locateFile has to return the address of ${build.file}: ${error.message}`, 'BadArgument');
+  }
+}
+
+async function fetchModule(where) {
   if (where.protocol === 'file:') {
     const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ 'node:fs/promises');
     return WebAssembly.compile(await readFile(where));
   }
   const response = await fetch(where);
-  if (!response.ok) throw new InciseError(`${where}: the server answers ${response.status}; see locateFile`, 'BadFile');
+  if (!response.ok) throw new Error(`the server answers ${response.status}`);
   // Servers that do not know .wasm send another type, which streaming refuses.
   const streams = response.headers.get('Content-Type')?.startsWith('application/wasm');
   return streams ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
+/** The module, and how it is named in messages. */
+async function compile(build, { locateFile, wasmBinary }) {
+  if (wasmBinary) {
+    const module = await WebAssembly.compile(bytesOf(wasmBinary)).catch((error) => {
+      throw new InciseError(`wasmBinary is no WebAssembly module: ${error.message}`, 'BadArgument');
+    });
+    return { module, name: 'wasmBinary', code: 'BadArgument' };
+  }
+  const where = whereOf(build, locateFile);
+  const module = await fetchModule(where).catch((error) => {
+    throw new InciseError(`${where}: ${error.message}; see locateFile`, 'BadFile');
+  });
+  return { module, name: `${where} (see locateFile)`, code: 'BadFile' };
+}
+
 async function instantiate(options) {
   if (typeof WebAssembly !== 'object') throw new InciseError('this engine has no WebAssembly; use a newer one', 'Unsupported');
   const build = options.simd ?? (hasSimd() && accepts(EXCEPTIONS_PROBE)) ? WITH_SIMD : PLAIN;
-  const [module, { default: create }] = await Promise.all([compile(build, options), build.core()]);
+  const [{ module, name, code }, { default: create }] = await Promise.all([compile(build, options), build.core()]);
   return new Promise((resolve, reject) => {
+    const refuse = (error) => reject(new InciseError(`${name} is not ${build.file} of this package: ${error.message}`, code));
     const instantiateWasm = (imports, done) => {
-      WebAssembly.instantiate(module, imports).then(done, reject);
+      WebAssembly.instantiate(module, imports).then(done).catch(refuse);
       return {};
     };
-    create({ instantiateWasm, print: options.print ?? (() => {}), printErr: options.print ?? (() => {}) }).then(resolve, reject);
+    create({ instantiateWasm, print: options.print ?? (() => {}), printErr: options.print ?? (() => {}) }).then(resolve, refuse);
   });
 }
+
+/** Where memory is out C++ throws: an exception of WebAssembly's own, or in the build without them a number. */
+const isOutOfMemory = (error) => typeof error === 'number' || (WebAssembly.Exception && error instanceof WebAssembly.Exception) ||
+  (error instanceof RangeError && /alloc|array length/i.test(error.message));
+
+/** Makes a call of the module. What C++ throws becomes an `InciseError` with a `cause`: the module is then not to be trusted. */
+function told(call) {
+  try {
+    return call();
+  } catch (error) {
+    if (!isOutOfMemory(error)) throw error;
+    const known = new InciseError('memory is out: use a smaller mesh, and load the module anew', 'OutOfMemory');
+    throw Object.assign(known, { cause: error });
+  }
+}
+
+/** An object of the module all of whose calls are told of that way. */
+const guarded = (core) => new Proxy(core, {
+  get(object, key) {
+    const value = told(() => object[key]);
+    return typeof value === 'function' ? (...given) => told(() => value.apply(object, given)) : value;
+  },
+});
 
 /** What a call returned, or its error thrown. */
 function checked(value) {
@@ -86,10 +137,31 @@ function nameOf(name) {
   throw new InciseError('name has to be a text, such as "liver.mesh": its end says the format', 'BadArgument');
 }
 
+/** What a file is written as. */
+function extensionOf(extension) {
+  if (typeof extension === 'string') return extension;
+  throw new InciseError('extension has to be a text, such as ".mesh"', 'BadArgument');
+}
+
+const lastPart = (path) => path.split('/').pop();
+
+/** Bytes by name of the files that lie beside what is opened; nothing where there are none. */
+function besideOf(files, opened) {
+  if (files === undefined || files === null) return undefined;
+  if (typeof files !== 'object') throw new InciseError('files has to be an object: the bytes of each file by its name', 'BadArgument');
+  const names = Object.keys(files), places = [opened, ...names].map(lastPart);
+  const twice = places.find((place, i) => places.indexOf(place) !== i);
+  if (twice !== undefined) throw new InciseError(`two files are called ${twice}: give one of them another name`, 'BadArgument');
+  return Object.fromEntries(names.map((name) => [name, bytesOf(files[name])]));
+}
+
 /** A blade's path as JSON. */
 function pathOf(blade) {
   if (typeof blade === 'string') return blade;
-  if (typeof blade === 'object' && blade !== null) return JSON.stringify(blade);
+  try {
+    const text = typeof blade === 'object' && blade !== null ? JSON.stringify(blade) : undefined;
+    if (text !== undefined) return text;
+  } catch { /* one that leads back into itself */ }
   throw new InciseError('blade has to be a path of format incise-blade, or its JSON', 'BadArgument');
 }
 
@@ -110,7 +182,7 @@ const BUTTONS = ['left', 'right', 'middle'];
 /** The place of a word in a list. */
 function placeIn(list, word, what) {
   const place = list.indexOf(word);
-  if (place < 0) throw new InciseError(`${what} has to be one of ${list.join(', ')}; it is ${word}`, 'BadArgument');
+  if (place < 0) throw new InciseError(`${what} has to be one of ${list.join(', ')}; it is ${shown(word)}`, 'BadArgument');
   return place;
 }
 
@@ -119,16 +191,18 @@ const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 /** Holds an object of the module until it is disposed of. */
 class Held {
   #core;
+  #guard;
   constructor(core) {
     this.#core = core;
+    this.#guard = guarded(core);
   }
   get core() {
     if (!this.#core) throw new InciseError('it has been disposed of', 'BadArgument');
-    return this.#core;
+    return this.#guard;
   }
   dispose() {
     this.#core?.delete();
-    this.#core = null;
+    this.#core = this.#guard = null;
   }
   [dispose]() {
     this.dispose();
@@ -142,7 +216,7 @@ function makeEngine(module) {
       this.#held = new Held(core);
     }
     static open(bytes, name) {
-      return new Engine(checked(module.Engine.open(bytesOf(bytes), nameOf(name))));
+      return new Engine(checked(told(() => module.Engine.open(bytesOf(bytes), nameOf(name)))));
     }
     get #core() {
       return this.#held.core;
@@ -184,7 +258,7 @@ function makeEngine(module) {
       return this.#core.quality();
     }
     write(extension) {
-      return checked(this.#core.write(String(extension)));
+      return checked(this.#core.write(extensionOf(extension)));
     }
     dispose() {
       this.#held.dispose();
@@ -203,8 +277,8 @@ function makeSession(module, tools, colors) {
     }
     static open(bytes, name, options) {
       const { files, up } = options ?? {};
-      const beside = files && Object.fromEntries(Object.entries(files).map(([key, data]) => [key, bytesOf(data)]));
-      return new Session(checked(module.Session.open(bytesOf(bytes), nameOf(name), beside, up && vectorOf(up, 'up'))));
+      const beside = besideOf(files, nameOf(name)), upwards = up ? vectorOf(up, 'up') : undefined;
+      return new Session(checked(told(() => module.Session.open(bytesOf(bytes), name, beside, upwards))));
     }
     get #core() {
       return this.#held.core;
@@ -306,7 +380,7 @@ function makeSession(module, tools, colors) {
       return checked(this.#core.recording());
     }
     write(extension) {
-      return checked(this.#core.write(String(extension)));
+      return checked(this.#core.write(extensionOf(extension)));
     }
     dispose() {
       this.#held.dispose();
@@ -326,7 +400,7 @@ export async function load(options) {
     tools,
     colors,
     memory: () => module.memory(),
-    look: (theme) => module.look(placeIn(['light', 'dark'], theme, 'theme') === 1),
+    look: (theme) => told(() => module.look(placeIn(['light', 'dark'], theme, 'theme') === 1)),
     Engine: makeEngine(module),
     Session: makeSession(module, tools, colors),
   });

@@ -33,7 +33,7 @@ namespace {
 /// Bytes of the module's memory: what objects hold, and what it has taken from the machine, which never shrinks.
 val memory() {
   val bytes = val::object();
-  bytes.set("used", static_cast<double>(mallinfo().uordblks));
+  bytes.set("used", static_cast<double>(static_cast<unsigned>(mallinfo().uordblks)));
   bytes.set("taken", static_cast<double>(emscripten_get_heap_size()));
   return bytes;
 }

@@ -169,7 +169,7 @@ void WebSession::frame_body() {
 }
 
 val WebSession::frame() {
-  return to_value(session_.frame(session_.is_following() ? queue_.pop_hooks() : queue_.pop()));
+  return to_value(folder_->named(session_.frame(session_.is_following() ? queue_.pop_hooks() : queue_.pop())));
 }
 
 bool WebSession::is_busy() const {
@@ -190,7 +190,7 @@ val WebSession::reset() {
   Status status = session_.reset();
   if (status.ok()) status = bind_surface();
   if (status.ok()) begin_anew();
-  return to_value(status);
+  return to_value(folder_->named(status));
 }
 
 val WebSession::place() const {
@@ -201,7 +201,7 @@ val WebSession::place() const {
 }
 
 val WebSession::seek(double call) {
-  return to_value(session_.seek(static_cast<std::uint64_t>(std::max(0.0, call))));
+  return to_value(folder_->named(session_.seek(static_cast<std::uint64_t>(std::max(0.0, call)))));
 }
 
 bool WebSession::take_over() {
@@ -375,7 +375,7 @@ std::string WebSession::hash() const {
 
 val WebSession::recording() const {
   if (const Status status = session_.save_recording(folder_->place_of(kRecording)); !status.ok()) {
-    return to_error(status.error());
+    return to_error(folder_->named(status.error()));
   }
   const Result<std::string> bytes = folder_->read(kRecording);
   return bytes.ok() ? to_bytes(*bytes) : to_error(bytes.error());

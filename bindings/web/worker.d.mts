@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types of `incise/worker`: a session that runs in a Worker at the pace of the clock, so that the page never waits for it.
+/// <reference lib="dom" />
 import type { Bytes, CameraMatrices, ColorName, Figures, Look, Marks, PointerKind, PointerOptions, QualityFigures, Surface, ToolName } from 'incise';
 
 /** What is opened: a mesh, a scene or a recording; see `Session.open`. */
@@ -50,7 +51,8 @@ export interface Questions {
   recording: [void, Uint8Array];
   write: [{ extension: string }, Uint8Array];
   look: [{ theme: 'light' | 'dark' }, Look];
-  color: [{ name: ColorName }, void];
+  /** 'scene': the one that the scene was opened with. */
+  color: [{ name: ColorName | 'scene' }, void];
   /** Whether the last `kept` has all that was done. */
   isKept: [void, boolean];
   /** See `Incise.memory`. */
@@ -68,7 +70,7 @@ export type Message =
   | { type: 'shown'; isShown: boolean };
 
 /**
- * Starts the worker. Events, each with its data as `detail`: `loaded` {version, look}; `warm`, when a session may be opened;
+ * Starts the worker. Events, each with its data as `detail`: `loaded` {version, look}; `warm`, when a session is opened without waiting (what is asked before is answered then);
  * `frame` (a `Frame`); `replayed` {verdict, hash}, at a recording's end; `kept` {recording, isAtRest}, from which `open` with `resumes` goes on
  * in another worker; `failed` {error}, after which the session goes on; `broken` {error}: the worker is gone, and whatever waits for an
  * answer is rejected. Where the page is served securely that is told at once, however the worker ended.

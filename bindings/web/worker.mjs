@@ -3,11 +3,14 @@
 // what may be asked and what is told: worker.d.mts.
 import { watchLife } from './life.mjs';
 
+const ended = () => Object.assign(new Error('the worker was ended'), { code: 'Ended' });
+
 export class SessionWorker extends EventTarget {
   #worker;
   #waiting = new Map();
   #next = 1;
   #endWatch = () => {};
+  #isEnded = false;
 
   constructor() {
     super();
@@ -46,9 +49,10 @@ export class SessionWorker extends EventTarget {
 
   ask(what, arguments_) {
     return new Promise((resolve, reject) => {
+      if (this.#isEnded) return reject(ended());
       const id = this.#next++;
+      this.#worker.postMessage({ type: 'ask', id, what, with: arguments_ }); // throws where something cannot be sent
       this.#waiting.set(id, { resolve, reject });
-      this.#worker.postMessage({ type: 'ask', id, what, with: arguments_ });
     });
   }
 
@@ -58,10 +62,11 @@ export class SessionWorker extends EventTarget {
 
   /** Ends the worker. What waits for an answer is told so. */
   end() {
+    this.#isEnded = true;
     this.#endWatch();
     this.#worker.onmessage = this.#worker.onerror = null;
     this.#worker.terminate();
-    for (const { reject } of this.#waiting.values()) reject(Object.assign(new Error('the worker was ended'), { code: 'Ended' }));
+    for (const { reject } of this.#waiting.values()) reject(ended());
     this.#waiting.clear();
   }
 }

@@ -15,7 +15,7 @@ const PRACTICE_FRAMES = 100; // half a second's work, as long as nobody cuts
 const PRACTICE_MS = 5; // of each frame's time
 const KEEP_SHARE = 0.05; // of the time, that recordings are written in
 
-let incise, session, practice, size = 1, viewport = [960, 640, 640];
+let incise, session, colorOfScene, practice, size = 1, viewport = [960, 640, 640];
 let events = [], last, stillFrames = 0, replayed = false;
 let isAwake = true, idleFrames = 0, isWanted = false, isShown = true, hasNewTriangles = true, perFrame = 1;
 let isBusy = false, isUnseen = false, hasShown = false, isSeen = false, isKept = true, nextKeep = 0;
@@ -32,6 +32,7 @@ function open({ bytes, name, files, up, resumes, isAtRest, isStill }) {
   }
   session?.dispose(); // only now: where the new one fails, the old one stays
   session = next;
+  colorOfScene = session.color;
   isKept = true; // whoever opened it has it
   session.resize(...viewport);
   events = [];
@@ -154,7 +155,7 @@ function count(ms) {
 }
 
 /** After these nothing of the module can be trusted: memory is out, or a bug. */
-const isFatal = (error) => error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+const isFatal = (error) => error instanceof WebAssembly.RuntimeError || error instanceof RangeError || error?.cause !== undefined;
 
 let hasMoved = true;
 /** One frame of a session that is awake. */
@@ -218,7 +219,7 @@ const answers = {
   recording: () => session.recording(),
   write: ({ extension }) => session.write(extension),
   look: ({ theme }) => incise.look(theme),
-  color: ({ name }) => choose(() => (session.color = name)),
+  color: ({ name }) => choose(() => (session.color = name === 'scene' ? colorOfScene : name)),
   memory: () => incise.memory(),
   isKept: () => isKept,
   events: (list) => void events.push(...list),
@@ -250,6 +251,7 @@ function choose(what) {
 const ALWAYS = ['open', 'look', 'memory', 'isKept', 'events', 'resize'];
 
 function answer({ what, with: given }) {
+  if (!Object.hasOwn(answers, what)) throw Object.assign(new Error(`there is no question "${what}"; see worker.d.mts`), { code: 'BadArgument' });
   if (!session && !ALWAYS.includes(what)) throw Object.assign(new Error('no body is open yet'), { code: 'BadArgument' });
   return answers[what](given ?? {});
 }
@@ -262,14 +264,21 @@ onmessage = ({ data }) => {
   } else if (data.type === 'shown') {
     isShown = data.isShown;
   } else if (data.type === 'ask') {
-    try {
-      say('answer', { id: data.id, value: answer(data) });
-    } catch (error) {
-      if (isFatal(error)) say('broken', { error: errorOf(error) });
-      else say('answer', { id: data.id, error: errorOf(error) });
-    }
+    if (early) early.push(data);
+    else reply(data);
   }
 };
+
+let early = []; // what is asked while the module still loads
+
+function reply(data) {
+  try {
+    say('answer', { id: data.id, value: answer(data) });
+  } catch (error) {
+    if (isFatal(error)) say('broken', { error: errorOf(error) });
+    else say('answer', { id: data.id, error: errorOf(error) });
+  }
+}
 
 holdLife((lock) => say('alive', { lock }));
 try {
@@ -277,6 +286,9 @@ try {
   say('loaded', { version: incise.version, look: incise.look('dark') });
   for (const first = new Practice(incise.Session, 2, 4); !first.isOver; ) first.goOn();
   say('warm');
+  const asked = early;
+  early = null;
+  asked.forEach(reply);
   tick();
 } catch (error) {
   say('broken', { error: errorOf(error) });

@@ -332,6 +332,64 @@ test('errors are InciseErrors that name file and remedy, and nothing of the insi
   Session.open(patch, 'patch.json', null).dispose();
 });
 
+test('arguments of no sense are InciseErrors', () => {
+  const { Engine, Session } = module, engine = Engine.open(bunny, 'bunny.mesh'), session = Session.open(patch, 'patch.json', { files: null });
+  const cyclic = {}, bare = Object.create(null);
+  cyclic.self = cyclic;
+  const refused = [
+    () => engine.cut(cyclic), () => engine.cut({ toJSON() {} }), () => engine.cut({ big: 1n }), () => Session.open(patch, 'patch.json', { files: 'x.mesh' }),
+    () => Session.open(patch, 'x.json', { files: { 'a/y.mesh': bunny, 'b/y.mesh': bunny } }),
+  ];
+  for (const value of [Symbol('x'), bare]) {
+    refused.push(() => (session.tool = value), () => (session.color = value), () => session.pointer(value, 1, 1), () => module.look(value),
+      () => session.pointer('press', 1, 1, { button: value }), () => engine.write(value), () => session.write(value));
+  }
+  for (const what of refused) assert.throws(what, (error) => error instanceof InciseError && error.code === 'BadArgument', String(what));
+});
+
+test('a scene finds what it names in folders by the last part of its name', () => {
+  const { settle, ...scene } = JSON.parse(read('scenes/web_meat.json')), cube = read('models/cube.mesh');
+  const sceneOf = (file) => JSON.stringify({ ...scene, length_unit: 0.1, attachments: [], model: { file } });
+  const names = ['../models/cube.mesh', '/home/me/cube.mesh', 'C:\\data\\cube.mesh'];
+  for (const { Session } of builds) {
+    for (const name of names) {
+      const session = Session.open(sceneOf(name), 'scene.json', { files: { 'cube.mesh': cube } });
+      session.frame();
+      assert.equal(session.figures().tets, 750);
+      const again = Session.open(session.recording(), 'again.jsonl', { files: { 'cube.mesh': cube } });
+      assert.equal(again.meshHash, session.meshHash);
+      [session, again].forEach((each) => each.dispose());
+    }
+    assert.throws(() => Session.open(sceneOf(names[0]), 'scene.json'), ({ message }) => /cube\.mesh/.test(message) && !/incise-\d/.test(message));
+  }
+});
+
+test('where memory is out that is an InciseError with its code, and it is known to be the end', async () => {
+  const { grow } = WebAssembly.Memory.prototype;
+  for (const simd of hasPlain ? [true, false] : [true]) {
+    const own = await load({ simd }), held = [];
+    try {
+      WebAssembly.Memory.prototype.grow = () => {
+        throw new RangeError('no more');
+      };
+      assert.throws(() => {
+        while (held.length < 40) held.push(own.Engine.open(bunny, 'bunny.mesh'));
+      }, (error) => error instanceof InciseError && error.code === 'OutOfMemory' && error.cause !== undefined);
+    } finally {
+      WebAssembly.Memory.prototype.grow = grow;
+    }
+  }
+});
+
+test('a module that is not there, or another one, is an InciseError that says where to look', async () => {
+  const empty = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0), foreign = join(folder, 'foreign.wasm');
+  writeFileSync(foreign, empty);
+  await assert.rejects(load({ wasmBinary: empty }), (error) => error instanceof InciseError && /^wasmBinary is not incise_core\.wasm/.test(error.message));
+  for (const where of ['http://127.0.0.1:1/x.wasm', 'file:///nowhere.wasm', `file://${foreign}`, 'http://', Symbol('x')]) {
+    await assert.rejects(load({ locateFile: () => where }), (error) => error instanceof InciseError && /locateFile/.test(error.message), String(where));
+  }
+});
+
 test('a wasmBinary that is none is an InciseError', async () => {
   await assert.rejects(load({ wasmBinary: Uint8Array.of(1, 2, 3) }), (error) => error instanceof InciseError && /^wasmBinary is no/.test(error.message));
   await assert.rejects(load({ wasmBinary: 'x' }), InciseError);

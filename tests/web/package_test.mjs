@@ -21,6 +21,7 @@ test('the example cuts a file in node as the native command does', async () => {
   const example = join(folder, 'node_modules/incise/examples/cut_a_file.mjs');
   const lines = readFileSync(example, 'utf8').split('\n').filter((line) => line && !line.startsWith('//'));
   assert.ok(lines.length <= 10, `the example has ${lines.length} lines`);
+  assert.throws(() => run('node', example), (error) => error.status === 2 && /^usage: node cut_a_file\.mjs MESH OUT\n$/.test(error.stderr));
   const said = run('node', example, at('models/cube.mesh'), 'halves.msh');
   const report = JSON.parse(await incise('cut', at('models/cube.mesh'), '--plane', '1,0,0,0.5', '--report', '-'));
   assert.match(said, new RegExp(`^${report.mesh.after.tets} tets in 2 pieces, hash ${report.hash}`));
@@ -35,6 +36,12 @@ test('types hold for a program that uses the package, and refuse one that does n
     return run('node', tsc, '--noEmit', '--strict', '--target', 'es2022', '--module', 'nodenext', '--lib', 'es2022,dom,esnext.disposable', 'user.mts');
   };
   check("import { load } from 'incise';\nconst { Engine } = await load();\nconst n: number = Engine.open('', 'x').cutPlane([1, 0, 0], 1).cutTets;\nconsole.log(n);\n");
+  // Neither library need be named by who uses the package.
+  for (const text of ["import { load } from 'incise';\n(await load()).Engine.open('', 'x').dispose();\n",
+    "import { SessionWorker } from 'incise/worker';\nawait new SessionWorker().ask('color', { name: 'scene' });\n"]) {
+    writeFileSync(join(folder, 'plain.mts'), text);
+    run('node', tsc, '--noEmit', '--strict', '--target', 'es2022', '--module', 'nodenext', '--lib', 'es2022', 'plain.mts');
+  }
   assert.throws(() => check("import { load } from 'incise';\n(await load()).Engine.open('', 'x').cutPlane('x', 1);\n"), /.*/);
 });
 

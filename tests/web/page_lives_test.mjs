@@ -2,6 +2,7 @@
 // What may be taken from the page while it works: the worker that computes, the one that draws, the picture's context; and what a
 // browser may lack from the start.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { describe, test } from 'node:test';
 import { differingShare } from './golden_picture.mjs';
 import { Visit, pictures, skip } from './page_support.mjs';
@@ -83,15 +84,26 @@ describe('the page lives on', { skip }, () => {
 
   test('a worker that fails again and again is told of, with a way out', async () => {
     await openPage();
+    await drag([0.4, 0.45], [0.6, 0.5]);
+    await until(() => window.incise.figures.strokes === 1);
+    await isKept();
+    const recording = await visit.page.evaluate(async () => [...(await window.incise.engine.ask('recording'))]);
     for (let i = 1; i <= 3; ++i) {
       if (i > 1) await isReplaced(i - 1);
+      if (i === 3) assert.match(await hint(), /as it was opened.*Save what was done/);
+      if (i === 3) await visit.page.context().setOffline(true);
       await workerOf('worker_thread').evaluate(() => void setTimeout(() => { throw new Error('memory is out'); }));
       await until((times) => times === 3 || window.incise.replacements === times, i);
     }
     await visit.page.locator('#cover').getByText(/memory is out/).waitFor();
     visit.complaints = visit.complaints.filter((text) => !/memory is out/.test(text));
     await visit.page.screenshot({ path: `${pictures}/cover.png` });
-    await visit.page.locator('#cover button').click();
+    assert.match(await visit.page.locator('#cover').textContent(), /no connection/);
+    const [download] = await Promise.all([visit.page.waitForEvent('download'), visit.page.click('#cover button >> text=Save what was done')]);
+    assert.equal(download.suggestedFilename(), 'incise-recording.jsonl');
+    assert.deepEqual([...readFileSync(await download.path())], recording);
+    await visit.page.context().setOffline(false);
+    await visit.page.click('#cover button >> text=Start again');
     await isReady();
     assert.equal((await figures()).tets, 5040);
   });

@@ -94,6 +94,9 @@ describe('the look of the page', { skip }, () => {
     for (const [width, height] of [[320, 568], [500, 320], [521, 600], [568, 320], [600, 800], [667, 375], [700, 500], [740, 360], [761, 600], [800, 600]]) {
       await visit.page.setViewportSize({ width, height });
       assert.deepEqual(await outside(), [], `${width} px`);
+      const free = await visit.page.evaluate(() => document.querySelector('footer').getBoundingClientRect().top - document.querySelector('header').getBoundingClientRect().bottom);
+      assert.ok(free > 0.5 * height || height > 450, `${free} of ${width} x ${height} px are left`);
+      if (height === 320) await visit.page.screenshot({ path: `${pictures}/${width}x320.png` });
       for (const [key, id] of [['f', 'figures'], ['h', 'help']]) {
         await press(key);
         const [panel, bar] = await Promise.all([`#${id}`, '#bar'].map((what) => visit.page.locator(what).boundingBox()));

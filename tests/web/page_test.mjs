@@ -229,6 +229,119 @@ describe('the page', { skip }, () => {
     await until(() => window.incise.figures.tetsAtStart === 750);
   });
 
+  /** A file for the page's own field. */
+  const file = (name, path) => ({ name, mimeType: 'text/plain', buffer: read(path) });
+
+  test('a scene opens together with the mesh that it names in a folder, and goes from the list with the next body', async () => {
+    visit.failures = 1;
+    await openPage();
+    const scene = { ...JSON.parse(read('scenes/web_meat.json')), model: { file: 'C:\\data\\own.mesh' } };
+    const ofScene = { name: 'own.json', mimeType: 'text/plain', buffer: Buffer.from(JSON.stringify(scene)) };
+    await visit.page.setInputFiles('#file', ofScene);
+    await until(() => /^That did not work: own\.json names own\.mesh: choose these files together/.test(document.getElementById('hint').textContent));
+    await visit.page.setInputFiles('#file', [ofScene, file('own.mesh', 'models/meat.mesh'), file('more.mesh', 'models/cube.mesh')]);
+    await until(() => /Left out: more\.mesh/.test(document.getElementById('hint').textContent));
+    assert.match(await visit.page.locator('#body option:checked').textContent(), /own\.json/);
+    await visit.page.selectOption('#body', 'skin');
+    await until(() => window.incise.body === 'skin' && window.incise.state === 'ready');
+    assert.equal(await visit.page.locator('#body option[value=""]').count(), 0);
+  });
+
+  test('what is chosen last is shown, whatever comes late, and while the page loads, too', async () => {
+    const context = await openPage({ waits: false });
+    await visit.page.setInputFiles('#file', file('early.mesh', 'models/cube.mesh'));
+    await until(() => window.incise.state === 'ready' && window.incise.figures.tetsAtStart === 750);
+    await context.route('**/bodies/bunny.mesh', async (route) => {
+      await new Promise((resolve) => setTimeout(resolve, 1000));
+      await route.continue();
+    });
+    const late = visit.page.waitForResponse(/bunny\.mesh/);
+    await visit.page.selectOption('#body', 'bunny');
+    await visit.page.setInputFiles('#file', file('own.mesh', 'models/cube.mesh'));
+    await (await late).finished();
+    await visit.page.waitForTimeout(500);
+    assert.equal((await figures()).tetsAtStart, 750);
+    assert.match(await visit.page.locator('#body option:checked').textContent(), /own\.mesh/);
+    visit.failures = 1;
+    await context.route('**/bodies/**', (route) => route.abort());
+    await visit.page.selectOption('#body', 'skin');
+    await until(() => /no connection; your own files still open/.test(document.getElementById('hint').textContent));
+    visit.complaints = visit.complaints.filter((text) => !/ERR_FAILED/.test(text));
+  });
+
+  test('a body chosen before the first one that cannot be opened leaves the first one', async () => {
+    visit.failures = 1;
+    await openPage({ waits: false });
+    await visit.page.setInputFiles('#file', { name: 'letter.txt', mimeType: 'text/plain', buffer: Buffer.from('Dear reader') });
+    await until(() => /letter\.txt/.test(document.getElementById('hint').textContent));
+    await isReady();
+    assert.equal((await figures()).tets, 5040);
+  });
+
+  test('the colour of the scene comes back, a wheel turns by what it is turned, and an empty address opens nothing', async () => {
+    await openPage();
+    await isAtRest();
+    const frame = () => visit.page.evaluate(() => new Promise((resolve) => {
+      window.incise.engine.addEventListener('frame', ({ detail }) => resolve({ color: detail.color, view: [...detail.camera.view] }), { once: true });
+      window.incise.engine.send({ type: 'want', isWhole: true });
+    }));
+    const first = await frame();
+    await press('f');
+    for (const color of ['quality', 'scene']) {
+      await visit.page.selectOption('#color', color);
+      await visit.page.waitForTimeout(300);
+      assert.equal((await frame()).color === first.color, color === 'scene', color);
+    }
+    const distance = ({ view }) => Math.hypot(...view.slice(12, 15));
+    const zoomedBy = async (pixels) => {
+      const before = distance(await frame());
+      await visit.page.mouse.move(480, 320);
+      await visit.page.mouse.wheel(0, pixels);
+      await visit.page.waitForTimeout(300);
+      return Math.log(before / distance(await frame()));
+    };
+    const little = await zoomedBy(-10), much = await zoomedBy(-100);
+    assert.ok(little > 0 && Math.abs(much / little - 10) < 1, `${little}, ${much}`);
+    await visit.page.evaluate(() => (location.hash = '#x'));
+    await visit.page.evaluate(() => (location.hash = ''));
+    await visit.page.waitForTimeout(300);
+    assert.doesNotMatch(await hint(), /Opening/);
+  });
+
+  test('a pen that is put down while two fingers turn the view cuts nothing', async () => {
+    await openPage({ hasTouch: true });
+    const cut = await visit.page.evaluate(async () => {
+      const place = document.getElementById('picture');
+      place.setPointerCapture = () => {};
+      const put = (type, pointerType, pointerId, clientX, clientY) => place.dispatchEvent(new PointerEvent(type, { pointerType, pointerId, clientX, clientY, button: 0, pressure: 1, bubbles: true }));
+      put('pointerdown', 'touch', 2, 20, 150);
+      put('pointerdown', 'touch', 3, 60, 150);
+      put('pointerdown', 'pen', 4, 400, 290);
+      for (let i = 0; i <= 20; ++i) {
+        put('pointermove', 'pen', 4, 400 + 8 * i, 290 + i);
+        await new Promise((resolve) => setTimeout(resolve, 16));
+      }
+      put('pointerup', 'pen', 4, 560, 310);
+      for (const finger of [2, 3]) put('pointerup', 'touch', finger, 20, 150);
+      await new Promise((resolve) => setTimeout(resolve, 500));
+      return window.incise.figures.strokes;
+    });
+    assert.equal(cut, 0);
+    await drag([0.4, 0.45], [0.6, 0.5]); // and the hand is free again
+    await until(() => window.incise.figures.strokes === 1);
+  });
+
+  test('keys while the engine dies, and a stored theme of no sense, harm nothing', async () => {
+    await openPage({ script: "localStorage.setItem('incise-theme', 'mauve')", colorScheme: 'dark' });
+    assert.equal(await visit.page.getAttribute('html', 'data-theme'), 'dark');
+    assert.equal(await visit.page.evaluate(() => window.incise.engine.ask('constructor').catch((error) => error.code)), 'BadArgument');
+    await visit.page.evaluate(() => window.incise.engine.end());
+    for (const key of ['t', 'r', 'Home', ']', '3']) await press(key);
+    await visit.page.waitForTimeout(200);
+    assert.deepEqual(visit.complaints, []);
+    assert.equal(await visit.page.evaluate(() => window.incise.engine.ask('hash').catch((error) => error.code)), 'Ended');
+  });
+
   test('figures, themes, picture and keys', async () => {
     await openPage({ colorScheme: 'light' });
     assert.equal(await visit.page.getAttribute('html', 'data-theme'), 'light');

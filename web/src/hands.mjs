@@ -2,12 +2,14 @@
 // Mouse, touch and pen to the pointer events of the tools. Two fingers turn, move and zoom the view.
 const BUTTONS = ['left', 'middle', 'right'];
 const PINCH_NOTCH = 1.1; // of spread per notch of a wheel
+const NOTCH = 100, LINE = 33; // pixels that a browser scrolls by a notch of a wheel, and by a line
 
 export class Hands {
   #fingers = new Map();
   #gesture = null;
   #events = [];
   #down = null; // the button of a drag
+  #pointer = null; // whose it is
   #tell;
 
   /** @param tell  that there is something to take */
@@ -41,20 +43,24 @@ export class Hands {
   }
 
   #press(event) {
+    const isTouch = event.pointerType === 'touch';
+    // One hand at a time: no pen while two fingers turn the view, no palm while a pen is down.
+    if (this.#fingers.size > 0 ? !isTouch : (this.#pointer ?? event.pointerId) !== event.pointerId) return;
     this.place.setPointerCapture(event.pointerId);
-    if (event.pointerType === 'touch') {
+    if (isTouch) {
       this.#fingers.set(event.pointerId, event);
       if (this.#fingers.size === 2) return this.#beginGesture(event);
       if (this.#fingers.size > 2) return;
     }
     this.#down = BUTTONS[event.button] ?? 'left';
+    this.#pointer = event.pointerId;
     this.#add('press', event, { button: this.#down });
   }
 
   #move(event) {
     if (this.#fingers.has(event.pointerId)) this.#fingers.set(event.pointerId, event);
     if (this.#gesture) return this.#goOn(event);
-    if (this.#fingers.size > 0 && !this.#fingers.has(event.pointerId)) return;
+    if (this.#pointer !== null && this.#pointer !== event.pointerId) return;
     // Places between two frames count: a fast stroke is a curve and no chord.
     const all = this.#down === 'left' ? event.getCoalescedEvents?.() ?? [] : [];
     for (const each of all.length > 0 ? all : [event]) this.#add('move', each);
@@ -63,20 +69,20 @@ export class Hands {
   #release(event) {
     const wasFinger = this.#fingers.delete(event.pointerId);
     if (this.#gesture) {
-      if (this.#fingers.size > 0) return;
+      if (!wasFinger || this.#fingers.size > 0) return;
       this.#add('release', event, { button: 'right', ...this.#gesture.keys });
       this.#gesture = null;
       return;
     }
-    if (event.pointerType === 'touch' && !wasFinger) return;
-    this.#add('release', event, { button: this.#down ?? 'left' });
-    this.#down = null;
+    if (event.pointerId !== this.#pointer) return;
+    this.#add('release', event, { button: this.#down });
+    this.#down = this.#pointer = null;
   }
 
   /** The second finger makes a look of what began as a stroke. */
   #beginGesture(event) {
-    this.#add('release', event, { button: this.#down ?? 'left' });
-    this.#down = null;
+    if (this.#down ?? this.#gesture) this.#add('release', event, { button: this.#down ?? 'right' });
+    this.#down = this.#pointer = null;
     const { x, y, spread } = this.#middle();
     this.#gesture = { spread };
     this.#add('press', { ...keysOf(event), clientX: x, clientY: y }, { button: 'right' });
@@ -102,7 +108,8 @@ export class Hands {
 
   #wheel(event) {
     event.preventDefault();
-    this.#add('wheel', event, { wheel: -Math.sign(event.deltaY) });
+    const pixels = (event.deltaY || event.deltaX) * (event.deltaMode ? LINE : 1); // with Shift some turn it sideways
+    if (pixels !== 0) this.#add('wheel', event, { wheel: -Math.min(Math.max(pixels / NOTCH, -1), 1) });
   }
 }
 

@@ -3,9 +3,20 @@
 const KEY = 'r=';
 /** Longer links are cut off by what people paste them into. */
 export const LONGEST_LINK = 200_000;
+const LARGEST = 64e6; // bytes of what a link unpacks to
 
 async function through(bytes, stream) {
-  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+  const parts = [];
+  let size = 0;
+  for (const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader(); ; ) {
+    const { done, value } = await reader.read();
+    if (done) return new Uint8Array(await new Blob(parts).arrayBuffer());
+    parts.push(value);
+    size += value.length;
+    if (size <= LARGEST) continue;
+    await reader.cancel();
+    throw new Error('too large for a link');
+  }
 }
 
 export async function toFragment(body, recording) {

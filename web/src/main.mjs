@@ -36,8 +36,9 @@ const keeper = new Keeper(), panel = new Panel((what) => (isReady ? ask(what) : 
 const ask = (what, data) => keeper.engine.ask(what, data);
 const hintOf = (name) => TOOLS.find((each) => each.name === name).hint;
 
-let drawing, frames, hands, tool = 'Scalpel', theme, isReady = false, hasFrame = false;
+let drawing, frames, hands, tool = 'Scalpel', theme, isReady = false, hasFrame = false, hasOpened = false;
 let opened = { id: '', isReplay: false }, hintTimer = 0;
+let openings = 0; // that were asked for: the last one is shown, whichever comes first
 
 function say(text, seconds = 0) {
   $('hint').textContent = text;
@@ -45,13 +46,21 @@ function say(text, seconds = 0) {
   if (seconds > 0) hintTimer = setTimeout(() => say(hintOf(tool)), 1000 * seconds);
 }
 
+const button = (label, onclick) => Object.assign(document.createElement('button'), { textContent: label, onclick });
+
 /** Instead of the page: why it cannot work, and what to do. */
-function cover(text, remedy, label, action) {
+function cover(text, remedy, ...buttons) {
   measured.state = 'covered';
   const lines = [text, remedy].map((line) => Object.assign(document.createElement('p'), { textContent: line }));
-  $('cover').replaceChildren(...lines);
-  if (label) $('cover').append(Object.assign(document.createElement('button'), { textContent: label, onclick: action }));
+  $('cover').replaceChildren(...lines, ...buttons);
   $('cover').hidden = false;
+}
+
+/** What saves the work of engines that stopped; nothing where there is none. */
+function savers() {
+  const { saved } = keeper;
+  if (saved.length === 0) return [];
+  return [button('Save what was done', () => saved.forEach((recording) => save(new Blob([recording]), 'incise-recording.jsonl')))];
 }
 
 function failed(error) {
@@ -78,13 +87,15 @@ function firstTheme() {
   try {
     kept = localStorage.getItem('incise-theme');
   } catch { /* likewise */ }
-  return kept ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
+  return ['dark', 'light'].includes(kept) ? kept : (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
 }
 
 // --- bodies, files, links
 
 async function fetchBytes(file) {
-  const response = await fetch(new URL(`bodies/${file}`, document.baseURI));
+  const response = await fetch(new URL(`bodies/${file}`, document.baseURI)).catch(() => {
+    throw new Error(`${file}: no connection; your own files still open`);
+  });
   if (!response.ok) throw new Error(`${file}: the server answers ${response.status}`);
   return new Uint8Array(await response.arrayBuffer());
 }
@@ -96,24 +107,40 @@ async function fetchParts(body) {
   return Object.fromEntries(files);
 }
 
-async function open(what, id, ownName) {
+/**
+ * Opens what `gathered` finds: {what, id, ownName, note}; `ownName` where it is no row of the list, `note` to be added to what is said.
+ * Nothing is done of it once something else is asked for.
+ */
+async function open(gathered) {
+  const own = ++openings, isLast = () => own === openings;
+  try {
+    const found = await gathered();
+    if (isLast()) await show(found, isLast);
+  } catch (error) {
+    if (!isLast()) return;
+    $('body').value = $('body').dataset.shown ?? bodies[0].id; // which is there still
+    if (hasFrame) measured.state = 'ready';
+    throw error;
+  }
+}
+
+async function show({ what, id, ownName, note = '' }, isLast) {
   say('Opening…');
   measured.state = 'opening';
   const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
-  try {
-    take(await keeper.open({ ...what, isStill }), id);
-    if (ownName) own(ownName); // before its first frame is here
-  } catch (error) {
-    if (hasFrame) measured.state = 'ready'; // what was there is there still
-    throw error;
-  }
+  const info = await keeper.open({ ...what, isStill });
+  if (!info) return; // something else was asked for
+  take(info, id);
+  showBody(id, ownName); // before its first frame is here
   await setUp();
-  if (opened.isReplay) say(isStill ? 'Playing the recording; its end is shown.' : 'Playing the recording of a link or file.');
-  else say(`${grouped(measured.tets)} tets. ${hintOf(tool)}`);
+  if (!isLast()) return;
+  if (!opened.isReplay) return say(`${grouped(measured.tets)} tets. ${note || hintOf(tool)}`);
+  say(`${isStill ? 'Playing the recording; its end is shown.' : 'Playing the recording of a link or file.'} ${note}`);
 }
 
 /** A session is there. */
 function take(info, id) {
+  hasOpened = true;
   opened = { id, isReplay: info.isReplay };
   Object.assign(measured, { body: id, tets: info.tets });
   $('replay').hidden = !info.isReplay;
@@ -131,51 +158,44 @@ async function setUp() {
 
 const want = (isWhole = false) => keeper.engine.send({ type: 'want', isWhole });
 
-async function openBody(id) {
+function openBody(id) {
   const body = bodies.find((each) => each.id === id) ?? bodies[0];
-  const shown = $('body').dataset.shown ?? bodies[0].id;
-  try {
+  return open(async () => {
     const files = body.model ? await fetchParts(body) : undefined;
-    await open({ bytes: await fetchBytes(body.file), name: body.file, files, up: body.up }, body.id);
-    showBody(body.id);
-  } catch (error) {
-    showBody(shown); // which is there still
-    throw error;
-  }
+    return { what: { bytes: await fetchBytes(body.file), name: body.file, files, up: body.up }, id: body.id };
+  });
 }
 
 /** Opens what was chosen or dropped: one file, or several that belong together. */
 async function openFiles(chosen) {
   if (chosen.length === 0) return;
   const page = bodies.flatMap(({ file, model, surface }) => [file, model, surface]).filter(Boolean);
-  const { what, missing } = await gather(chosen, keeper.files, page, fetchBytes);
+  let found = null;
+  const lacking = ({ what, missing }) => `${what.name} names ${missing.join(' and ')}: choose these files together, or drop them together`;
   try {
-    await open(what, '', what.name);
+    await open(async () => {
+      found = await gather(chosen, keeper.files, page, fetchBytes);
+      const note = found.leftOut.length > 0 ? `Left out: ${found.leftOut.join(', ')}, which it does not name.` : '';
+      return { what: found.what, id: '', ownName: found.what.name, note };
+    });
   } catch (error) {
-    if (missing.length === 0) throw error;
-    throw new Error(`${what.name} names ${missing.join(' and ')}: choose these files together, or drop them together`);
+    throw found?.missing.length > 0 && error.code !== 'Ended' ? new Error(lacking(found)) : error;
   }
 }
 
-/** Says in the list which body is shown; '' is one that is no row of it. */
-function showBody(id) {
+/** Says in the list which body is shown; '' is one that is no row of it and has one as long as it is shown. */
+function showBody(id, ownName) {
+  $('body').querySelector('option[value=""]')?.remove();
+  if (id === '') $('body').append(new Option(ownName, ''));
   $('body').value = $('body').dataset.shown = id;
 }
 
-/** Shows a body that is no row of the list. */
-function own(name) {
-  const option = $('body').querySelector('option[value=""]') ?? new Option('', '');
-  option.textContent = name;
-  $('body').append(option);
-  showBody('');
-}
-
-async function openLink(found) {
+function openLink(found) {
   const body = bodies.find((each) => each.id === found.body);
-  const files = body ? await fetchParts(body) : undefined;
-  await open({ bytes: found.recording, name: 'link.jsonl', files }, body?.id ?? '');
-  if (body) showBody(body.id);
-  else own('Of a link');
+  return open(async () => {
+    const files = body ? await fetchParts(body) : undefined;
+    return { what: { bytes: found.recording, name: 'link.jsonl', files }, id: body?.id ?? '', ownName: 'Of a link' };
+  });
 }
 
 async function share() {
@@ -258,7 +278,7 @@ function makeTools() {
 
 function toggle(id) {
   const isShown = $(id).hidden;
-  for (const what of ['header', 'footer']) document.documentElement.style.setProperty(`--${what}`, `${heightOf(what)}px`);
+  leaveRoom();
   for (const other of ['figures', 'help']) {
     $(other).hidden = other !== id || !isShown;
     $(`${other}-button`).setAttribute('aria-expanded', !$(other).hidden);
@@ -298,7 +318,7 @@ function onKey(event) {
   }
   if (event.altKey || !KEYS[key]) return;
   event.preventDefault();
-  KEYS[key]();
+  Promise.resolve(KEYS[key]()).catch(failed);
 }
 
 function hearControls() {
@@ -315,11 +335,11 @@ function hearControls() {
     endReplay();
   });
   $('depth').oninput = () => isReady && sendDepth(Number($('depth').value));
-  $('color').onchange = () => ask('color', { name: $('color').value }).catch(failed);
-  $('body').onchange = () => $('body').value && openBody($('body').value).catch(failed);
+  $('color').onchange = () => isReady && ask('color', { name: $('color').value }).catch(failed);
+  $('body').onchange = () => $('body').value && chosen(openBody($('body').value));
   hear('open', () => $('file').click());
   $('file').onchange = () => {
-    openFiles([...$('file').files]).catch(failed);
+    chosen(openFiles([...$('file').files]));
     $('file').value = ''; // the same file may be opened again
   };
   addEventListener('keydown', onKey);
@@ -328,7 +348,7 @@ function hearControls() {
   addEventListener('drop', (event) => {
     event.preventDefault();
     document.body.classList.remove('dropping');
-    openFiles([...event.dataTransfer.files]).catch(failed);
+    chosen(openFiles([...event.dataTransfer.files]));
   });
   document.addEventListener('visibilitychange', () => keeper.engine?.send({ type: 'shown', isShown: !document.hidden }));
 }
@@ -374,7 +394,13 @@ const sizeOfView = () => {
 };
 const sendSize = newest((size) => ask('resize', size).catch(failed));
 
+/** Panels keep clear of the controls, where there is room. */
+function leaveRoom() {
+  for (const what of ['header', 'footer']) document.documentElement.style.setProperty(`--${what}`, `${heightOf(what)}px`);
+}
+
 function fit() {
+  leaveRoom();
   const size = sizeOfView();
   drawing?.resize([size[0], size[1], devicePixelRatio]);
   if (keeper.engine) sendSize(size);
@@ -396,7 +422,7 @@ function watchBlocks() {
 function startEngine() {
   const hear = (type, what) => keeper.addEventListener(type, what);
   hear('loaded', onLoaded);
-  hear('warm', () => openFirst().catch(failed));
+  hear('warm', () => openings === 0 && openSome()); // else what was chosen meanwhile is opened
   hear('frame', onFrame);
   hear('replayed', onReplayed);
   hear('failed', ({ detail }) => failed(detail.error));
@@ -409,17 +435,21 @@ function startEngine() {
   hear('resumed', ({ detail }) => onResumed(detail).catch(failed));
   hear('lost', ({ detail }) => {
     isReady = false;
-    const again = () => location.reload();
-    cover(`The engine stopped: ${detail.error.message}`, 'It was started again, and stopped again. A smaller mesh may help.', 'Start again', again);
+    const remedy = navigator.onLine ? 'It was started again, and stopped again. A smaller mesh may help.' : 'There is no connection to fetch it anew: start again when there is one.';
+    cover(`The engine stopped: ${detail.error.message}`, remedy, ...savers(), button('Start again', () => location.reload()));
   });
   keeper.start();
 }
 
 async function onResumed({ info, isWhole }) {
   take(info, opened.id);
+  const resumed = opened;
   await setUp();
   ++measured.replacements;
-  say(isWhole ? 'The engine stopped and was started again. All that was done is here.' : 'The engine stopped and was started again: here is the body as it was opened.', 12);
+  if (opened !== resumed) return; // something else has been chosen
+  if (isWhole) return say('The engine stopped and was started again. All that was done is here.', 12);
+  say('The engine stopped and was started again: here is the body as it was opened. ');
+  $('hint').append(...savers());
 }
 
 function onLoaded({ detail }) {
@@ -471,6 +501,29 @@ async function openFirst() {
   if (isDamaged) say('The link is damaged: it may have been cut off. Here is a fresh body.', 12);
 }
 
+/** Opens what the page begins with; again, where the engine died meanwhile. */
+async function openSome() {
+  while (!hasOpened) {
+    try {
+      return await openFirst();
+    } catch (error) {
+      if (error.code !== 'Ended') return failed(error);
+    }
+  }
+}
+
+/** Tells of a choice that fails; where it came before any body was there the page's first one is opened. */
+const chosen = (opening) => opening.catch(async (error) => {
+  await openSome();
+  failed(error);
+});
+
+/** The address has another link. */
+async function openLater() {
+  const found = await fromFragment(location.hash).catch(() => say('The link is damaged: it may have been cut off.', 12));
+  if (found) await openLink(found);
+}
+
 function begin() {
   setTheme(firstTheme()); // no engine is asked yet
   if (typeof WebAssembly !== 'object') {
@@ -488,7 +541,7 @@ function begin() {
   watchBlocks();
   startEngine();
   addEventListener('resize', fit);
-  addEventListener('hashchange', () => openFirst().catch(failed));
+  addEventListener('hashchange', () => chosen(openLater()));
   setInterval(() => panel.refresh().catch(failed), 1000);
 }
 

@@ -15,6 +15,7 @@
 #include "app/text/formatted.h"
 #include "app/text/json_write.h"
 #include "app/text/line_reader.h"
+#include "app/text/named_file.h"
 #include "incise/io/mesh_export.h"
 
 namespace incise {
@@ -160,18 +161,16 @@ Result<io::LoadedMesh> load_recorded_mesh(const RecordingHeader& header, const f
   if (header.mesh_file.empty()) {
     return Error{ErrorCode::kBadFile, where + "it was recorded on a mesh of no file; replay it in the program", {}};
   }
-  std::error_code code;
-  fs::path path = recording.parent_path() / header.mesh_file;
-  if (!fs::exists(path, code)) path = header.mesh_file;
-  if (!fs::exists(path, code)) {
+  const std::optional<fs::path> path = find_named(recording.parent_path(), header.mesh_file);
+  if (!path) {
     return Error{ErrorCode::kBadFile,
                  where + "the mesh \"" + header.mesh_file + "\" is not there; put it where it was beside the recording",
                  {}};
   }
-  Result<io::LoadedMesh> loaded = io::load_mesh(path);
+  Result<io::LoadedMesh> loaded = io::load_mesh(*path);
   if (!loaded.ok() || loaded->mesh.hash() == header.mesh_hash) return loaded;
   return Error{ErrorCode::kBadFile,
-               path.string() + ": is not the mesh of the recording: its hash is " + hash_text(loaded->mesh.hash()) +
+               path->string() + ": is not the mesh of the recording: its hash is " + hash_text(loaded->mesh.hash()) +
                    ", recorded was " + hash_text(header.mesh_hash) + "; put the mesh of that time in its place",
                {}};
 }

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 
 #include "app/scene/blade_file.h"
 #include "app/scene/stroke_reader.h"
 #include "app/scene/view_names.h"
+#include "app/text/named_file.h"
 #include "app/text/range_reader.h"
 #include "app/text/text_file.h"
 #include "incise/sim/tissue.h"
@@ -567,9 +567,8 @@ class SceneHandsReader : public SceneOptionsReader {
     const JsonValue* blade = read_.member(value, path, "blade");
     if (blade == nullptr) return false;
     if (blade->kind != JsonValue::Kind::kString) return read_strokes(read_, *blade, path + ".blade", strokes);
-    std::error_code code;
-    const fs::path beside = scene_.folder / blade->text;
-    Result<std::vector<BladeStroke>> found = read_blade_file(fs::exists(beside, code) ? beside : fs::path(blade->text));
+    Result<std::vector<BladeStroke>> found =
+        read_blade_file(find_named(scene_.folder, blade->text).value_or(blade->text));
     if (!found.ok()) {
       return read_.fail(*blade, path + ".blade", "names a file that cannot be taken: " + found.error().message);
     }

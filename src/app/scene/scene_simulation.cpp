@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 #include "app/model/find_regions.h"
+#include "app/text/named_file.h"
 #include "incise/mesh/bounds.h"
 #include "incise/mesh/join.h"
 #include "incise/mesh/shapes.h"
@@ -248,10 +248,7 @@ Result<fs::path> find_model(const Scene& scene) {
 }
 
 Result<fs::path> find_model(const Scene& scene, const std::string& file) {
-  std::error_code code;
-  for (const fs::path& path : {scene.folder / file, fs::path(file)}) {
-    if (fs::exists(path, code)) return path;
-  }
+  if (std::optional<fs::path> path = find_named(scene.folder, file)) return std::move(*path);
   return Error{ErrorCode::kBadFile,
                "model \"" + file + "\": no such file, neither from the scene's folder \"" + scene.folder.string() +
                    "\" nor from here; make it with script/models, or mend the path",
