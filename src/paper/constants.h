@@ -30,6 +30,10 @@ inline constexpr double kStripsReach = 2.0;
 inline constexpr double kRingTravel = 4.0;
 inline constexpr double kClosesWithin = 0.25;
 
+/// A piece is on both sides of a ring's walls if it has more than this share of its own on either: half of them if the
+/// ring is joined, one of a thousand that lie at a corner if not.
+inline constexpr double kJoinedShare = 0.25;
+
 /// A stroke goes on with an incision where a collision point at that one's front lies in the plane of its sheet within
 /// so many of its vertex's mean edges (`kJoinOffset`), and within so many of the longest ones of the sheet itself
 /// (`kJoinReach`), and the two sheets enclose less than 45° there (`kJoinCosine`: √½). Two strokes of one hand meet

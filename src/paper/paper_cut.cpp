@@ -284,12 +284,12 @@ Result<CutStatistics> PaperCutter::end(TetMesh& mesh, Journal& journal, StageTim
 
 /// Goes over the last strips of a stroke that has ended where this one does, if others have cut in between.
 Status PaperCutter::end_at_rest(const CutContext& context, EndedStroke ended) {
-  if (Status status = close_ring(context); !status) return status;
-  ended.ring = stroke_.ring;
   const EndedStroke* met = ended_.find(ended.row, kStandsWithin * stroke_.spacing);
   Status status;
   if (met != nullptr && !ended_.is_last(*met)) status = go_over(context, met->strips);
   if (status && !ended.strips.empty()) status = cut_at_row(context, ended.row, *ended.strips.back());
+  if (status) status = close_ring(context);
+  ended.ring = stroke_.ring;
   ended_.add(std::move(ended));
   return status;
 }

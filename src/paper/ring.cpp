@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which side a wall is on its normal tells, against that of the sheet beside it; pieces are found from all walls at
-// once (docs/internals.md, 3.12).
+// Which side a wall is on its normal tells, against that of the sheet beside it; some are told wrong where the sheet
+// turns. Pieces are found from all walls at once (docs/internals.md, 3.12).
 #include "paper/ring.h"
 
 #include <algorithm>
@@ -64,9 +64,11 @@ bool is_joined_around(const TetMesh& mesh, const Sheet& sheet, const IncisionFro
       sides.push_back(cosine > 0 ? 1 : 0);
     }
   }
-  std::vector<std::array<bool, 2>> has(finder.find(mesh, beside), {false, false});
-  for (std::size_t i = 0; i < beside.size(); ++i) has[finder.piece_of(i)][sides[i]] = true;
-  return std::any_of(has.begin(), has.end(), [](const auto& of_piece) { return of_piece[0] && of_piece[1]; });
+  std::vector<std::array<std::size_t, 2>> walls(finder.find(mesh, beside), {0, 0});
+  for (std::size_t i = 0; i < beside.size(); ++i) ++walls[finder.piece_of(i)][sides[i]];
+  return std::any_of(walls.begin(), walls.end(), [](const auto& of) {
+    return static_cast<double>(std::min(of[0], of[1])) > kJoinedShare * static_cast<double>(of[0] + of[1]);
+  });
 }
 
 }  // namespace v0

@@ -62,7 +62,7 @@ TEST(CInterface, errors_are_short_and_keep_their_remedy) {
   EXPECT_LE(message.size(), 500U);
   EXPECT_EQ(message.rfind("/no/xxx", 0), 0U) << message;
   EXPECT_NE(message.find(" ... "), std::string::npos) << message;
-  EXPECT_NE(message.find("; check the name"), std::string::npos) << message;
+  EXPECT_NE(message.find("; check the path"), std::string::npos) << message;
 }
 
 TEST(CInterface, names_of_files_must_be_names_of_files) {
