@@ -42,9 +42,12 @@ Result<app::Conversion> surface_to_stdout(const ConvertArguments& a, const Termi
                                           const std::function<void()>& before_writing) {
   const Result<app::BoundaryOf> boundary = app::read_boundary(input_of(a.in));
   if (!boundary.ok()) return boundary.error();
-  const Result<std::string> bytes = io::write_surface_bytes(surface_extension_of(a.out.format), boundary->surface);
-  if (!bytes.ok()) return bytes.error();
   before_writing();
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("writing", 0);
+  const Result<std::string> bytes = io::write_surface_bytes(surface_extension_of(a.out.format), boundary->surface);
+  bar.reset();
+  if (!bytes.ok()) return bytes.error();
   if (Status status = terminal.data(*bytes); !status.ok()) return status.error();
   app::Conversion done;
   done.notes = boundary->notes;

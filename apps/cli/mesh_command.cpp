@@ -154,7 +154,10 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   report.arguments = &arguments;
   app::OrganJob job = job_of(arguments);
   Watch watch;
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("reading", 0);
   Result<app::OrganInput> input = app::read_organ(job);
+  bar.reset();
   if (!input.ok())
     return fail(terminal, explain_kind(explained(input.error(), arguments), arguments.input, FileKind::kUnknown),
                 kBadInput);

@@ -3,6 +3,7 @@
 #include "mesh_output.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "app/model/convert.h"
 #include "command_support.h"
@@ -65,12 +66,17 @@ io::WriteOptions write_options_of(const MeshOutput& output) {
 
 Status write_output(const MeshOutput& output, const io::MeshData& mesh, const Terminal& terminal) {
   const io::WriteOptions options = write_options_of(output);
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("writing", 0);
   if (output.is_stdout()) {
     const Result<std::string> bytes = io::write_mesh_bytes(options.extension, mesh, options.msh);
+    bar.reset();
     if (!bytes.ok()) return bytes.error();
     return terminal.data(*bytes);
   }
-  if (Status status = io::write_mesh(output.file, mesh, options); !status.ok()) return status;
+  const Status status = io::write_mesh(output.file, mesh, options);
+  bar.reset();
+  if (!status.ok()) return status;
   terminal.wrote(names_text(io::mesh_files(output.file, options)),
                  counts_text(mesh.soup.tets.size(), mesh.soup.points.size()));
   return {};

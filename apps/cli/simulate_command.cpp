@@ -230,6 +230,7 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   }
   const WritingZone zone;  // an interrupt ends the run between two frames, and leaves no part of a series
   std::optional<ProgressBar> bar(std::in_place, terminal, "frames");
+  bar->show_stage("reading", 0);
   app::SimulateJob job = job_of(arguments, terminal, *bar);
   job.hand = hand.get();
   FineFilm film(scene, arguments);
