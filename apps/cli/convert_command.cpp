@@ -25,6 +25,8 @@ using namespace incise;
 /// is.
 constexpr unsigned kRead = 40;
 
+const std::vector<std::string> kSurfaceFormats = {"obj", "stl", "ply", "off"};
+
 struct ConvertArguments {
   std::string in;
   MeshOutput out;
@@ -90,7 +92,7 @@ std::optional<OutputProblem> problem_of_conversion(const ConvertArguments& a) {
     return OutputProblem{"OUT is stdout, where --json would print too; name a file", kUsage};
   }
   const std::string surface = surface_extension_of(a.out.format);
-  if (surface.empty() && (!a.out.format.empty() || a.out.is_stdout())) return problem_of(a.out);
+  if (surface.empty() && (!a.out.format.empty() || a.out.is_stdout())) return problem_of(a.out, kSurfaceFormats);
   if (!surface.empty() && a.out.is_stdout()) return std::nullopt;
   if (!surface.empty() && app::extension_of(a.out.file) != surface) {
     return OutputProblem{
@@ -145,7 +147,7 @@ Command add_convert(CLI::App& root) {
   convert->add_option("OUT", arguments->out.file, "File to write; the extension names the format; - for stdout")
       ->required()
       ->transform(names_a_result());
-  add_format(*convert, arguments->out.format, {"obj", "stl", "ply", "off"});
+  add_format(*convert, arguments->out.format, kSurfaceFormats);
   add_json(*convert, arguments->as_json);
   return {convert, [arguments](const Terminal& terminal) { return run_convert(*arguments, terminal); }};
 }

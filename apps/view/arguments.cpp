@@ -219,10 +219,10 @@ std::string scan_problem(const Arguments& a) {
 /// Of files that are written: what their names tell.
 std::string output_problem(const Arguments& a) {
   const std::array<std::pair<const char*, const std::string&>, 5> outputs = {{{"--screenshot", a.screenshot},
-                                                                             {"--sequence", a.sequence},
-                                                                             {"--film", a.film},
-                                                                             {"--record", a.record},
-                                                                             {"--mesh", a.mesh}}};
+                                                                              {"--sequence", a.sequence},
+                                                                              {"--film", a.film},
+                                                                              {"--record", a.record},
+                                                                              {"--mesh", a.mesh}}};
   for (const auto& [option, name] : outputs) {
     if (name == "-") return std::string(option) + " does not go to stdout; name a file";
   }

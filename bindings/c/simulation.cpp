@@ -209,9 +209,10 @@ Result<Tool> tool_of(const incise_tool& c) {
   });
   if (!fields.has_edge()) return Error{ErrorCode::kBadArgument, "the edge of a flat is null", {}};
   if (!fields.has_room()) {
-    return Error{ErrorCode::kUnsupported,
-                 "incise_tool has no room for all that a tool of kind " + std::to_string(c.kind) + " is told by; use C++",
-                 {}};
+    return Error{
+        ErrorCode::kUnsupported,
+        "incise_tool has no room for all that a tool of kind " + std::to_string(c.kind) + " is told by; use C++",
+        {}};
   }
   if (made) return *std::move(made);
   return Error{

@@ -95,7 +95,8 @@ inline Json full_scene() {
       {{"box", {{"low", {0.9, -1, -1}}, {"high", {2, 2, 2}}}}, {"stiffness", 500}, {"strength", 1000}, {"tears", true}},
       {{"ball", {{"centre", {0, 0, 0}}, {"radius", 0.1}}}}};
   scene["tools"] = moving_tools();
-  scene["tools"].insert(scene["tools"].begin(), {{"name", "table"}, {"plane", {0, 0, 2, -1}}});
+  const Json table = {{"name", "table"}, {"plane", {0, 0, 2, -1}}};
+  scene["tools"].insert(scene["tools"].begin(), table);
   scene["spare"] = {{{"tool", "scissors"}, {"stop_at", {3}}}, {{"stop_at", {3, 0}}}};
   scene["hooks"] = {{{"name", "hook"},
                      {"radius", 0.3},

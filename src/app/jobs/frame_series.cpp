@@ -97,7 +97,8 @@ Status FrameSeries::take_beside() {
     if (code) return series_error(beside_, "cannot be made: " + code.message());
     const int folder = ::open(beside_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0 && errno == ENOENT) continue;
-    if (folder < 0) return series_error(beside_, "cannot be opened: " + std::error_code(errno, std::generic_category()).message());
+    if (folder < 0)
+      return series_error(beside_, "cannot be opened: " + std::error_code(errno, std::generic_category()).message());
     if (::flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {  // file systems without locks do without
       ::close(folder);
       return series_error(path_, "another run is writing this series; wait for it, or name another output");

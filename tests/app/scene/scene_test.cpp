@@ -582,8 +582,7 @@ Places places_of_moving_tools() {
     const bool has_path = tools[i].at(kind).contains("path");
     const std::string scene = "/tools/" + std::to_string(i) + "/" + kind;
     const std::string in_schema = "/properties/tools/items/properties/" + kind;
-    places.emplace_back(scene + (has_path ? "/path/0" : ""),
-                        in_schema + (has_path ? "/properties/path/items" : ""));
+    places.emplace_back(scene + (has_path ? "/path/0" : ""), in_schema + (has_path ? "/properties/path/items" : ""));
   }
   return places;
 }
@@ -800,8 +799,9 @@ TEST(SceneSchema, the_page_about_scenes_gets_a_row_for_a_tool_that_it_lacks) {
   const std::size_t at = without.find("| `tools[].ball`");
   without.erase(at, without.find('\n', at) + 1 - at);
   const std::string again = page_of_tools(without);
-  EXPECT_NE(again.find("| `tools[].ball` | `radius`, and either `centre`, or a `path` of `t` and `centre` | above 0 | |\n"),
-            std::string::npos);
+  EXPECT_NE(
+      again.find("| `tools[].ball` | `radius`, and either `centre`, or a `path` of `t` and `centre` | above 0 | |\n"),
+      std::string::npos);
   EXPECT_EQ(again.size(), page().size());
 }
 
