@@ -65,11 +65,8 @@ void add_report(CLI::App& command, std::string& report, bool& as_json) {
 }
 
 void add_format(CLI::App& command, std::string& format, const std::vector<std::string>& more) {
-  std::vector<std::string> formats = incise::io::write_option_names();
-  formats.emplace_back("msh");
-  formats.insert(formats.end(), more.begin(), more.end());
   command.add_option("--format", format, "Of what is written, instead of what its extension says: msh is msh41")
-      ->check(CLI::IsMember(formats));
+      ->check(CLI::IsMember(format_names(more)));
 }
 
 void add_output(CLI::App& command, MeshOutput& output) {

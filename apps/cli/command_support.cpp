@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "input_kind.h"
+#include "mesh_output.h"
 
 namespace incise_cli {
 
@@ -52,7 +53,11 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 std::string clash_of(const std::vector<NamedFile>& files, const std::vector<std::string>& others) {
-  std::vector<std::string> taken = others;
+  std::vector<std::string> taken;
+  for (const std::string& other : others) {
+    const std::vector<std::string> all = files_of(other);
+    taken.insert(taken.end(), all.begin(), all.end());
+  }
   for (const auto& [option, file] : files) {
     if (file.empty() || file == "-") continue;
     for (const std::string& other : taken) {

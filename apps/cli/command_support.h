@@ -31,7 +31,7 @@ struct NamedFile {
   std::string file;  ///< empty: none; "-": stdout
 };
 /// In words: which of some files would take the place of another one of them, or of others that the command reads or
-/// writes. Empty: none.
+/// writes, or of what belongs to these (`files_of`). Empty: none.
 std::string clash_of(const std::vector<NamedFile>& files, const std::vector<std::string>& others);
 /// Whether the folder of an output exists: found out before the work, not after.
 bool has_folder(const std::string& file);

@@ -25,6 +25,8 @@ using namespace incise;
 /// is.
 constexpr unsigned kRead = 40;
 
+const std::vector<std::string> kSurfaceFormats = {"obj", "stl", "ply", "off"};
+
 struct ConvertArguments {
   std::string in;
   MeshOutput out;
@@ -42,9 +44,12 @@ Result<app::Conversion> surface_to_stdout(const ConvertArguments& a, const Termi
                                           const std::function<void()>& before_writing) {
   const Result<app::BoundaryOf> boundary = app::read_boundary(input_of(a.in));
   if (!boundary.ok()) return boundary.error();
-  const Result<std::string> bytes = io::write_surface_bytes(surface_extension_of(a.out.format), boundary->surface);
-  if (!bytes.ok()) return bytes.error();
   before_writing();
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("writing", 0);
+  const Result<std::string> bytes = io::write_surface_bytes(surface_extension_of(a.out.format), boundary->surface);
+  bar.reset();
+  if (!bytes.ok()) return bytes.error();
   if (Status status = terminal.data(*bytes); !status.ok()) return status.error();
   app::Conversion done;
   done.notes = boundary->notes;
@@ -87,7 +92,7 @@ std::optional<OutputProblem> problem_of_conversion(const ConvertArguments& a) {
     return OutputProblem{"OUT is stdout, where --json would print too; name a file", kUsage};
   }
   const std::string surface = surface_extension_of(a.out.format);
-  if (surface.empty() && (!a.out.format.empty() || a.out.is_stdout())) return problem_of(a.out);
+  if (surface.empty() && (!a.out.format.empty() || a.out.is_stdout())) return problem_of(a.out, kSurfaceFormats);
   if (!surface.empty() && a.out.is_stdout()) return std::nullopt;
   if (!surface.empty() && app::extension_of(a.out.file) != surface) {
     return OutputProblem{
@@ -142,7 +147,7 @@ Command add_convert(CLI::App& root) {
   convert->add_option("OUT", arguments->out.file, "File to write; the extension names the format; - for stdout")
       ->required()
       ->transform(names_a_result());
-  add_format(*convert, arguments->out.format, {"obj", "stl", "ply", "off"});
+  add_format(*convert, arguments->out.format, kSurfaceFormats);
   add_json(*convert, arguments->as_json);
   return {convert, [arguments](const Terminal& terminal) { return run_convert(*arguments, terminal); }};
 }

@@ -256,6 +256,7 @@ int run_cut(const CutArguments& arguments, const Terminal& terminal) {
   const Box body = rest_bounds(loaded->mesh);
   std::optional<ProgressBar> bar(std::in_place, terminal,
                                  arguments.blade.empty() || arguments.at_once ? "cuts" : "steps");
+  bar->show_stage("measuring", 0);
   app::CutJob job = job_of(arguments, std::move(strokes).value(), terminal, *bar);
   Status drawn;
   job.look = [&](const Engine& end) { drawn = draw_end(arguments, end, *fine ? &**fine : nullptr); };

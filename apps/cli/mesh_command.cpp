@@ -46,7 +46,9 @@ std::string usage_problem(const MeshArguments& a) {
   if (a.output.is_stdout() && a.has_report_on_stdout()) {
     return "-o - writes the mesh to stdout, where the figures would go too; give either a file";
   }
-  const std::vector<std::string> files = {a.input, a.names, a.output.file, a.report, a.picture};
+  std::vector<std::string> files = {a.input, a.names, a.report, a.picture};
+  const std::vector<std::string> meshes = files_of(a.output.file);
+  files.insert(files.end(), meshes.begin(), meshes.end());
   for (std::size_t i = 2; i < files.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const bool are_files = !files[i].empty() && files[i] != "-" && !files[j].empty() && files[j] != "-";
@@ -154,7 +156,10 @@ int run_mesh(const MeshArguments& arguments, const Terminal& terminal) {
   report.arguments = &arguments;
   app::OrganJob job = job_of(arguments);
   Watch watch;
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("reading", 0);
   Result<app::OrganInput> input = app::read_organ(job);
+  bar.reset();
   if (!input.ok())
     return fail(terminal, explain_kind(explained(input.error(), arguments), arguments.input, FileKind::kUnknown),
                 kBadInput);

@@ -3,6 +3,7 @@
 #include "mesh_output.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "app/model/convert.h"
 #include "command_support.h"
@@ -39,22 +40,37 @@ std::string problem_of_format(const MeshOutput& output) {
          " files; give it that extension";
 }
 
-std::string problem_of_name(const MeshOutput& output) {
+std::string problem_of_name(const MeshOutput& output, const std::vector<std::string>& more_formats) {
   if (!output.format.empty()) return problem_of_format(output);
   if (output.is_stdout())
-    return "- needs --format, which says what to write to stdout: " + listed(io::write_option_names());
+    return "- needs --format, which says what to write to stdout: " + listed(format_names(more_formats));
   if (app::is_mesh_extension(output.file)) return "";
   return output.file + ": unknown extension; use " + app::mesh_extensions();
 }
 
 }  // namespace
 
-std::optional<OutputProblem> problem_of(const MeshOutput& output) {
+std::vector<std::string> format_names(const std::vector<std::string>& more) {
+  std::vector<std::string> names = io::write_option_names();
+  names.emplace_back("msh");
+  names.insert(names.end(), more.begin(), more.end());
+  return names;
+}
+
+std::vector<std::string> files_of(const std::string& mesh) {
+  if (mesh.empty() || mesh == "-") return {};
+  std::vector<std::string> files;
+  for (const fs::path& file : io::mesh_files(mesh)) files.push_back(file.string());
+  return files;
+}
+
+std::optional<OutputProblem> problem_of(const MeshOutput& output, const std::vector<std::string>& more_formats) {
   if (!output.is_wanted()) {
     if (output.format.empty()) return std::nullopt;
     return OutputProblem{"--format says what -o writes; give both", kUsage};
   }
-  if (const std::string problem = problem_of_name(output); !problem.empty()) return OutputProblem{problem, kUsage};
+  if (const std::string problem = problem_of_name(output, more_formats); !problem.empty())
+    return OutputProblem{problem, kUsage};
   if (has_folder(output.file)) return std::nullopt;
   return OutputProblem{output.file + ": its folder does not exist; create it first", kFailure};
 }
@@ -65,12 +81,17 @@ io::WriteOptions write_options_of(const MeshOutput& output) {
 
 Status write_output(const MeshOutput& output, const io::MeshData& mesh, const Terminal& terminal) {
   const io::WriteOptions options = write_options_of(output);
+  std::optional<ProgressBar> bar(std::in_place, terminal);
+  bar->show_stage("writing", 0);
   if (output.is_stdout()) {
     const Result<std::string> bytes = io::write_mesh_bytes(options.extension, mesh, options.msh);
+    bar.reset();
     if (!bytes.ok()) return bytes.error();
     return terminal.data(*bytes);
   }
-  if (Status status = io::write_mesh(output.file, mesh, options); !status.ok()) return status;
+  const Status status = io::write_mesh(output.file, mesh, options);
+  bar.reset();
+  if (!status.ok()) return status;
   terminal.wrote(names_text(io::mesh_files(output.file, options)),
                  counts_text(mesh.soup.tets.size(), mesh.soup.points.size()));
   return {};

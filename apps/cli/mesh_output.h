@@ -26,7 +26,14 @@ struct OutputProblem {
   std::string text;
   ExitCode code = kUsage;
 };
-[[nodiscard]] std::optional<OutputProblem> problem_of(const MeshOutput& output);
+[[nodiscard]] std::optional<OutputProblem> problem_of(const MeshOutput& output,
+                                                      const std::vector<std::string>& more_formats = {});
+
+/// Names of formats for --format: those of meshes, and `more`.
+[[nodiscard]] std::vector<std::string> format_names(const std::vector<std::string>& more = {});
+
+/// All files that a mesh of this name is in: of a .node the .ele as well. Empty for stdin, stdout and no name.
+[[nodiscard]] std::vector<std::string> files_of(const std::string& mesh);
 
 /// The options that the output's name and format stand for; `problem_of` found nothing.
 [[nodiscard]] incise::io::WriteOptions write_options_of(const MeshOutput& output);

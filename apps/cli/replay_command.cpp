@@ -39,8 +39,12 @@ int report_difference(const app::ReplayDifference& d, const std::string& recordi
 
 Result<app::ReplayResult> replay(const ReplayArguments& a, const Terminal& terminal) {
   ProgressBar bar(terminal, "kB");
+  bar.show_stage("reading", 0);
   app::ReplayJob job{input_of(a.recording), a.verify, a.output.is_wanted(), terminal.log_sink()};
-  job.progress = [&bar](std::size_t done, std::size_t total) { bar.show(done, total); };
+  job.progress = [&bar](std::size_t done, std::size_t total) {
+    if (total == 0) return bar.show_stage("replaying", 0);  // from stdin
+    bar.show(done, total);
+  };
   Result<app::ReplayResult> result = app::run_replay(job);
   if (!result.ok()) return explain_kind(result.error(), a.recording, FileKind::kRecording);
   return result;

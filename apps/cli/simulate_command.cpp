@@ -174,7 +174,10 @@ Status write_page(const SimulateArguments& a, const app::Scene& scene, const app
 int finish_run(const SimulateArguments& a, const app::SimulationReport& report, const Terminal& terminal) {
   print_notes(report.job.notes, report.job.input, terminal);
   if (report.job.cut.incision_faces <= 0) warn_of_misses(name_of_input(a.scene), report.job.missed, {}, terminal);
-  if (!a.output.empty() && report.job.change.ok) terminal.wrote(a.output, "series, with its folder");
+  if (!a.output.empty() && report.job.change.ok) {
+    const std::string folder = std::filesystem::path(a.output).stem().string() + "_frames";
+    terminal.wrote(a.output, "series, with the folder " + folder);
+  }
   if (!a.record.empty()) terminal.wrote(a.record, "recording");
   if (const Status status = write_report(a, report, terminal); !status.ok()) {
     return fail(terminal, status.error(), kFailure);
@@ -211,6 +214,7 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
                 kBadInput);
   }
   const app::Scene scene = overridden(std::move(read).value(), arguments);
+  if (arguments.budget_us > 0 && scene.options.engine.cut.profile == Profile::kPaper) terminal.note(kNoBudgetAsPaper);
   if (const std::string problem = fine_problem(arguments.fine, !scene.model.surface.empty()); !problem.empty()) {
     return fail(terminal, problem, kUsage);
   }
@@ -230,6 +234,7 @@ int run_simulate(const SimulateArguments& arguments, const Terminal& terminal) {
   }
   const WritingZone zone;  // an interrupt ends the run between two frames, and leaves no part of a series
   std::optional<ProgressBar> bar(std::in_place, terminal, "frames");
+  bar->show_stage("reading", 0);
   app::SimulateJob job = job_of(arguments, terminal, *bar);
   job.hand = hand.get();
   FineFilm film(scene, arguments);

@@ -128,13 +128,20 @@ double ProgressBar::seconds() const {
 
 void ProgressBar::show(std::size_t done, std::size_t total) {
   if (!drawing_.joinable() || total == 0) return;
-  tell([this, done = std::min(done, total), total](double seconds) {
-    return incise_apps::progress_text(done, total, unit_, seconds);
+  done = std::min(done, total);
+  if (done_ == done) return;
+  done_ = done;
+  if (!counted_since_) counted_since_ = seconds();
+  tell([this, done, total, begun = *counted_since_, changed = seconds()](double now) {
+    return incise_apps::progress_text({done, total, unit_, changed - begun, now - begun});
   });
 }
 
 void ProgressBar::show_stage(std::string_view name, unsigned percent) {
-  if (!drawing_.joinable() || std::exchange(percent_, percent) == percent) return;
+  if (!drawing_.joinable()) return;
+  std::pair<std::string, unsigned> stage(name, percent);
+  if (stage_ == stage) return;
+  stage_ = std::move(stage);
   tell([name = std::string(name), percent, begun = seconds()](double now) {
     return incise_apps::stage_text({name, percent, begun, now});
   });
@@ -163,6 +170,9 @@ void ProgressBar::draw_until(const std::stop_token& stop) {
 void catch_interrupts() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+#ifdef SIGHUP
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+#endif
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is answered like a full disk
 #endif

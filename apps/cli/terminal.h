@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "incise/core/log.h"
 #include "incise/core/result.h"
@@ -55,7 +56,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `done` of `total`.
+  /// `done` of `total`, timed from the first call. Nothing where `total` is 0.
   void show(std::size_t done, std::size_t total);
   /// Of work in stages: which one it is at, and what percent of the work's time has gone by before it, as a rule.
   void show_stage(std::string_view name, unsigned percent);
@@ -71,16 +72,17 @@ class ProgressBar {
 
   std::string unit_;
   Clock::time_point began_ = Clock::now();
-  std::optional<unsigned> percent_;
-  double stage_begun_ = 0;
-  std::mutex mutex_;  ///< of `text_`
+  std::optional<double> counted_since_;                    ///< the first `show`
+  std::optional<std::size_t> done_;                        ///< of the last `show`
+  std::optional<std::pair<std::string, unsigned>> stage_;  ///< of the last `show_stage`
+  std::mutex mutex_;                                       ///< of `text_`
   std::condition_variable_any is_told_;
   Text text_;             ///< what is drawn, after so many seconds; empty: nothing yet
   std::jthread drawing_;  ///< last: it ends first
 };
 
-/// From now on Ctrl-C and SIGTERM end the program with 130 or 143: at once while nothing is being written, else after
-/// the write.
+/// From now on Ctrl-C, SIGTERM and a terminal that closes end the program with 130, 143 or 129: at once while nothing
+/// is being written, else after the write.
 void catch_interrupts();
 
 /// Whether an interrupt waits for the end of a `WritingZone`: long work in one asks, and stops early.

@@ -35,11 +35,13 @@ std::string clock_text(double seconds) {
   return std::to_string(whole / 3600) + ":" + two_digits(whole / 60 % 60) + end;
 }
 
-std::string progress_text(std::size_t done, std::size_t total, std::string_view unit, double seconds) {
-  const double share = static_cast<double>(done) / static_cast<double>(total);
-  std::string text = bar_text(share) + std::to_string(done) + " of " + std::to_string(total) + " " + std::string(unit);
-  if (done > 0 && seconds >= 1) text += ", " + clock_text(seconds * (1 - share) / share) + " left";
-  return text;
+std::string progress_text(const CountProgress& progress) {
+  const double share = static_cast<double>(progress.done) / static_cast<double>(progress.total);
+  const std::string text = bar_text(share) + std::to_string(progress.done) + " of " + std::to_string(progress.total) +
+                           " " + std::string(progress.unit);
+  if (progress.now < 1) return text;
+  const double left = progress.done > 0 ? progress.changed / share - progress.now : 0;
+  return text + ", " + (left > 0 ? clock_text(left) + " left" : clock_text(progress.now));
 }
 
 std::string stage_text(const StageProgress& stage) {

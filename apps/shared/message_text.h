@@ -14,9 +14,17 @@ namespace incise_apps {
 /// "0:07", "12:34" or "1:02:03".
 [[nodiscard]] std::string clock_text(double seconds);
 
-/// "[######      ] 12 of 50 frames, 0:12 left" after `seconds` of work; `done` is at most `total`, which is not 0. The
-/// time that is left is told once it can be: after a second, and where something is done.
-[[nodiscard]] std::string progress_text(std::size_t done, std::size_t total, std::string_view unit, double seconds);
+/// Work that is counted as it goes on. Times in s.
+struct CountProgress {
+  std::size_t done = 0, total = 1;  ///< `done` is at most `total`, which is not 0
+  std::string_view unit;
+  double changed = 0;  ///< after this long `done` came to be what it is
+  double now = 0;      ///< so long the work takes by now, at least `changed`
+};
+
+/// "[######      ] 12 of 50 frames, 0:12 left". A time is told after a second: what is left, which runs down while
+/// nothing more is done; where nothing is done yet, or what is under way takes longer than it should, what has gone by.
+[[nodiscard]] std::string progress_text(const CountProgress& progress);
 
 /// A stage of work as it goes on. Times in s.
 struct StageProgress {

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "app/scene/blade_file.h"
 #include "app/scene/scene_simulation.h"
@@ -16,11 +17,13 @@
 #include "app/session/starting_body.h"
 #include "app/viewer/key_bindings.h"
 #include "exit_code.h"
+#include "film.h"
 #include "incise/io/numbers.h"
 #include "incise/mesh/bounds.h"
 #include "incise/version.h"
 #include "shared/command_words.h"
 #include "shared/manual.h"
+#include "shared/message_text.h"
 
 namespace incise_view {
 namespace {
@@ -213,6 +216,22 @@ std::string scan_problem(const Arguments& a) {
   return {};
 }
 
+/// Of files that are written: what their names tell.
+std::string output_problem(const Arguments& a) {
+  const std::array<std::pair<const char*, const std::string&>, 5> outputs = {{{"--screenshot", a.screenshot},
+                                                                              {"--sequence", a.sequence},
+                                                                              {"--film", a.film},
+                                                                              {"--record", a.record},
+                                                                              {"--mesh", a.mesh}}};
+  for (const auto& [option, name] : outputs) {
+    if (name == "-") return std::string(option) + " does not go to stdout; name a file";
+  }
+  if (!a.screenshot.empty() && std::filesystem::path(a.screenshot).extension() != ".png") {
+    return "--screenshot " + a.screenshot + ": unknown extension; pictures are .png";
+  }
+  return {};
+}
+
 std::string usage_problem(const Arguments& a) {
   const bool has_pictures = !a.screenshot.empty() || !a.sequence.empty() || !a.film.empty();
   if (a.is_headless && !has_pictures) {
@@ -221,6 +240,7 @@ std::string usage_problem(const Arguments& a) {
   if (!a.is_headless && has_pictures) {
     return "--screenshot, --sequence and --film need --headless; in the window, S saves a picture";
   }
+  if (const std::string problem = output_problem(a); !problem.empty()) return problem;
   if (!a.is_headless && asks_for_figure(a)) {
     return "--spread, --trajectory, --incision and --cut-vertices need --headless";
   }
@@ -294,13 +314,17 @@ app::OrganJob job_of(const Arguments& a) {
 }
 
 Result<app::Session> open_scan(const Arguments& arguments, const app::SessionOptions& options) {
-  if (!arguments.is_quiet) std::fprintf(stderr, "meshing %s\n", arguments.file.c_str());
-  const Result<app::ScanScene> made = app::make_scan_scene(job_of(arguments), arguments.mesh, options.up);
+  const auto say = [&](const std::string& text) {
+    if (!arguments.is_quiet) std::fprintf(stderr, "incise-view: %s\n", incise_apps::one_line(text).c_str());
+  };
+  say("meshing " + arguments.file);
+  std::optional<TemporaryFolder> for_now;  // of a picture nothing is left that would name the mesh
+  std::filesystem::path mesh = arguments.mesh;
+  if (arguments.is_headless && mesh.empty() && options.record.empty()) mesh = for_now.emplace().path() / "scan.msh";
+  const Result<app::ScanScene> made = app::make_scan_scene(job_of(arguments), mesh, options.up);
   if (!made.ok()) return made.error();
-  for (const std::string& note : made->notes) {
-    if (!arguments.is_quiet) std::fprintf(stderr, "note: %s\n", note.c_str());
-  }
-  if (!arguments.is_quiet) std::fprintf(stderr, "wrote %s (mesh)\n", made->mesh.string().c_str());
+  for (const std::string& note : made->notes) say("note: " + note);
+  if (!for_now) say("wrote " + made->mesh.string() + " (mesh)");
   return app::Session::open(made->scene, options);
 }
 

@@ -150,7 +150,7 @@ class Progress {
     if (!is_on_ || last == 0 || now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     const double seconds = std::chrono::duration<double>(now - began_).count();
-    say(app::formatted("\r\033[K{}", incise_apps::progress_text(frame, last, "frames", seconds)));
+    say(app::formatted("\r\033[K{}", incise_apps::progress_text({frame, last, "frames", seconds, seconds})));
   }
 
  private:

@@ -174,26 +174,28 @@ static_assert(INCISE_TOOL_BALL == 0 && INCISE_TOOL_ROD == 1 && INCISE_TOOL_PLANE
               "the kinds of tools are those of Tool, in order; one without a name in the header goes by its place");
 
 /// Points are `a` and `b`, in the order of the tool's fields; its number is `offset` where it is called so, else
-/// `radius`.
+/// `radius`. A kind with more than these is no tool of C.
 class ToolFields {
  public:
   explicit ToolFields(const incise_tool& given) : given_(given) {}
 
-  void operator()(const char* /*name*/, Vec3& point) {
-    point = to_vec(std::exchange(is_second_, true) ? given_.b : given_.a);
-  }
+  void operator()(const char* /*name*/, Vec3& point) { point = to_vec(points_++ == 0 ? given_.a : given_.b); }
   void operator()(const char* name, double& number) {
-    number = std::string_view(name) == "offset" ? given_.offset : given_.radius;
+    const bool is_offset = std::string_view(name) == "offset";
+    numbers_ += is_offset ? 0 : 1;
+    number = is_offset ? given_.offset : given_.radius;
   }
   void operator()(const char* /*name*/, std::vector<Vec3>& edge) {
     has_edge_ = given_.edge != nullptr;
     if (has_edge_) edge = pose_of(given_.edge, given_.n_edge, nullptr).edge;
   }
   [[nodiscard]] bool has_edge() const { return has_edge_; }
+  [[nodiscard]] bool has_room() const { return points_ <= 2 && numbers_ <= 1; }
 
  private:
   const incise_tool& given_;
-  bool is_second_ = false, has_edge_ = true;
+  unsigned points_ = 0, numbers_ = 0;
+  bool has_edge_ = true;
 };
 
 Result<Tool> tool_of(const incise_tool& c) {
@@ -206,6 +208,12 @@ Result<Tool> tool_of(const incise_tool& c) {
     made = std::move(shape);
   });
   if (!fields.has_edge()) return Error{ErrorCode::kBadArgument, "the edge of a flat is null", {}};
+  if (!fields.has_room()) {
+    return Error{
+        ErrorCode::kUnsupported,
+        "incise_tool has no room for all that a tool of kind " + std::to_string(c.kind) + " is told by; use C++",
+        {}};
+  }
   if (made) return *std::move(made);
   return Error{
       ErrorCode::kBadArgument,

@@ -29,6 +29,11 @@ Error io_error(ErrorCode code, const fs::path& path, const std::string& what) {
   return {code, path.string() + ": " + what};
 }
 
+Error too_large(const fs::path& path, const ReadLimits& limits) {
+  return io_error(ErrorCode::kOutOfMemory, path,
+                  "is larger than " + size_text(limits.max_inflated_bytes) + "; cut it into parts");
+}
+
 // A new file beside `path`, of a name that nobody has.
 File open_beside(const fs::path& path, fs::path& temporary) {
   remove_stale_parts(path);
@@ -85,22 +90,20 @@ Result<std::string> load_file_if(const fs::path& path, const ReadLimits& limits,
   const File file(std::fopen(path.string().c_str(), "rb"));
   if (!file && errno == ENOENT) return io_error(ErrorCode::kBadFile, path, "no such file; check the path");
   if (!file) {
-    return io_error(ErrorCode::kBadFile, path,
-                    std::string("cannot be opened (") + std::strerror(errno) + "); check the name");
+    const char* remedy = errno == EACCES ? "); make it readable for you" : "); check the name";
+    return io_error(ErrorCode::kBadFile, path, std::string("cannot be opened (") + std::strerror(errno) + remedy);
   }
   const bool is_endless = !fs::is_regular_file(path, code);  // or may be
   const auto size = fs::file_size(path, code);
   std::string bytes;
+  if (!code && !is_endless && size > limits.max_inflated_bytes) return too_large(path, limits);
   if (!code && size <= limits.max_inflated_bytes) bytes.reserve(static_cast<std::size_t>(size) + 1);
   std::vector<char> chunk(std::size_t{1} << 18U);
   for (std::size_t got = 0; (got = std::fread(chunk.data(), 1, chunk.size(), file.get())) > 0;) {
     if (check && is_endless && bytes.empty() && got == chunk.size()) {
       if (std::optional<Error> error = check({chunk.data(), got})) return *std::move(error);
     }
-    if (bytes.size() + got > limits.max_inflated_bytes) {
-      return io_error(ErrorCode::kOutOfMemory, path,
-                      "is larger than " + std::to_string(limits.max_inflated_bytes) + " bytes; cut it into parts");
-    }
+    if (bytes.size() + got > limits.max_inflated_bytes) return too_large(path, limits);
     bytes.append(chunk.data(), got);
   }
   if (std::ferror(file.get()) != 0) return io_error(ErrorCode::kBadFile, path, "reading failed; check the disk");
@@ -123,8 +126,9 @@ Result<std::string> load_either(const fs::path& path, const ReadLimits& limits) 
 Status check_place(const fs::path& path) {
   if (path.empty()) return Error{ErrorCode::kBadArgument, "the name of the file is empty; give one"};
   std::error_code code;
-  if (!fs::is_directory(path, code)) return {};
-  return io_error(ErrorCode::kIo, path, "is a folder; give the name of a file in it");
+  if (fs::is_directory(path, code)) return io_error(ErrorCode::kIo, path, "is a folder; give the name of a file in it");
+  if (!is_protected(path)) return {};
+  return io_error(ErrorCode::kIo, path, "is write-protected; allow writing to it, or name another file");
 }
 
 Status store_files(const std::vector<std::pair<fs::path, std::string_view>>& files) {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <limits>
+
+#include "io/text.h"
 #endif
 
 namespace incise {
@@ -117,15 +119,11 @@ std::uint64_t stated_size(std::string_view bytes) {
   return size;
 }
 
-std::string mebibytes(std::uint64_t bytes) {
-  return bytes < (1U << 20U) ? std::to_string(bytes) + " bytes" : std::to_string(bytes >> 20U) + " MiB";
-}
-
 std::string too_large(std::uint64_t most, std::uint64_t max_bytes) {
   const std::string ratio = most < max_bytes ? ", where text grows to " + std::to_string(kMostGrowth) +
-                                                   " times its gzipped size at most, or to " + mebibytes(kSmall)
+                                                   " times its gzipped size at most, or to " + size_text(kSmall)
                                              : ", the most that is read";
-  return "gunzips to more than " + mebibytes(most) + ratio + "; if it is no damage, gunzip it yourself";
+  return "gunzips to more than " + size_text(most) + ratio + "; if it is no damage, gunzip it yourself";
 }
 
 }  // namespace

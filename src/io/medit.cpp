@@ -60,6 +60,7 @@ class MeditReader {
   bool dimension() {
     std::int64_t n = 0;
     if (!in_.integer(n, "dimension")) return false;
+    if (n == 2) return in_.fail("the mesh is flat, of dimension 2; Incise cuts volumes");
     return n == 3 || in_.fail("dimension must be 3");
   }
 

@@ -66,10 +66,21 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
+// The name of a file as its parts begin: whole, or so much of it that the rest has room in 255 bytes.
+std::string part_beginning(const fs::path& path) {
+  constexpr std::size_t kMost = 220;
+  std::string name = path.filename().string();
+  if (name.size() <= kMost) return name;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;  // within a character of UTF-8
+  return name.substr(0, end);
+}
+
 }  // namespace
 
 fs::path part_file(const fs::path& path, unsigned number) {
   fs::path part = behind_links(path);
+  part.replace_filename(part_beginning(part));
   part += "." + std::to_string(process_number()) + "." + std::to_string(number);
   part += kPart;
   return part;
@@ -84,13 +95,22 @@ std::error_code put_in_place(const fs::path& part, const fs::path& place) {
   return code;
 }
 
+bool is_protected([[maybe_unused]] const fs::path& place) {
+#if INCISE_HAS_PROCESSES
+  std::error_code code;
+  return fs::is_regular_file(place, code) && access(place.c_str(), W_OK) != 0 && errno == EACCES;
+#else
+  return false;
+#endif
+}
+
 void remove_stale_parts(const fs::path& place) {
   const fs::path path = behind_links(place);
   constexpr unsigned kNamesToLookAt = 1000;
   std::error_code code;
   unsigned looked_at = 0;
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-  const std::string beside = path.filename().string() + ".";
+  const std::string beside = part_beginning(path) + ".";
   std::vector<fs::path> stale;
   for (fs::directory_iterator at(folder, code), end; !code && at != end && looked_at < kNamesToLookAt;
        at.increment(code), ++looked_at) {

@@ -134,6 +134,11 @@ char lower(char c) {
 }
 }  // namespace
 
+std::string size_text(std::uint64_t bytes) {
+  if (bytes < (1U << 20U)) return std::to_string(bytes) + " bytes";
+  return bytes < (1U << 30U) ? std::to_string(bytes >> 20U) + " MiB" : std::to_string(bytes >> 30U) + " GiB";
+}
+
 bool same_word(std::string_view a, std::string_view b) {
   return a.size() == b.size() &&
          std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return lower(x) == lower(y); });

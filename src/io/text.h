@@ -18,6 +18,9 @@ void append_double(std::string& out, double value);
 
 void append_int(std::string& out, std::int64_t value);
 
+/// "100 bytes", "64 MiB" or "4 GiB": whole ones, rounded down.
+[[nodiscard]] std::string size_text(std::uint64_t bytes);
+
 /// Equal but for ASCII case.
 [[nodiscard]] bool same_word(std::string_view a, std::string_view b);
 

@@ -198,6 +198,8 @@ TEST_F(CliErrors, outputs_that_would_take_the_place_of_other_files) {
       {"cut", cube_, "--plane", "1,0,0,0.5", "-o", out, "--report", out},
       {"cut", cube_, "--plane", "1,0,0,0.5", "--report", page, "--record", page},
       {"improve", cube_, "--report", cube_},
+      {"improve", cube_, "-o", folder_ / "a.node", "--report", folder_ / "a.ele"},
+      {"cut", folder_ / "b.node", "--plane", "1,0,0,0.5", "--report", folder_ / "b.ele"},
   };
   const auto before = folder_.names();
   for (const auto& command : commands) {
@@ -208,6 +210,23 @@ TEST_F(CliErrors, outputs_that_would_take_the_place_of_other_files) {
   EXPECT_EQ(folder_.names(), before);
   EXPECT_EQ(read(cube_), cube_mesh(2));
   EXPECT_EQ(read(blade), "{}");
+}
+
+TEST_F(CliErrors, a_name_that_is_no_text_is_still_told_as_json) {
+  const std::string mesh = folder_.write("x\xff.mesh", cube_mesh(1));
+  for (const char* command : {"info", "check"}) {
+    const Outcome outcome = run({command, "--json", mesh});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(nlohmann::json::parse(outcome.out).dump().find("x\xef\xbf\xbd.mesh"), std::string::npos) << outcome.out;
+  }
+}
+
+TEST_F(CliErrors, a_flat_mesh_is_not_called_damaged) {
+  const std::string mesh = folder_.write("flat.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n0\nEnd\n");
+  const Outcome outcome = run({"info", mesh});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("the mesh is flat, of dimension 2; Incise cuts volumes"), std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(CliErrors, outputs_without_a_name) {

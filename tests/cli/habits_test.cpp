@@ -292,6 +292,7 @@ TEST_F(CliHabits, stdout_takes_one_thing_in_a_format_that_is_named) {
   expect_usage({"cut", "-", "--blade", "-"}, "cannot both come from stdin");
   expect_usage({"cut", "-", "--plane", "1,0,0,0.4", "--record", folder_ / "r.jsonl"}, "as a file");
   expect_usage({"convert", cube_, "-"}, "needs --format");
+  expect_usage({"convert", cube_, "-"}, "msh, obj, stl, ply, off");
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"cube.mesh"});
 }
 

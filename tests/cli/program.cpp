@@ -118,6 +118,10 @@ Outcome run_to(const std::string& out, const std::vector<std::string>& arguments
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), "", read(folder / "stderr")};
 }
 
+Outcome run_hung_up(const std::vector<std::string>& arguments, double seconds) {
+  return run_until(arguments, SIGHUP, seconds);
+}
+
 Outcome run_interrupted(const std::vector<std::string>& arguments, double seconds) {
   return run_until(arguments, SIGINT, seconds);
 }

@@ -24,6 +24,8 @@ Outcome run_on_endless(const std::string& text, const std::vector<std::string>& 
 Outcome run_to(const std::string& out, const std::vector<std::string>& arguments);
 /// The same, and sends SIGINT after `seconds`.
 Outcome run_interrupted(const std::vector<std::string>& arguments, double seconds);
+/// The same with SIGHUP, as where its terminal is closed.
+Outcome run_hung_up(const std::vector<std::string>& arguments, double seconds);
 /// The same with no file growing beyond `bytes`.
 Outcome run_limited(const std::vector<std::string>& arguments, unsigned long bytes);
 /// The same with SIGKILL, which no program can hear.

@@ -165,6 +165,23 @@ TEST_F(CliSimulate, interrupted_leaves_no_part_of_a_series) {
     EXPECT_EQ(outcome.code, 130) << outcome.err;
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"scene.json"}) << seconds;
   }
+  EXPECT_EQ(run_hung_up({"simulate", scene_, "-o", folder_ / "out.pvd"}, 0.6).code, 128 + 1);
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"scene.json"});
+}
+
+TEST_F(CliSimulate, says_where_its_series_is_and_what_has_no_effect) {
+  const Outcome outcome =
+      run({"simulate", scene_, "--frames", "1", "--profile", "paper", "--budget-us", "9", "-o", folder_ / "out.pvd"});
+  EXPECT_NE(outcome.err.find("--budget-us has no effect with --profile paper"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("(series, with the folder out_frames)"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run({"simulate", scene_, "--frames", "1", "--budget-us", "9"}).err.find("no effect"), std::string::npos);
+}
+
+TEST_F(CliSimulate, a_gzipped_scene_is_called_so) {
+  folder_.write("scene.json.gz", "\x1f\x8b\x08 and so on");
+  const Outcome outcome = run({"simulate", folder_ / "scene.json.gz"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("the file is gzipped; gunzip it first"), std::string::npos) << outcome.err;
 }
 
 TEST_F(CliSimulate, killed_at_any_moment_leaves_a_recording_that_replays) {

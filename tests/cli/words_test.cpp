@@ -32,16 +32,18 @@ TEST(MessageText, is_one_line_of_at_most_480_bytes_with_both_ends) {
 }
 
 TEST(MessageText, tells_how_far_work_is_and_how_long_it_takes_yet) {
-  EXPECT_EQ(incise_apps::progress_text(0, 50, "frames", 9), "[" + std::string(30, ' ') + "] 0 of 50 frames");
-  EXPECT_EQ(incise_apps::progress_text(25, 50, "frames", 0.5),
+  EXPECT_EQ(incise_apps::progress_text({0, 50, "frames", 0, 9}), "[" + std::string(30, ' ') + "] 0 of 50 frames, 0:09");
+  EXPECT_EQ(incise_apps::progress_text({25, 50, "frames", 0.5, 0.5}),
             "[" + std::string(15, '#') + std::string(15, ' ') + "] 25 of 50 frames");
-  const auto left = [](double seconds) {
-    const std::string text = incise_apps::progress_text(1, 4, "x", seconds);
+  const auto left = [](double changed, double now) {
+    const std::string text = incise_apps::progress_text({1, 4, "x", changed, now});
     return text.substr(text.find(", "));
   };
-  EXPECT_EQ(left(2), ", 0:06 left");
-  EXPECT_EQ(left(60), ", 3:00 left");
-  EXPECT_EQ(left(1300), ", 1:05:00 left");
+  EXPECT_EQ(left(2, 2), ", 0:06 left");
+  EXPECT_EQ(left(60, 60), ", 3:00 left");
+  EXPECT_EQ(left(60, 100), ", 2:20 left") << "it runs down while nothing more is done";
+  EXPECT_EQ(left(60, 300), ", 5:00") << "it takes longer than it should";
+  EXPECT_EQ(left(1300, 1300), ", 1:05:00 left");
 }
 
 TEST(MessageText, tells_which_stage_work_is_at_and_how_long_it_takes_yet) {

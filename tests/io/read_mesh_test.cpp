@@ -362,6 +362,16 @@ TEST(ReadMesh, damaged_or_endless_gzip_is_refused) {
   EXPECT_NE(refused.error().message.find("100 bytes"), std::string::npos);
 }
 
+TEST(ReadMesh, a_file_larger_than_what_is_read_is_refused_by_its_size) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "incise_sparse.mesh";
+  std::ofstream(path) << "MeshVersionFormatted 2\nDimension 3\n";
+  std::filesystem::resize_file(path, std::uintmax_t{60} << 30U);  // of which next to nothing is on the disk
+  const auto refused = io::read_mesh(path);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("is larger than 4 GiB"), std::string::npos) << refused.error().message;
+  std::filesystem::remove(path);
+}
+
 TEST(ReadMesh, gzip_that_grows_like_a_bomb_is_refused_with_the_limit) {
   const std::size_t large = std::size_t{80} << 20U;
   std::string bytes = "MeshVersionFormatted 2\nDimension 3\n";

@@ -271,6 +271,37 @@ TEST(WriteMesh, takes_away_what_killed_processes_left_of_the_same_file) {
   fs::remove_all(folder);
 }
 
+TEST(WriteMesh, has_room_for_the_longest_name_and_takes_its_parts_away_too) {
+  const fs::path folder = fresh_folder("incise_long_name");
+  std::string name(249, 'a');
+  name.replace(219, 2, "\u00e4");  // no half of a character in the name of a part
+  const std::string process = std::to_string(ended_process());
+  std::ofstream(folder / (name.substr(0, 219) + "." + process + ".0.incise-part")) << "half a mesh";
+  ASSERT_TRUE(io::write_mesh(folder / (name + ".mesh"), test::two_tets()).ok());
+  EXPECT_EQ(names_in(folder), std::vector<std::string>{name + ".mesh"});
+  fs::remove_all(folder);
+}
+
+TEST(WriteMeshErrors, a_file_that_is_write_protected_stays) {
+  const fs::path folder = fresh_folder("incise_protected");
+  const fs::path file = folder / "kept.mesh";
+  std::ofstream(file) << "kept";
+  fs::permissions(folder, fs::perms::all);
+  fs::permissions(file, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) _exit(2);  // nothing is protected from root
+    const Status status = io::write_mesh(file, test::two_tets());
+    _exit(!status.ok() && status.error().message.find("is write-protected") != std::string::npos ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(names_in(folder), std::vector<std::string>{"kept.mesh"});
+  EXPECT_EQ(fs::file_size(file), 4U);
+  fs::remove_all(folder);
+}
+
 TEST(WriteMesh, writes_into_a_pipe_and_leaves_it_there) {
   const fs::path folder = fresh_folder("incise_pipe");
   const fs::path pipe = folder / "pipe.mesh";

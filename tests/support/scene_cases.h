@@ -4,6 +4,9 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
+
+#include "incise/sim/contact.h"
 
 namespace incise_test {
 
@@ -23,6 +26,38 @@ inline Json blade_stroke(double begin, double end) {
           {"edges",
            {{{"t", begin}, {"points", {{0.43, -0.2, -0.2}, {0.43, -0.2, 1.2}}}},
             {{"t", end}, {"points", {{0.46, 1.2, -0.2}, {0.46, 1.2, 1.2}}}}}}};
+}
+
+/// The names of the fields of a tool that moves.
+struct ToolFieldNames {
+  std::vector<std::string> points, numbers;
+
+  void operator()(const char* name, const incise::Vec3& /*point*/) { points.emplace_back(name); }
+  void operator()(const char* name, double /*number*/) { numbers.emplace_back(name); }
+  void operator()(const char* /*name*/, const std::vector<incise::Vec3>& /*points*/) {}  // a scene has no word for it
+};
+
+/// A tool of each kind that moves, first at a place, then along a path.
+inline Json moving_tools() {
+  Json tools = Json::array();
+  incise::for_each_tool_kind([&](const auto& shape) {
+    if (!shape.kMoves) return;
+    ToolFieldNames fields;
+    shape.for_each_field(shape, fields);
+    const auto put = [&](Json& at, double height) {
+      for (std::size_t i = 0; i < fields.points.size(); ++i) at[fields.points[i]] = {static_cast<double>(i), 0, height};
+    };
+    Json numbers, begin = {{"t", 0.1}}, end = {{"t", 0.3}};
+    for (const std::string& name : fields.numbers) numbers[name] = 0.1;
+    Json still = numbers, moving = numbers;
+    put(still, 1.2);
+    put(begin, 2);
+    put(end, 1);
+    moving["path"] = {begin, end};
+    tools.push_back({{shape.kName, still}});
+    tools.push_back({{shape.kName, moving}});
+  });
+  return tools;
 }
 
 /// A scene with every key that there is but `frames`, `model.file`, `model.bodies` and `stretch`, small and quick.
@@ -59,17 +94,9 @@ inline Json full_scene() {
       {{"below", {1, 0, 0, 0.01}}, {"surface", true}},
       {{"box", {{"low", {0.9, -1, -1}}, {"high", {2, 2, 2}}}}, {"stiffness", 500}, {"strength", 1000}, {"tears", true}},
       {{"ball", {{"centre", {0, 0, 0}}, {"radius", 0.1}}}}};
-  scene["tools"] = {
-      {{"name", "table"}, {"plane", {0, 0, 2, -1}}},
-      {{"ball", {{"radius", 0.2}, {"centre", {0.5, 0.5, 1.3}}}}},
-      {{"ball",
-        {{"radius", 0.2}, {"path", {{{"t", 0.1}, {"centre", {0, 0, 2}}}, {{"t", 0.2}, {"centre", {0, 0, 1}}}}}}}},
-      {{"rod", {{"radius", 0.1}, {"from", {0, 0, 1.2}}, {"to", {1, 0, 1.2}}}}},
-      {{"rod",
-        {{"radius", 0.1},
-         {"path",
-          {{{"t", 0.1}, {"from", {0, 0, 2}}, {"to", {1, 0, 2}}},
-           {{"t", 0.3}, {"from", {0, 0, 1}}, {"to", {1, 0, 1}}}}}}}}};
+  scene["tools"] = moving_tools();
+  const Json table = {{"name", "table"}, {"plane", {0, 0, 2, -1}}};
+  scene["tools"].insert(scene["tools"].begin(), table);
   scene["spare"] = {{{"tool", "scissors"}, {"stop_at", {3}}}, {{"stop_at", {3, 0}}}};
   scene["hooks"] = {{{"name", "hook"},
                      {"radius", 0.3},

@@ -197,7 +197,10 @@ picked headless.png
   printf 'ElementType = MET_UCHAR\nElementDataFile = LOCAL\n'
   head -c 1728 /dev/zero | tr '\0' '\1'
 } >scan.mha
-"$bin/incise-view" --headless scan.mha --size 4 --screenshot scan.png 2>out.txt || fail "a scan: $(cat out.txt)"
+mkdir temporary
+TMPDIR=$PWD/temporary "$bin/incise-view" --headless scan.mha --size 4 --screenshot scan.png 2>out.txt || fail "a scan: $(cat out.txt)"
+[ -z "$(ls temporary)" ] || fail "a picture of a scan left $(ls temporary)"
+! grep -qv '^incise-view: ' out.txt || fail "a picture of a scan: $(cat out.txt)"
 grep -q 'wrote scan.png (picture, 1280 x 720 pixels)' out.txt || fail "a picture of a scan: $(cat out.txt)"
 "$bin/incise-view" --headless -q scan.mha --size 4 --size 320x200 --screenshot small.png 2>out.txt || fail "two sizes"
 open_window scan.mha --size 4
@@ -221,4 +224,9 @@ status=0
 "$bin/incise-view" --heedless 2>out.txt || status=$?
 [ "$status" = 2 ] && grep -q '^incise-view: error: .*(did you mean --headless?); see incise-view --help$' out.txt ||
   fail "an unknown option: exit $status, $(cat out.txt)"
+for name in - picture.txt; do
+  status=0
+  "$bin/incise-view" --headless --screenshot "$name" 2>out.txt || status=$?
+  [ "$status" = 2 ] && [ ! -e "./$name" ] || fail "--screenshot $name: exit $status, $(cat out.txt)"
+done
 echo "window_smoke: all steps passed"

@@ -13,7 +13,7 @@ namespace incise {
 inline namespace v0 {
 namespace io {
 
-/// What regions are called, for people and for scenes; not every region has a name, nor every name a region.
+/// Names of regions, for people and for scenes. A region may have none, and there may be none of a name.
 using RegionNames = std::map<std::int32_t, std::string>;
 
 /// What a mesh file can carry: tets, faces, and labels. Optional arrays are empty where absent.

@@ -10,7 +10,7 @@ inline namespace v0 {
 namespace io {
 
 /// Where a file is written until it is whole: NAME.PROCESS.NUMBER.incise-part, beside its place; beside what links lead
-/// to.
+/// to. Of a long name the beginning: file systems take 255 bytes.
 ///
 /// @param path    its place.
 /// @param number  tells apart what one process writes at the same time; any.
@@ -23,6 +23,11 @@ namespace io {
 /// @param place  the path that `part_file` was given.
 /// Errors: those of renaming. Cost: O(1). Thread-safe.
 [[nodiscard]] std::error_code put_in_place(const std::filesystem::path& part, const std::filesystem::path& place);
+
+/// Whether a file stands at a place that may not be written to: putting another one there would not ask.
+///
+/// Errors: none; of pipes, devices and what is not there: no. Cost: O(1). Thread-safe.
+[[nodiscard]] bool is_protected(const std::filesystem::path& place);
 
 /// Take away what killed processes left of earlier attempts to write a file.
 ///

@@ -26,8 +26,8 @@ class DeviceGuard {
  public:
   explicit DeviceGuard(const DeviceGuardOptions& options = {}) : options_(options) {}
 
-  /// The device was heard to be at `position`, m, with `velocity`, m/s, which dampers go by. False, and as `lost`,
-  /// where no hand can have come there, or be as fast.
+  /// Takes in where the device says that it is: `position`, m, and `velocity`, m/s, by which dampers push. Returns
+  /// false, and does as `lose`, where no hand can have come there or be so fast.
   bool hear(double time, const Vec3& position, const Vec3& velocity = Vec3::Zero());
   /// It made no sense, or went away.
   void lose(double time);

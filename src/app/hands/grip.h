@@ -14,7 +14,7 @@ namespace incise {
 inline namespace v0 {
 namespace app {
 
-/// How a hook goes with the pointer. Where a surface is seen too flat to be gone along, it goes across the view.
+/// How a hook follows the pointer. Where the surface is seen at too flat an angle, the hook moves across the view.
 enum class GraspWay : std::uint8_t {
   kAcross,        ///< in the plane across the view through what it grasped
   kAlongSurface,  ///< along the surface there: a hand that pulls a lip aside does not pull it into the body

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // All frames are written into a folder beside the place, which is exchanged by renaming it: no moment has half a
-// series.
+// series. That folder is locked (flock) while its series is written: one that nobody holds was left by a killed run.
 #include "app/jobs/frame_series.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -63,24 +69,51 @@ FrameSeries::FrameSeries(FrameSeries&& other) noexcept
       folder_(std::move(other.folder_)),
       beside_(std::move(other.beside_)),
       times_(std::move(other.times_)),
-      is_open_(std::exchange(other.is_open_, false)) {}
+      lock_(std::exchange(other.lock_, -1)) {}
 
 FrameSeries::~FrameSeries() {
+  if (lock_ < 0) return;
   std::error_code ignored;
-  if (is_open_) fs::remove_all(beside_, ignored);
+  fs::remove_all(beside_, ignored);
+  ::close(lock_);
 }
 
 Result<FrameSeries> FrameSeries::begin(const fs::path& path) {
   FrameSeries series(path);
   for (const fs::path& folder : {series.folder_, series.beside_}) {
     if (is_free(folder)) continue;
-    series.is_open_ = false;
     return series_error(folder, "is in the way of the series: it holds other files; move it, or name another output");
   }
-  std::error_code code;
-  fs::remove_all(series.beside_, code);
-  if (fs::create_directory(series.beside_, code)) return series;
-  return series_error(series.beside_, "cannot be made: " + code.message());
+  if (const Status status = series.take_beside(); !status.ok()) return status.error();
+  return series;
+}
+
+/// Makes the folder beside the place, or takes over what a killed run left of one.
+Status FrameSeries::take_beside() {
+  constexpr int kTries = 100;  // it may be renamed or removed between two steps
+  for (int i = 0; i < kTries; ++i) {
+    std::error_code code;
+    fs::create_directory(beside_, code);
+    if (code) return series_error(beside_, "cannot be made: " + code.message());
+    const int folder = ::open(beside_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0 && errno == ENOENT) continue;
+    if (folder < 0)
+      return series_error(beside_, "cannot be opened: " + std::error_code(errno, std::generic_category()).message());
+    if (::flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {  // file systems without locks do without
+      ::close(folder);
+      return series_error(path_, "another run is writing this series; wait for it, or name another output");
+    }
+    struct stat opened = {}, named = {};
+    if (::fstat(folder, &opened) != 0 || ::stat(beside_.c_str(), &named) != 0 || opened.st_ino != named.st_ino) {
+      ::close(folder);
+      continue;
+    }
+    lock_ = folder;
+    const fs::directory_iterator left(beside_, code);
+    for (const fs::directory_entry& file : left) fs::remove(file.path(), code);
+    return {};
+  }
+  return series_error(path_, "another run is writing this series; wait for it, or name another output");
 }
 
 Status FrameSeries::add(double time, const io::MeshData& mesh) {
@@ -110,7 +143,7 @@ Status FrameSeries::finish() {
   if (!code) fs::rename(beside_, folder_, code);
   Status status =
       code ? series_error(folder_, "cannot be written: " + code.message()) : write_text_file(path_, collection());
-  is_open_ = false;
+  ::close(std::exchange(lock_, -1));
   std::error_code ignored;
   if (status.ok()) {
     fs::remove_all(old, ignored);

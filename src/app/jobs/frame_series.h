@@ -17,10 +17,10 @@ namespace app {
 ///
 /// All is written beside its place and moved there by `finish`: until then what had these names stays as it was, and
 /// without it nothing is left. A series that is there already is replaced; a folder of that name that holds anything
-/// else is not touched. Not thread-safe.
+/// else is not touched. Of two that are written at once under one name the second is refused. Not thread-safe.
 class FrameSeries {
  public:
-  /// @param path  NAME.pvd. Errors: kIo, naming the folder that cannot be made, or is in the way.
+  /// @param path  NAME.pvd. Errors: kIo, naming the folder that cannot be made, is in the way, or is being written.
   static Result<FrameSeries> begin(const std::filesystem::path& path);
   FrameSeries(FrameSeries&& other) noexcept;
   FrameSeries& operator=(FrameSeries&&) = delete;
@@ -36,11 +36,12 @@ class FrameSeries {
  private:
   explicit FrameSeries(std::filesystem::path path);
 
+  [[nodiscard]] Status take_beside();
   [[nodiscard]] std::string collection() const;
 
   std::filesystem::path path_, folder_, beside_;
   std::vector<double> times_;
-  bool is_open_ = true;
+  int lock_ = -1;  // `beside_`, locked; below 0: not ours
 };
 
 }  // namespace app

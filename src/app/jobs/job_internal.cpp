@@ -145,7 +145,7 @@ bool keeps_contract(const TetMesh& mesh, double volume_tolerance, const JobRepor
 std::size_t kilobytes_of(const std::filesystem::path& file) {
   std::error_code code;
   const auto bytes = std::filesystem::file_size(file, code);
-  return code ? 0 : static_cast<std::size_t>(bytes >> 10U);
+  return code ? 0 : static_cast<std::size_t>((bytes + 1023) >> 10U);
 }
 
 Result<std::uint32_t> take_back_until(RecordedEngine& engine, const std::function<bool(const TetMesh&)>& is_valid) {

@@ -120,6 +120,7 @@ Result<Engine> make_engine(TetMesh mesh, const RecordingHeader& header, const Re
 /// Makes all calls up to the first difference.
 Status replay_all(Engine& engine, RecordingReader& reader, const ReplayJob& job, ReplayResult& result) {
   const std::size_t kilobytes = detail::kilobytes_of(job.recording);
+  if (job.progress) job.progress(0, kilobytes);
   std::optional<RecordedCall> last;
   while (!result.difference) {
     Result<std::optional<RecordedCall>> call = reader.next();

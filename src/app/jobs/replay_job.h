@@ -23,7 +23,8 @@ struct ReplayJob {
   bool wants_mesh = false;
   LogSink log = {};      ///< hears what the engine has to say
   unsigned threads = 1;  ///< as in `EngineOptions`
-  /// Called after each call: kilobytes of the recording that are replayed, and that it has. May be empty.
+  /// Called before the first call and after each: kilobytes of the recording that are replayed, and that it has, 0
+  /// where that cannot be told. May be empty.
   std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 

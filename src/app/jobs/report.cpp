@@ -54,6 +54,7 @@ Json json_of(const CutStatistics& cut) {
           {"crumbs_kept", cut.crumbs_kept},
           {"pinched_edges", cut.pinched_edges},
           {"latent_faces", cut.latent_faces},
+          {"blocked_edges", cut.blocked_edges},
           {"sheets", cut.sheets}};
 }
 

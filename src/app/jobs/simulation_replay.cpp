@@ -73,6 +73,7 @@ Result<std::optional<ReplayDifference>> replay_call(Simulation& simulation, cons
 /// Makes all calls up to the first difference.
 Status replay_all(Simulation& simulation, SimulationReader& reader, const ReplayJob& job, ReplayResult& result) {
   const std::size_t kilobytes = detail::kilobytes_of(job.recording);
+  if (job.progress) job.progress(0, kilobytes);
   std::optional<SimulationCall> last;
   while (!result.difference) {
     Result<std::optional<SimulationCall>> call = reader.next();

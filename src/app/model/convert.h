@@ -45,7 +45,7 @@ struct BoundaryOf {
 /// Converts mesh to mesh as it stands, mesh to surface (its boundary), or surface to surface.
 ///
 /// Ten-node tets keep their corners.
-/// @param before_writing  called once all has been read; empty: nothing is
+/// @param before_writing  called once all has been read; may be empty
 /// @param options  how a mesh is written; an extension there makes `out` a mesh, whatever its own.
 /// Errors: as the readers and writers; kBadArgument for an extension that cannot be written, or a surface where a mesh
 /// is asked for. Cost: O(n).

@@ -173,7 +173,7 @@ class GltfWriter {
   }
 
   [[nodiscard]] std::string packed() const {
-    std::string json = root_.dump();
+    std::string json = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string out;
     append_u32(out, kMagic);

@@ -131,7 +131,7 @@ Result<MeshCheck> check_mesh(io::MeshFile file, const std::filesystem::path& pat
 }
 
 std::string to_json(const MeshInfo& info) {
-  return json_of(info).dump(2) + "\n";
+  return json_of(info).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_json(const MeshCheck& check) {
@@ -139,7 +139,7 @@ std::string to_json(const MeshCheck& check) {
   root["quality"] = encode(check.quality);
   root["valid"] = check.ok;
   root["validity"] = encode(check.validity);
-  return root.dump(2) + "\n";
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_text(const MeshInfo& info) {

@@ -161,6 +161,7 @@ Result<JsonValue> parse_json(std::string_view text, std::string_view file_name, 
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     return bad_file(file_name, line, first_line == 1 ? "the file is empty" : "the line is empty");
   }
+  if (text.substr(0, 2) == "\x1f\x8b") return bad_file(file_name, line, "the file is gzipped; gunzip it first");
   TreeBuilder builder(line, limits);
   const LineCounter begin(text.data(), &line);
   const LineCounter end(text.data() + text.size(), &line);

@@ -15,6 +15,7 @@ namespace app {
 int open_part(const std::filesystem::path& path, std::filesystem::path& part) {
   constexpr mode_t kMode = 0666;
   constexpr unsigned kMostAtOnce = 1000;
+  if (io::is_protected(path)) return errno = EACCES, -1;
   io::remove_stale_parts(path);
   int file = -1;
   for (unsigned i = 0; i < kMostAtOnce; ++i) {

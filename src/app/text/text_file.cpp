@@ -57,6 +57,9 @@ Status check_readable(const fs::path& path) {
 
 Result<std::string> read_text_file(const fs::path& path, std::size_t max_bytes) {
   if (const Status status = check_readable(path); !status.ok()) return status.error();
+  const auto too_large = [&] { return bad_file(path, "is larger than " + std::to_string(max_bytes >> 20U) + " MiB"); };
+  std::error_code code;
+  if (fs::is_regular_file(path, code) && fs::file_size(path, code) > max_bytes && !code) return too_large();
   File file(std::fopen(path.string().c_str(), "rb"));
   if (!file) return bad_file(path, std::string("cannot be opened: ") + std::strerror(errno));
   std::string text;
@@ -64,7 +67,7 @@ Result<std::string> read_text_file(const fs::path& path, std::size_t max_bytes) 
   std::size_t got = 0;
   while ((got = std::fread(buffer, 1, sizeof buffer, file.get())) > 0) {
     text.append(buffer, got);
-    if (text.size() > max_bytes) return bad_file(path, "is larger than " + std::to_string(max_bytes >> 20U) + " MiB");
+    if (text.size() > max_bytes) return too_large();
   }
   if (std::ferror(file.get()) != 0) return bad_file(path, "cannot be read");
   return text;

@@ -22,7 +22,7 @@ const char* remedy_for(const std::error_code& why) {
     case EACCES:
     case EPERM:
     case EROFS:
-      return "; choose a folder that you may write to";
+      return "; choose a file and a folder that you may write to";
     case ENOENT:
       return "; choose a folder that is there and that files can be made in";
     case ENOTDIR:

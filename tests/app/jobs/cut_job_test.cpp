@@ -159,7 +159,7 @@ TEST(CutJob, report_has_every_key_of_the_contract) {
   }
   for (const char* at : {"/mesh/before", "/mesh/after"}) expect_keys(at, {"vertices", "tets", "components"});
   expect_keys("/cut", {"steps", "cut_tets", "created_tets", "new_vertices", "incision_faces", "snapped_vertices",
-                       "bent_vertices"});
+                       "bent_vertices", "blocked_edges"});
   expect_keys("/maintain", {"work_units", "collapsed_edges", "moved_vertices", "removed_edges", "removed_faces",
                             "peeled_tets", "inserted_vertices", "waiting_tets", "created_tets", "units_per_stroke"});
   expect_keys("/options", {"profile", "snap", "merge", "improve", "budget_us", "threads", "seed"});

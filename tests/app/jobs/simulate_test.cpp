@@ -258,6 +258,29 @@ TEST_F(Simulate, replaces_an_older_series_and_nothing_else) {
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"s.pvd", "s_frames"}));
 }
 
+TEST_F(Simulate, refuses_a_series_that_another_run_is_writing) {
+  io::MeshData mesh;
+  mesh.soup = kuhn_cube(1);
+  Result<app::FrameSeries> first = app::FrameSeries::begin(folder_ / "s.pvd");
+  ASSERT_TRUE(first.ok() && first->add(0, mesh).ok());
+  const Result<app::FrameSeries> second = app::FrameSeries::begin(folder_ / "s.pvd");
+  ASSERT_FALSE(second.ok());
+  EXPECT_NE(second.error().message.find("another run is writing this series"), std::string::npos);
+  ASSERT_TRUE(first->add(1, mesh).ok() && first->finish().ok());
+  EXPECT_TRUE(fs::exists(folder_ / "s_frames/frame_00000.vtu") && fs::exists(folder_ / "s_frames/frame_00001.vtu"));
+}
+
+TEST_F(Simulate, takes_over_what_a_killed_run_left_of_a_series) {
+  fs::create_directory(folder_ / "s_frames.incise-part");
+  folder_.write("s_frames.incise-part/frame_00007.vtu", "half");
+  io::MeshData mesh;
+  mesh.soup = kuhn_cube(1);
+  app::FrameSeries series = app::FrameSeries::begin(folder_ / "s.pvd").value();
+  ASSERT_TRUE(series.add(0, mesh).ok() && series.finish().ok());
+  EXPECT_FALSE(fs::exists(folder_ / "s_frames/frame_00007.vtu"));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"s.pvd", "s_frames"}));
+}
+
 TEST_F(Simulate, keeps_the_older_series_where_the_new_one_cannot_be_finished) {
   io::MeshData mesh;
   mesh.soup = kuhn_cube(1);

@@ -484,11 +484,12 @@ TEST(SceneInput, lifts_the_blade_between_strokes) {
 TEST(SceneInput, has_tools_and_hooks_while_they_are_there) {
   const app::Scene scene = parsed(full_scene());  // 0.02 s a frame
   const FrameInput before = scene_input(scene, 1);
-  EXPECT_EQ(before.tools.size(), 3U);  // a plane, a ball and a rod that stay
+  const std::size_t kinds = moving_tools().size() / 2;
+  EXPECT_EQ(before.tools.size(), 1 + kinds);  // a plane, and one of each kind that stays
   EXPECT_TRUE(before.hooks.empty());
   const FrameInput now = scene_input(scene, 6);  // ends at 0.14
-  ASSERT_EQ(now.tools.size(), 5U);
-  EXPECT_TRUE(std::get<BallTool>(now.tools[2]).centre.isApprox(Vec3(0, 0, 1.6), 1e-12));
+  ASSERT_EQ(now.tools.size(), 1 + 2 * kinds);
+  EXPECT_TRUE(std::get<BallTool>(now.tools[2]).centre.isApprox(Vec3(0, 0, 1.8), 1e-12));
   EXPECT_TRUE(std::get<RodTool>(now.tools[4]).to.isApprox(Vec3(1, 0, 1.8), 1e-12));
   ASSERT_EQ(now.hooks.size(), 1U);
   EXPECT_TRUE(now.hooks[0].position.isApprox(Vec3(1, 1.09, 1.135), 1e-12));
@@ -569,8 +570,25 @@ std::size_t count_objects(const Json& node) {
   return count;
 }
 
+using Places = std::vector<std::pair<std::string, std::string>>;
+
+/// Where the tools of `full_scene` that move are, and where the schema tells of each.
+Places places_of_moving_tools() {
+  Places places;
+  const Json tools = full_scene().at("tools");
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    const std::string kind = tools[i].items().begin().key();
+    if (!tools[i].at(kind).is_object()) continue;  // the plane
+    const bool has_path = tools[i].at(kind).contains("path");
+    const std::string scene = "/tools/" + std::to_string(i) + "/" + kind;
+    const std::string in_schema = "/properties/tools/items/properties/" + kind;
+    places.emplace_back(scene + (has_path ? "/path/0" : ""), in_schema + (has_path ? "/properties/path/items" : ""));
+  }
+  return places;
+}
+
 TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
-  const std::vector<std::pair<std::string, std::string>> places = {
+  Places places = {
       {"", ""},
       {"/model", "/properties/model"},
       {"/model/box", "/$defs/box"},
@@ -584,10 +602,6 @@ TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
       {"/attachments/1/box", "/properties/attachments/items/properties/box"},
       {"/attachments/2/ball", "/properties/attachments/items/properties/ball"},
       {"/tools/0", "/properties/tools/items"},
-      {"/tools/1/ball", "/properties/tools/items/properties/ball"},
-      {"/tools/2/ball/path/0", "/properties/tools/items/properties/ball/properties/path/items"},
-      {"/tools/3/rod", "/properties/tools/items/properties/rod"},
-      {"/tools/4/rod/path/0", "/properties/tools/items/properties/rod/properties/path/items"},
       {"/hooks/0", "/properties/hooks/items"},
       {"/hooks/0/path/0", "/properties/hooks/items/properties/path/items"},
       {"/sutures/0", "/properties/sutures/items"},
@@ -610,6 +624,8 @@ TEST(SceneSchema, knows_the_same_keys_as_the_reader) {
       {"/maintain", "/properties/maintain"},
       {"/contact", "/properties/contact"},
   };
+  const Places of_tools = places_of_moving_tools();
+  places.insert(places.end(), of_tools.begin(), of_tools.end());
   const Json root = schema();
   EXPECT_EQ(count_objects(root), places.size());
   for (const auto& [scene, in_schema] : places) {
@@ -734,6 +750,32 @@ std::string schema_of_tools(const std::string& text) {
   return root.dump(1) + "\n";
 }
 
+/// "`a`, `b` and `c`".
+std::string listed_keys(const std::vector<std::string>& keys) {
+  std::string text;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    text += (i == 0 ? "`" : (i + 1 < keys.size() ? ", `" : " and `")) + keys[i] + "`";
+  }
+  return text;
+}
+
+/// The page about scenes, with a row for each tool that it has none for; what a row tells beyond its keys stays.
+std::string page_of_tools(const std::string& text) {
+  std::string page = text;
+  for_each_tool_kind([&](const auto& shape) {
+    const std::string begin = std::string("| `tools[].") + shape.kName + "` |";
+    if (!shape.kMoves || page.find(begin) != std::string::npos) return;
+    ToolFieldNames fields;
+    shape.for_each_field(shape, fields);
+    std::vector<std::string> of_path = fields.points;
+    of_path.insert(of_path.begin(), "t");
+    const std::size_t last = page.find('\n', page.rfind("\n| `tools[].") + 1) + 1;
+    page.insert(last, begin + " " + listed_keys(fields.numbers) + ", and either " + listed_keys(fields.points) +
+                          ", or a `path` of " + listed_keys(of_path) + " | above 0 | |\n");
+  });
+  return page;
+}
+
 /// The types of the npm package with those tools of the window that are registered.
 std::string types_of_tools(const std::string& text) {
   std::string names;
@@ -752,8 +794,20 @@ void expect_made(const std::string& file, std::string (*make)(const std::string&
   }
 }
 
+TEST(SceneSchema, the_page_about_scenes_gets_a_row_for_a_tool_that_it_lacks) {
+  std::string without = page();
+  const std::size_t at = without.find("| `tools[].ball`");
+  without.erase(at, without.find('\n', at) + 1 - at);
+  const std::string again = page_of_tools(without);
+  EXPECT_NE(
+      again.find("| `tools[].ball` | `radius`, and either `centre`, or a `path` of `t` and `centre` | above 0 | |\n"),
+      std::string::npos);
+  EXPECT_EQ(again.size(), page().size());
+}
+
 TEST(SceneSchema, and_the_types_of_the_web_name_the_tools_that_are_registered) {
   expect_made(INCISE_DOCS "/scene.schema.json", schema_of_tools);
+  expect_made(INCISE_DOCS "/scenes.md", page_of_tools);
   expect_made(INCISE_DOCS "/../bindings/web/index.d.mts", types_of_tools);
 }
 
