@@ -380,7 +380,7 @@ TEST_F(Simulate, refuses_what_cannot_be_replayed) {
   expect("{\"call\":\"settle\"", "{\"nonsense\":1,\"call\":\"settle\"", "log.jsonl:2: the call has the unknown key");
   expect("\"call\":\"frame\"", "\"call\":\"undo\"", "log.jsonl:3:");
   expect("\"kind\":\"ball\"", "\"kind\":\"cat\"", "tools[1].kind must be one of ball, rod, plane, flat");
-  expect("\"radius\":0.2},{\"kind\":\"rod\"", "\"radius\":-0.2},{\"kind\":\"rod\"",
+  expect("\"radius\":0.1},{\"kind\":\"rod\"", "\"radius\":-0.1},{\"kind\":\"rod\"",
          "log.jsonl:3: the call \"frame\" cannot be made");
   expect("\"cells\":[3,2,2]", "\"cells\":[3,2,3]", "is not the model of the recording");
   expect("\"damping\":1.5", "\"damping\":-1.5", "log.jsonl:1: scene.damping is -1.5");
