@@ -211,7 +211,7 @@ Result<Tool> tool_of(const incise_tool& c) {
   if (!fields.has_room()) {
     return Error{
         ErrorCode::kUnsupported,
-        "incise_tool has no room for all that a tool of kind " + std::to_string(c.kind) + " is told by; use C++",
+        "the interface of C has no room for all that a tool of kind " + std::to_string(c.kind) + " is told by; use C++",
         {}};
   }
   if (made) return *std::move(made);
