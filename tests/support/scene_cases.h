@@ -2,6 +2,8 @@
 // Scenes for tests, as JSON.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -34,7 +36,9 @@ struct ToolFieldNames {
 
   void operator()(const char* name, const incise::Vec3& /*point*/) { points.emplace_back(name); }
   void operator()(const char* name, double /*number*/) { numbers.emplace_back(name); }
-  void operator()(const char* /*name*/, const std::vector<incise::Vec3>& /*points*/) {}  // a scene has no word for it
+  void operator()(const char* name, const std::vector<incise::Vec3>& /*points*/) {
+    ADD_FAILURE() << name << ": a scene has no word for a list of points that moves";
+  }
 };
 
 /// A tool of each kind that moves, first at a place, then along a path.

@@ -116,9 +116,9 @@ struct VertexImage {
   std::uint8_t shape;  ///< bits of `shape`
 };
 
-/// All slots that a step touched, as they stand on one side of it, with the free lists above their common part.
+/// What a step changed besides its records, on one side of it, with the free lists above their common part.
 struct StepImage {
-  std::vector<TetImage> tets;                           ///< after the step: touched slots but those of `kept`
+  std::vector<TetImage> tets;                           ///< after the step: touched slots but of `sides` alone
   std::vector<SideImage> sides;                         ///< of `kept` tets: those with another neighbour
   std::vector<VertexImage> vertices;                    ///< touched slots but those of `ties`
   std::vector<TiedVertex> ties;                         ///< touched slots of vertices that the step left in their place

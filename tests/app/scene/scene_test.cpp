@@ -686,44 +686,31 @@ int compare_defaults(const Json& object, const Json& found, const std::string& p
   return compared;
 }
 
+Json schema_of_object(const Json& properties, const Json& required) {
+  return {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}, {"required", required}};
+}
+
 /// A kind of tool as the schema tells it: at a place, or along a path; its points move, its numbers do not.
-class SchemaOfTool {
- public:
-  void operator()(const char* name, const Vec3& /*point*/) { points_.emplace_back(name); }
-  void operator()(const char* name, double /*number*/) { numbers_.emplace_back(name); }
-  void operator()(const char* name, const std::vector<Vec3>& /*points*/) {
-    ADD_FAILURE() << name << ": a scene has no word for a list of points that moves";
+Json schema_of_tool(const ToolFieldNames& fields) {
+  constexpr int kMaxPathKeys = 1048576;
+  Json properties, key = {{"t", {{"type", "number"}, {"description", "s, rising"}, {"minimum", 0}}}};
+  Json at_each_time = Json::array({"t"});
+  for (const std::string& name : fields.numbers) {
+    properties[name] = {{"type", "number"}, {"description", "length units"}, {"exclusiveMinimum", 0}};
   }
-
-  [[nodiscard]] Json made() const {
-    Json properties, key = {{"t", {{"type", "number"}, {"description", "s, rising"}, {"minimum", 0}}}};
-    Json at_each_time = Json::array({"t"});
-    for (const std::string& name : numbers_) {
-      properties[name] = {{"type", "number"}, {"description", "length units"}, {"exclusiveMinimum", 0}};
-    }
-    for (const std::string& name : points_) {
-      properties[name] = key[name] = {{"$ref", "#/$defs/vec3"}};
-      at_each_time.push_back(name);
-    }
-    properties["path"] = {{"type", "array"},
-                          {"items", object_of(key, at_each_time)},
-                          {"minItems", 2},
-                          {"description", "where it is at each time"},
-                          {"maxItems", kMaxPathKeys}};
-    Json tool = object_of(properties, numbers_);
-    tool["oneOf"] = {{{"required", points_}}, {{"required", {"path"}}}};
-    return tool;
+  for (const std::string& name : fields.points) {
+    properties[name] = key[name] = {{"$ref", "#/$defs/vec3"}};
+    at_each_time.push_back(name);
   }
-
- private:
-  static constexpr int kMaxPathKeys = 1048576;
-
-  static Json object_of(const Json& properties, const Json& required) {
-    return {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}, {"required", required}};
-  }
-
-  std::vector<std::string> points_, numbers_;
-};
+  properties["path"] = {{"type", "array"},
+                        {"items", schema_of_object(key, at_each_time)},
+                        {"minItems", 2},
+                        {"description", "where it is at each time"},
+                        {"maxItems", kMaxPathKeys}};
+  Json tool = schema_of_object(properties, fields.numbers);
+  tool["oneOf"] = {{{"required", fields.points}}, {{"required", {"path"}}}};
+  return tool;
+}
 
 /// The schema with those tools that are registered; the rest as it stands.
 std::string schema_of_tools(const std::string& text) {
@@ -740,9 +727,9 @@ std::string schema_of_tools(const std::string& text) {
   Json one_of = Json::array({{{"required", {"plane"}}}});
   for_each_tool_kind([&](const auto& shape) {
     if (!shape.kMoves) return;
-    SchemaOfTool schema_of_tool;
-    shape.for_each_field(shape, schema_of_tool);
-    kinds[shape.kName] = schema_of_tool.made();
+    ToolFieldNames fields;
+    shape.for_each_field(shape, fields);
+    kinds[shape.kName] = schema_of_tool(fields);
     one_of.push_back({{"required", {shape.kName}}});
   });
   pressing["properties"] = kinds;
