@@ -27,9 +27,9 @@ export class SessionWorker extends EventTarget {
     return this.#waiting.size;
   }
 
-  #break(message) {
+  #break(message, code = 'Internal') {
     this.end();
-    this.#tell('broken', { error: { message, code: 'Internal' } });
+    this.#tell('broken', { error: { message, code } });
   }
 
   #tell(type, data) {
@@ -38,7 +38,7 @@ export class SessionWorker extends EventTarget {
 
   #hear(data) {
     if (data.type === 'alive') this.#endWatch = watchLife(data.lock, () => this.#break('the worker is gone'));
-    else if (data.type === 'broken') this.#break(data.error.message);
+    else if (data.type === 'broken') this.#break(data.error.message, data.error.code);
     else if (data.type !== 'answer') return this.#tell(data.type, data);
     if (data.type !== 'answer' || !this.#waiting.has(data.id)) return;
     const { resolve, reject } = this.#waiting.get(data.id);

@@ -47,24 +47,23 @@ bool CloseMerger::improve(Care& care, TetId tet) {
 
 bool CloseMerger::try_merge(Care& care, VertexId from, VertexId into) {
   const Vec3 p = care.mesh.rest(from), q = care.mesh.rest(into);
-  if (!are_close(care, from, into, kShort)) return false;
+  if (!may_merge(care, from, into) || (p - q).norm() > kShort * edge_) return false;
   return try_place(care, q) || try_place(care, p) || try_place(care, 0.5 * (p + q));
 }
 
 std::optional<double> CloseMerger::merge_loosely(Care& care, VertexId from, VertexId into) {
   const Vec3 p = care.mesh.rest(from), q = care.mesh.rest(into);
-  if (!are_close(care, from, into, kLooselyShort)) return std::nullopt;
+  if (!may_merge(care, from, into)) return std::nullopt;
   bend_ = kBentWall;
   const bool is_merged = try_loosely(care, q) || try_loosely(care, p);
   bend_ = 0;
   return is_merged ? std::optional(lost6_) : std::nullopt;
 }
 
-/// Plans the merge of two vertices; false where it may not be, or they are further apart than a share of the mean edge.
-bool CloseMerger::are_close(Care& care, VertexId from, VertexId into, double share) {
+/// Plans the merge of two vertices; false where it may not be.
+bool CloseMerger::may_merge(Care& care, VertexId from, VertexId into) {
   planner_.plan(care.mesh, from, into, plan_, Flaps::kTakenAway);
-  return plan_ && begin(care) && (care.mesh.rest(from) - care.mesh.rest(into)).norm() <= share * edge_ &&
-         are_flaps_thin(care);
+  return plan_ && begin(care) && are_flaps_thin(care);
 }
 
 /// As `try_place`, but for shapes and for the volume, which it only counts.

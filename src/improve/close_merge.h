@@ -30,10 +30,10 @@ class CloseMerger {
   bool improve(Care& care, TetId tet);
 
   /// Merges a vertex into a neighbour, at the place of either, whatever that does to the shape of tets and to the
-  /// volume: a step of a trial (`Trial`). Edges are short up to `kLooselyShort` here, and besides what `improve` allows
-  /// walls and fronts may leave their place, and skin its rim at a wall, by `kBentWall` of the edges that the body came
-  /// with, as far as snapping bends them. No tet is inverted, at rest or now. Returns six times the volume that the
-  /// body lost, none where nothing was done. Cost: as `improve`.
+  /// volume: a step of a trial (`Trial`). The edge may have any length here, and besides what `improve` allows walls
+  /// and fronts may leave their place, and skin its rim at a wall, by `kBentWall` of the edges that the body came with,
+  /// as far as snapping bends them. No tet is inverted, at rest or now. Returns six times the volume that the body
+  /// lost, none where nothing was done. Cost: as `improve`.
   std::optional<double> merge_loosely(Care& care, VertexId from, VertexId into);
 
  private:
@@ -49,7 +49,7 @@ class CloseMerger {
   void collect_sides(const Care& care);
   bool try_place(Care& care, Vec3 place);
   bool try_loosely(Care& care, const Vec3& place);
-  bool are_close(Care& care, VertexId from, VertexId into, double share);
+  bool may_merge(Care& care, VertexId from, VertexId into);
   double put(const Vec3& place);
   [[nodiscard]] double bend_at(const Care& care, const Vec3& place) const;
   [[nodiscard]] bool are_flaps_thin(const Care& care) const;

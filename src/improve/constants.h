@@ -110,8 +110,8 @@ inline constexpr std::size_t kNeighboursTried = 8;
 inline constexpr double kLengthCap = 1.5;
 /// What a lip may lose to the other at a front: six times the volume, as a share of the longest edge cubed. Rounding.
 inline constexpr double kFrontVolume = 1e-12;
-/// Edges of at most this share of the mean edge around them are short; in trials up to the second one.
-inline constexpr double kShort = 0.15, kLooselyShort = 0.3;
+/// Edges of at most this share of the mean edge around them are short.
+inline constexpr double kShort = 0.15;
 /// A facet whose height is below this share of the mean edge may turn as it likes: it has no direction to speak of.
 inline constexpr double kLeastHeight = 0.05;
 /// A loss of volume below this share of the mean edge cubed is rounding.

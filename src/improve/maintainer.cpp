@@ -25,6 +25,7 @@ void Maintainer::take_up(const TetMesh& mesh, const Journal& journal, std::size_
                          const IsLocked& is_locked) {
   if (!has_work() && taken_.empty()) {  // a stroke begins
     ++epoch_;
+    began_ = time_;
     hopeless_.clear();  // none of them is in care any more
   }
   trial_work_ = other_work_ = 0;
@@ -257,9 +258,9 @@ void Maintainer::push_stars(const TetMesh& mesh, const std::vector<VertexId>& ce
   for (const TetId tet : pushed) is_pushed_[tet.value] = 0;
 }
 
-void Maintainer::push(const TetMesh& mesh, TetId tet) {
+void Maintainer::push(const TetMesh& mesh, TetId tet, unsigned least_near) {
   const TetVertices& v = mesh.vertices(tet);
-  const unsigned near = std::max({nearness(v[0]), nearness(v[1]), nearness(v[2]), nearness(v[3])});
+  const unsigned near = std::max({least_near, nearness(v[0]), nearness(v[1]), nearness(v[2]), nearness(v[3])});
   const double ratio = inradius_ratio(mesh, v), goal = near == 2 ? kGoal : (near == 1 ? kBadQuality : 0.0);
   if (ratio < goal && !mesh.is_flat_at_load(tet)) {
     heap_.push_back({ratio, tet});
@@ -344,10 +345,13 @@ Hopeless* Maintainer::find_trial(const TetMesh& mesh) {
   return next;
 }
 
-/// Whether cuts made a tet: it has a vertex that the input did not have.
-bool Maintainer::is_of_cut(const TetMesh& mesh, TetId tet) {
+/// Whether cuts made a tet, or may have: it has a vertex that the input did not have, or that the stroke moved, or
+/// maintenance has changed something at each of its vertices.
+bool Maintainer::is_of_cut(const TetMesh& mesh, TetId tet) const {
   const TetVertices& v = mesh.vertices(tet);
-  return std::any_of(v.begin(), v.end(), [&](VertexId id) { return !mesh.origin(id).is_valid(); });
+  return std::any_of(v.begin(), v.end(),
+                     [&](VertexId id) { return !mesh.origin(id).is_valid() || nearness(id) == 2; }) ||
+         std::all_of(v.begin(), v.end(), [&](VertexId id) { return changed_at(id) > began_; });
 }
 
 /// How many trials in turn led to a tet.
@@ -402,7 +406,7 @@ void Maintainer::take_born(VertexId vertex) {
   in_care_[vertex.value] = epoch_ * 4 + 2;
 }
 
-/// What the last operation changed is judged anew, as far as it is in care.
+/// What the last operation changed is judged anew: it may lie beyond what is in care.
 void Maintainer::requeue(Care& care) {
   if (care.born.is_valid()) {
     take_born(care.born);
@@ -411,7 +415,7 @@ void Maintainer::requeue(Care& care) {
   ++time_;
   changed_at_.ensure(care.mesh.vertex_slots());
   for (const TetId tet : changed_) {
-    push(care.mesh, tet);
+    push(care.mesh, tet, 1);
     for (const VertexId v : care.mesh.vertices(tet)) changed_at_[v.value] = time_;
   }
 }

@@ -88,7 +88,7 @@ class Maintainer {
   void look_for_seam(const TetMesh& mesh, std::vector<VertexId>& ring);
   bool add_older_seam(const TetMesh& mesh, std::uint32_t tag, std::vector<VertexId>& ring);
   void push_stars(const TetMesh& mesh, const std::vector<VertexId>& centres);
-  void push(const TetMesh& mesh, TetId tet);
+  void push(const TetMesh& mesh, TetId tet, unsigned least_near = 0);
   Waiting pop();
 
   [[nodiscard]] bool has_budget() const;
@@ -97,7 +97,7 @@ class Maintainer {
   bool improve_worst(Care& care, StageTimes& times);
   bool thin_out_next(Care& care, StageTimes& times);
   Hopeless* find_trial(const TetMesh& mesh);
-  static bool is_of_cut(const TetMesh& mesh, TetId tet);
+  [[nodiscard]] bool is_of_cut(const TetMesh& mesh, TetId tet) const;
   [[nodiscard]] unsigned splits_at(const TetMesh& mesh, TetId tet) const;
   bool try_next(TetMesh& mesh, Journal& journal, StageTimes& times);
   bool try_on(Care& care, TetId tet, unsigned trial);
@@ -112,7 +112,7 @@ class Maintainer {
   std::vector<TetId> changed_;
   std::vector<Hopeless> hopeless_;
   std::uint64_t trial_work_ = 0, other_work_ = 0;  // units spent since all was done last
-  std::uint64_t time_ = 0;                         // changes so far
+  std::uint64_t time_ = 0, began_ = 0;             // changes so far, and when the stroke began
   ZeroedArray<std::uint64_t> changed_at_;          // the time of the last change at a vertex, by its slot
   Crowd crowd_;
   std::vector<VertexId> touched_;   // by steps of the journal; not taken into care yet, since tets there are locked

@@ -2,7 +2,10 @@
 // Maintenance after cuts: monotone step by step, whole at any time, the same however it is portioned.
 #include "improve/maintainer.h"
 
+#include <filesystem>
+
 #include "improve/maintainer_cases.h"
+#include "incise/io/mesh_file.h"
 
 namespace incise::test::maintainer_test {
 namespace {
@@ -316,6 +319,23 @@ TEST(Maintenance, looks_again_at_what_is_touched_again) {
     maintainer.run(mesh, journal, kUnlimitedWork, times, {}, is_locked);
   }
   EXPECT_GT(worst_ratio(mesh, tets_of(mesh)), kRegularLr / 18.0);
+}
+
+/// A vertex beside the cut is merged into one further off: a tet is drawn out that has no corner in care.
+TEST(Maintenance, mends_what_it_made_beyond_what_it_took_up) {
+  const std::filesystem::path path = std::filesystem::path(INCISE_SOURCE_DIR) / "models/bunny.mesh";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no models/bunny.mesh (script/models makes it)";
+  Result<io::MeshFile> file = io::read_mesh(path);
+  ASSERT_TRUE(file.ok());
+  normalise(file->data.soup);
+  Engine engine = maintaining_engine(std::move(file->data.soup), 0.2);
+  const double before = measure_quality(engine.mesh()).lr_max;
+  const std::vector<Vec3> row = {Vec3(-17.912, -9.426, -1.14), Vec3(4.797, 0.198, -0.092)};
+  const Vec3 way(-3.465, 7.529, 5.943);
+  ASSERT_TRUE(engine.begin_stroke({row}).ok());
+  for (int i = 1; i <= 10; ++i) ASSERT_TRUE(engine.step({{row[0] + 0.1 * i * way, row[1] + 0.1 * i * way}}).ok());
+  ASSERT_TRUE(engine.end_stroke().ok());
+  EXPECT_LE(measure_quality(engine.mesh()).lr_max, 1.001 * before);
 }
 
 TEST(Maintenance, leaves_what_lies_further_from_the_cut_alone) {

@@ -22,6 +22,7 @@ const TOOLS = [
   { name: 'Retractor', label: 'Retractor', hint: 'Drag a lip aside: the retractor stays and holds it. A click on it lets go.' },
   { name: 'Pin', label: 'Pin', hint: 'Click on tissue to hold it there; click the pin to let go.' },
 ];
+const LARGE_BYTES = 4_000_000; // of a file whose mesh takes a while
 const REST_MS = 20; // between two pictures of a processor, which has frames to compute as well
 
 /** For tests and the curious: what the page measured of itself. */
@@ -125,7 +126,7 @@ async function open(gathered) {
 }
 
 async function show({ what, id, ownName, note = '' }, isLast) {
-  say('Opening…');
+  say(what.bytes.length < LARGE_BYTES ? 'Opening…' : `Opening ${what.name}, ${Math.round(what.bytes.length / 1e6)} MB: it may take a minute.`);
   measured.state = 'opening';
   const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
   const info = await keeper.open({ ...what, isStill });
@@ -435,8 +436,11 @@ function startEngine() {
   hear('resumed', ({ detail }) => onResumed(detail).catch(failed));
   hear('lost', ({ detail }) => {
     isReady = false;
-    const remedy = navigator.onLine ? 'It was started again, and stopped again. A smaller mesh may help.' : 'There is no connection to fetch it anew: start again when there is one.';
-    cover(`The engine stopped: ${detail.error.message}`, remedy, ...savers(), button('Start again', () => location.reload()));
+    const again = button('Start again', () => location.reload());
+    const noConnection = 'There is no connection to fetch it: start again when there is one.';
+    if (detail.error.code === 'BadFile') return cover('The engine could not be fetched.', navigator.onLine ? `The server did not send it: ${detail.error.message.replace('; see locateFile', '')}.` : noConnection, ...savers(), again);
+    const remedy = navigator.onLine ? 'It was started again, and stopped again. A smaller mesh may help.' : noConnection;
+    cover(`The engine stopped: ${detail.error.message}`, remedy, ...savers(), again);
   });
   keeper.start();
 }

@@ -162,6 +162,7 @@ Result<SimulationWriter> RecordedSimulation::write_past(const std::filesystem::p
     if (i + 1 == past_->calls.size()) call.hash = simulation_.hash();
     if (Status status = writer.write(call); !status.ok()) return status.error();
   }
+  if (Status status = writer.write_header(); !status.ok()) return status.error();
   return writer;
 }
 

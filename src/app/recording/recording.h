@@ -35,6 +35,8 @@ class BasicRecordingWriter {
   /// Appends one call as one line, in one write. Errors: kIo, naming the file; all later calls then fail likewise,
   /// since a line may be missing. Cost: O(line).
   Status write(const typename Codec::Call& call) { return file_->append(std::exchange(header_, {}) + to_line(call)); }
+  /// Makes a recording of no calls, where none was written. Errors: as `write`. Cost: O(header).
+  Status write_header() { return header_.empty() ? Status() : file_->append(std::exchange(header_, {})); }
 
  private:
   std::unique_ptr<AppendFile> file_;

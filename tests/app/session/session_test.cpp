@@ -540,6 +540,15 @@ TEST_F(SessionFiles, a_copy_of_the_recording_may_be_saved_at_any_time) {
   EXPECT_FALSE(session.save_recording(folder_ / "absent/copy.jsonl").ok());
 }
 
+TEST_F(SessionFiles, a_copy_saved_before_anything_was_done_is_a_recording_of_nothing) {
+  Json scene = still_scene();
+  scene.erase("settle");
+  const Session session = opened(scene);
+  ASSERT_TRUE(session.save_recording(folder_ / "copy.jsonl").ok());
+  EXPECT_EQ(verified(folder_ / "copy.jsonl").calls, 0U);
+  EXPECT_TRUE(Session::open(folder_ / "copy.jsonl").ok());
+}
+
 TEST_F(SessionFiles, a_recording_in_a_folder_that_is_not_there_is_an_error_and_the_session_goes_on) {
   Session session = opened(still_scene());
   play(session, 2);
