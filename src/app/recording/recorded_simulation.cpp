@@ -150,8 +150,8 @@ Status RecordedSimulation::start_recording(const std::filesystem::path& path) {
 }
 
 Status RecordedSimulation::save_recording(const std::filesystem::path& path) const {
-  const Result<SimulationWriter> written = write_past(path);
-  return written.ok() ? Status() : Status(written.error());
+  Result<SimulationWriter> written = write_past(path);
+  return written.ok() ? written->write_header() : Status(written.error());
 }
 
 Result<SimulationWriter> RecordedSimulation::write_past(const std::filesystem::path& path) const {
@@ -162,7 +162,6 @@ Result<SimulationWriter> RecordedSimulation::write_past(const std::filesystem::p
     if (i + 1 == past_->calls.size()) call.hash = simulation_.hash();
     if (Status status = writer.write(call); !status.ok()) return status.error();
   }
-  if (Status status = writer.write_header(); !status.ok()) return status.error();
   return writer;
 }
 
