@@ -35,6 +35,14 @@ describe('figures of the page', { skip }, () => {
     await protocol.detach();
     return result.value === undefined ? undefined : JSON.parse(result.value);
   }
+  /** Bytes of the page's own heap, without garbage: `performance.memory` is rounded, and old. */
+  async function heapOfPage() {
+    const protocol = await visit.page.context().newCDPSession(visit.page);
+    await protocol.send('HeapProfiler.collectGarbage');
+    const { usedSize } = await protocol.send('Runtime.getHeapUsage');
+    await protocol.detach();
+    return usedSize;
+  }
   const now = () => told('{ ...window.incise, engine: undefined, at: performance.now() }');
   async function isReady() {
     for (let i = 0; (await told('window.incise?.state')) !== 'ready'; ++i) {
@@ -139,7 +147,7 @@ describe('figures of the page', { skip }, () => {
       await until(() => window.incise.figures.strokes === 0);
     };
     const bytes = async () => {
-      const page = await visit.page.evaluate(() => (globalThis.gc?.(), performance.memory.usedJSHeapSize));
+      const page = await heapOfPage();
       const { used, taken } = await ask('memory'), recording = await visit.page.evaluate(async () => (await window.incise.engine.ask('recording')).length);
       return { page, used, taken, recording };
     };

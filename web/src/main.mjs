@@ -126,7 +126,7 @@ async function open(gathered) {
 }
 
 async function show({ what, id, ownName, note = '' }, isLast) {
-  say(what.bytes.length < LARGE_BYTES ? 'Opening…' : `Opening ${what.name}, ${Math.round(what.bytes.length / 1e6)} MB: it may take a minute.`);
+  say(what.bytes.byteLength < LARGE_BYTES ? 'Opening…' : `Opening ${what.name}, ${Math.round(what.bytes.byteLength / 1e6)} MB: it may take a minute.`);
   measured.state = 'opening';
   const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
   const info = await keeper.open({ ...what, isStill });
