@@ -28,6 +28,7 @@ export class SessionWorker extends EventTarget {
   }
 
   #break(message, code = 'Internal') {
+    if (this.#isEnded) return; // its lock may have come free before the watch of it ended
     this.end();
     this.#tell('broken', { error: { message, code } });
   }

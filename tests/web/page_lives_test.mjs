@@ -145,6 +145,18 @@ describe('the page lives on', { skip }, () => {
     visit.complaints = visit.complaints.filter((text) => !/Context (Lost|Restored)|CONTEXT_LOST/i.test(text));
   });
 
+  test('an engine that the server does not send is no engine that stopped', async () => {
+    await openPage();
+    await visit.page.route('**/*.wasm', (route) => route.fulfill({ status: 503 }));
+    await visit.page.reload();
+    await visit.page.locator('#cover').getByText(/could not be fetched/).waitFor();
+    assert.match(await visit.page.locator('#cover').textContent(), /server did not send it: .*\.wasm: the server answers 503\./);
+    visit.complaints = visit.complaints.filter((text) => !/503/.test(text));
+    await visit.page.unroute('**/*.wasm');
+    await visit.page.click('#cover button >> text=Start again');
+    await isReady();
+  });
+
   test('without WebAssembly there is a message and no blank page', async () => {
     await openPage({ waits: false, script: 'delete globalThis.WebAssembly' });
     assert.match(await visit.page.locator('#cover').textContent(), /no WebAssembly/);
