@@ -72,7 +72,7 @@ export type Message =
 /**
  * Starts the worker. Events, each with its data as `detail`: `loaded` {version, look}; `warm`, when a session is opened without waiting (what is asked before is answered then);
  * `frame` (a `Frame`); `replayed` {verdict, hash}, at a recording's end; `kept` {recording, isAtRest}, from which `open` with `resumes` goes on
- * in another worker; `failed` {error}, after which the session goes on; `broken` {error}: the worker is gone, and whatever waits for an
+ * in another worker; `failed` {error}, after which the session goes on; `broken` {error}, once, with the code `BadFile` where the module could not be fetched: the worker is gone, and whatever waits for an
  * answer is rejected. Where the page is served securely that is told at once, however the worker ended.
  */
 export declare class SessionWorker extends EventTarget {
